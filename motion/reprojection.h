@@ -66,7 +66,7 @@ inline glm::dvec3 triangle_point(const Mesh& mesh, const PosedMesh& posed, const
 inline glm::dvec3 surface_point(const Mesh& mesh, const PosedMesh& posed, const Hit& hit) {
     if (posed.control.empty()) return triangle_point(mesh, posed, hit);
     const glm::dvec2 uv = clamp_barycentrics(hit);
-    return mesh.limit.surface->evaluate(mesh.cage_part, posed.control, hit.primitive, uv.x, uv.y);
+    return mesh.subdivision.limit.surface->evaluate(mesh.subdivision.part, posed.control, hit.primitive, uv.x, uv.y);
 }
 
 /// Nearest depth along the viewing axis that counts as in front of the camera, m.

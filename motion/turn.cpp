@@ -108,10 +108,10 @@ double turn_of_operations(const OperationStack& stack, double begin, double end)
 }
 
 double turn_of_node(const Node& node, double begin, double end) {
-    if (node.operations) return turn_of_operations(*node.operations, begin, end);
-    if (node.matrix) return turn_along(*node.matrix, begin, end);
-    if (node.axis_rotation) return turn_along(node.axis_rotation->angle, begin, end);
-    return turn_along(node.rotation, begin, end);
+    if (node.transform.operations) return turn_of_operations(*node.transform.operations, begin, end);
+    if (node.transform.matrix) return turn_along(*node.transform.matrix, begin, end);
+    if (node.transform.axis_rotation) return turn_along(node.transform.axis_rotation->angle, begin, end);
+    return turn_along(node.transform.rotation, begin, end);
 }
 
 /// Returns whether the parent's transform does not apply.
@@ -134,7 +134,8 @@ TurnFinder::TurnFinder(const Scene& scene, const PosePlan& plan)
       carries_camera_(scene.nodes.size(), 0) {
     for (int node = 0; node < std::ssize(scene.nodes); ++node) {
         const std::vector<int>& meshes = scene.nodes[node].meshes;
-        const bool skinned = std::ranges::any_of(meshes, [&](int mesh) { return scene.meshes[mesh].skin != no_index; });
+        const bool skinned =
+            std::ranges::any_of(meshes, [&](int mesh) { return scene.meshes[mesh].deformation.skin != no_index; });
         if (skinned) skinned_.push_back(node);
         if (skinned || (!meshes.empty() && plan.moving[node] != 0)) with_mesh_.push_back(node);
     }
@@ -161,7 +162,7 @@ void TurnFinder::find(int camera_node, double begin, double end) {
     for (const int node : skinned_) {
         joints_[node] = 0.0;
         for (const int mesh : scene_.nodes[node].meshes) {
-            const int skin = scene_.meshes[mesh].skin;
+            const int skin = scene_.meshes[mesh].deformation.skin;
             if (skin == no_index) continue;
             for (const int joint : scene_.skins[skin].joints)
                 joints_[node] = std::max(joints_[node], turn_against_camera(joint));

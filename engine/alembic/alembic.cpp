@@ -107,7 +107,7 @@ FileTiming append_alembic(const std::filesystem::path& path, Scene& scene, int p
     const std::string file = path.string();
     const AlembicArchive archive(read_regular_file(path, file, ""), file);
     AlembicReader reader(archive);
-    reader.part.file = file;
+    reader.part.source.file = file;
     try {
         read_objects(reader);
     } catch (const std::bad_alloc&) {
@@ -119,7 +119,7 @@ FileTiming append_alembic(const std::filesystem::path& path, Scene& scene, int p
         timing.first = reader.first;
         timing.last = reader.last;
     }
-    for (std::string& warning : reader.list_warnings()) reader.part.warnings.push_back(std::move(warning));
+    for (std::string& warning : reader.list_warnings()) reader.part.source.warnings.push_back(std::move(warning));
     append_part(scene, std::move(reader.part), parent_node, include_index);
     return timing;
 }

@@ -14,7 +14,7 @@ namespace aleph {
 /// become counter-clockwise (archives have them clockwise), unless the archive's normals show that they are already; v
 /// grows downwards. A surface whose topology changes becomes one mesh for each topology. Cameras show the film's frame
 /// without overscan; f-stop and shutter are ignored. Points, curves, patches and lights are not read; a warning in
-/// Scene::warnings names them.
+/// SceneSource::warnings names them.
 /// @return the frame rate of its uniform samples, or as its metadata says (common rates exactly), and its samples'
 /// times
 /// @throws InputError with file, place and reason; the scene does not change then

@@ -88,7 +88,7 @@ void collect_material(AlembicReader& reader, int object, Found& found) {
 }
 
 Material make_neutral(const std::string& name) {
-    return {.name = name, .base_color = glm::dvec3(neutral_gray), .metallic = 0.0};
+    return {.name = name, .base_color = glm::dvec3(neutral_gray), .gloss = {.metallic = 0.0}};
 }
 
 void set_parameters(const Found& found, Material& material) {
@@ -103,19 +103,19 @@ void set_parameters(const Found& found, Material& material) {
                 material.base_color = glm::min(color(values), glm::dvec3(1.0));
                 break;
             case Meaning::roughness:
-                material.roughness = share(values);
+                material.gloss.roughness = share(values);
                 break;
             case Meaning::metallic:
-                material.metallic = share(values);
+                material.gloss.metallic = share(values);
                 break;
             case Meaning::emission:
-                material.emission = color(values);
+                material.glow.color = color(values);
                 break;
             case Meaning::ior:
-                if (values[0] >= 1.0) material.ior = values[0];
+                if (values[0] >= 1.0) material.gloss.ior = values[0];
                 break;
             case Meaning::specular:
-                material.specular = share(values);
+                material.gloss.specular = share(values);
                 break;
         }
     }

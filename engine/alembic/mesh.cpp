@@ -158,7 +158,7 @@ class SurfaceCutter {
     Mesh cut(const std::vector<std::size_t>& faces) {
         Mesh mesh;
         mesh.name = reader_.archive.objects()[object_].name;
-        mesh.points = surface_.run.points;
+        mesh.deformation.points = surface_.run.points;
         mesh.present = surface_.run.present;
         add_vertices(find_vertices(faces), mesh);
         for (const std::size_t face : faces) add_triangles(face, mesh);
@@ -188,7 +188,7 @@ class SurfaceCutter {
 
     void add_vertices(const std::vector<CornerKey>& vertices, Mesh& mesh) {
         for (const CornerKey& key : vertices) {
-            mesh.vertex_points.push_back(key.value[0]);
+            mesh.deformation.vertex_points.push_back(key.value[0]);
             mesh.positions.push_back(surface_.points[key.value[0]]);
             if (!surface_.uv) continue;
             const float* uv = surface_.uv->at(scope_item(surface_.uv_scope, surface_.run, key.face, key.corner));
@@ -199,9 +199,9 @@ class SurfaceCutter {
         mesh.normals = vertex_normals(surface_, normals.samples.front(), vertices);
         if (normals.samples.size() == 1) return;
         reader_.archive.budget().charge(normals.samples.size() * vertices.size(), sizeof(glm::vec3));
-        mesh.normal_sampling = normals.sampling;
+        mesh.deformation.normal_sampling = normals.sampling;
         for (const ParameterSample& sample : normals.samples)
-            mesh.normal_samples.push_back(vertex_normals(surface_, sample, vertices));
+            mesh.deformation.normal_samples.push_back(vertex_normals(surface_, sample, vertices));
     }
 
     void add_triangles(std::size_t face, Mesh& mesh) {

@@ -87,7 +87,7 @@ class TreeReader {
         } else if (!schema.empty()) {
             reader_.warn(object, fmt::format("objects of the kind {} are not read", printable(schema)));
         }
-        const std::size_t channels = node.operations ? node.operations->channels.size() : 0;
+        const std::size_t channels = node.transform.operations ? node.transform.operations->channels.size() : 0;
         reader_.archive.budget().charge(1, sizeof(Node) + node.name.size() + sizeof(double) * channels);
         reader_.part.nodes.push_back(std::move(node));
         return static_cast<int>(reader_.part.nodes.size()) - 1;

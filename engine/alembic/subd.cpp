@@ -91,7 +91,7 @@ void add_uv(AlembicReader& reader, int object, const AlembicCompound& geom, cons
             const auto [found, is_new] =
                 known.try_emplace({run.face_points[corner], uv[0], uv[1]}, static_cast<int>(cage.uv.size()));
             if (is_new) cage.uv.emplace_back(uv[0], 1.0f - uv[1]);
-            cage.face_uv.push_back(found->second);
+            cage.faces.uv.push_back(found->second);
         }
     }
 }
@@ -105,20 +105,20 @@ void add_faces(AlembicReader& reader, int object, const SurfaceRun& run, const S
             reader.warn(object, "faces of fewer than 3 points are left out");
             continue;
         }
-        new_number[f] = static_cast<int>(cage.face_sizes.size());
-        cage.face_sizes.push_back(run.face_counts[f]);
-        if (parts.materials.size() > 1) cage.face_parts.push_back(parts.face_parts[f]);
-        for (int i = 0; i < run.face_counts[f]; ++i) cage.face_points.push_back(run.face_points[turned(run, f, i)]);
+        new_number[f] = static_cast<int>(cage.faces.sizes.size());
+        cage.faces.sizes.push_back(run.face_counts[f]);
+        if (parts.materials.size() > 1) cage.faces.parts.push_back(parts.face_parts[f]);
+        for (int i = 0; i < run.face_counts[f]; ++i) cage.faces.points.push_back(run.face_points[turned(run, f, i)]);
     }
     for (const int hole : holes) {
         if (hole < 0 || hole >= std::ssize(new_number)) {
             reader.warn(object, "holes are named for faces that the surface does not have");
         } else if (const int number = new_number[hole]; number >= 0) {
-            cage.holes.push_back(number);
+            cage.faces.holes.push_back(number);
         }
     }
-    std::ranges::sort(cage.holes);
-    cage.holes.erase(std::unique(cage.holes.begin(), cage.holes.end()), cage.holes.end());
+    std::ranges::sort(cage.faces.holes);
+    cage.faces.holes.erase(std::unique(cage.faces.holes.begin(), cage.faces.holes.end()), cage.faces.holes.end());
 }
 
 void warn_of_changes(AlembicReader& reader, int object, const AlembicCompound& geom) {
@@ -169,14 +169,14 @@ std::vector<int> read_subdivision(AlembicReader& reader, int object, const Alemb
         cage.scheme = read_scheme(reader, object, geom);
         cage.boundary = read_boundary(reader, object, geom, run.begin);
         cage.uv_rule = read_uv_rule(reader, geom, run.begin);
-        cage.crease_points = read_optional<int>(reader, geom, ".creaseIndices", run.begin);
-        cage.crease_lengths = read_optional<int>(reader, geom, ".creaseLengths", run.begin);
-        cage.crease_sharpness = read_optional<float>(reader, geom, ".creaseSharpnesses", run.begin);
-        cage.corner_points = read_optional<int>(reader, geom, ".cornerIndices", run.begin);
-        cage.corner_sharpness = read_optional<float>(reader, geom, ".cornerSharpnesses", run.begin);
+        cage.creases.points = read_optional<int>(reader, geom, ".creaseIndices", run.begin);
+        cage.creases.lengths = read_optional<int>(reader, geom, ".creaseLengths", run.begin);
+        cage.creases.sharpness = read_optional<float>(reader, geom, ".creaseSharpnesses", run.begin);
+        cage.corners.points = read_optional<int>(reader, geom, ".cornerIndices", run.begin);
+        cage.corners.sharpness = read_optional<float>(reader, geom, ".cornerSharpnesses", run.begin);
         add_faces(reader, object, run, parts, read_optional<int>(reader, geom, ".holes", run.begin), cage);
-        if (cage.face_sizes.empty()) continue;
-        if (cage.face_sizes.size() > many_faces) cage.level = 1;
+        if (cage.faces.sizes.empty()) continue;
+        if (cage.faces.sizes.size() > many_faces) cage.level = 1;
         add_uv(reader, object, geom, run, cage);
 
         const int number = static_cast<int>(reader.part.cages.size());
@@ -185,8 +185,8 @@ std::vector<int> read_subdivision(AlembicReader& reader, int object, const Alemb
             Mesh mesh;
             mesh.name = name;
             mesh.material = parts.materials[part];
-            mesh.cage = number;
-            mesh.cage_part = static_cast<int>(part);
+            mesh.subdivision.cage = number;
+            mesh.subdivision.part = static_cast<int>(part);
             mesh.present = run.present;
             meshes.push_back(static_cast<int>(reader.part.meshes.size()));
             reader.part.meshes.push_back(std::move(mesh));

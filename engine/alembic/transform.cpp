@@ -105,7 +105,7 @@ void read_transform(AlembicReader& reader, int object, const AlembicCompound& to
         }
         reader.widen(*channels);
     }
-    node.operations = std::move(stack);
+    node.transform.operations = std::move(stack);
 }
 
 }  // namespace aleph

@@ -10,6 +10,7 @@
 #include "engine/gltf/tracks.h"
 #include "engine/gltf/validate/pointer.h"
 #include "engine/json/close_names.h"
+#include "engine/scene/place.h"
 
 namespace aleph {
 
@@ -33,12 +34,12 @@ void clamp_to_range(GltfReader& reader, GltfKeys& keys, const Channel& channel) 
 void read_weights(GltfReader& reader, const Channel& channel) {
     const std::vector<int>& meshes = reader.morphs_of[channel.target.index];
     if (meshes.empty()) return;
-    const std::size_t count = reader.part.meshes[meshes[0]].targets.size();
+    const std::size_t count = reader.part.meshes[meshes[0]].deformation.targets.size();
     const GltfKeys keys = read_keys(reader, channel.sampler, channel.place, count);
     for (const int index : meshes) {
         Mesh& mesh = reader.part.meshes[index];
         for (std::size_t k = 0; k < count; ++k) {
-            mesh.target_weights[k] = number_track(reader, keys, channel.place, k);
+            mesh.deformation.target_weights[k] = number_track(reader, keys, channel.place, k);
         }
     }
 }
@@ -55,14 +56,14 @@ void read_node_channel(GltfReader& reader, const Channel& channel) {
     const GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
     switch (channel.target.info->property) {
         case GltfProperty::node_rotation:
-            node.rotation = rotation_track(reader, keys, channel.place,
-                                           fmt::format("node {} \"{}\"", source, printable(node.name)));
+            node.transform.rotation = rotation_track(reader, keys, channel.place,
+                                                     fmt::format("node {} \"{}\"", source, printable(node.name)));
             break;
         case GltfProperty::node_translation:
-            node.translation = vector_track(reader, keys, channel.place);
+            node.transform.translation = vector_track(reader, keys, channel.place);
             break;
         case GltfProperty::node_scale:
-            node.scale = vector_track(reader, keys, channel.place);
+            node.transform.scale = vector_track(reader, keys, channel.place);
             break;
         default: {
             GltfKeys shown = keys;
@@ -105,29 +106,33 @@ void read_light_channel(GltfReader& reader, const Channel& channel) {
 template <class T>
 struct MaterialTrack {
     GltfProperty property;
-    Track<T> Material::*track;
+    Place<Material, Track<T>> in;
 };
 constexpr std::array material_numbers{
-    MaterialTrack<double>{GltfProperty::material_metallic, &Material::metallic},
-    MaterialTrack<double>{GltfProperty::material_roughness, &Material::roughness},
-    MaterialTrack<double>{GltfProperty::material_emission_strength, &Material::emission_strength},
-    MaterialTrack<double>{GltfProperty::material_ior, &Material::ior},
-    MaterialTrack<double>{GltfProperty::material_specular, &Material::specular},
-    MaterialTrack<double>{GltfProperty::material_transmission, &Material::transmission},
-    MaterialTrack<double>{GltfProperty::material_thickness, &Material::thickness},
-    MaterialTrack<double>{GltfProperty::material_attenuation_distance, &Material::attenuation_distance},
-    MaterialTrack<double>{GltfProperty::material_clearcoat, &Material::clearcoat},
-    MaterialTrack<double>{GltfProperty::material_clearcoat_roughness, &Material::clearcoat_roughness},
-    MaterialTrack<double>{GltfProperty::material_sheen_roughness, &Material::sheen_roughness},
-    MaterialTrack<double>{GltfProperty::material_anisotropy, &Material::anisotropy},
-    MaterialTrack<double>{GltfProperty::material_anisotropy_rotation, &Material::anisotropy_rotation},
+    MaterialTrack<double>{GltfProperty::material_metallic, {at<&Material::gloss, &Gloss::metallic>}},
+    MaterialTrack<double>{GltfProperty::material_roughness, {at<&Material::gloss, &Gloss::roughness>}},
+    MaterialTrack<double>{GltfProperty::material_emission_strength, {at<&Material::glow, &Glow::strength>}},
+    MaterialTrack<double>{GltfProperty::material_ior, {at<&Material::gloss, &Gloss::ior>}},
+    MaterialTrack<double>{GltfProperty::material_specular, {at<&Material::gloss, &Gloss::specular>}},
+    MaterialTrack<double>{GltfProperty::material_transmission, {at<&Material::glass, &Glass::transmission>}},
+    MaterialTrack<double>{GltfProperty::material_thickness, {at<&Material::glass, &Glass::thickness>}},
+    MaterialTrack<double>{GltfProperty::material_attenuation_distance,
+                          {at<&Material::glass, &Glass::attenuation_distance>}},
+    MaterialTrack<double>{GltfProperty::material_clearcoat, {at<&Material::layers, &Layers::clearcoat>}},
+    MaterialTrack<double>{GltfProperty::material_clearcoat_roughness,
+                          {at<&Material::layers, &Layers::clearcoat_roughness>}},
+    MaterialTrack<double>{GltfProperty::material_sheen_roughness, {at<&Material::layers, &Layers::sheen_roughness>}},
+    MaterialTrack<double>{GltfProperty::material_anisotropy, {at<&Material::layers, &Layers::anisotropy>}},
+    MaterialTrack<double>{GltfProperty::material_anisotropy_rotation,
+                          {at<&Material::layers, &Layers::anisotropy_rotation>}},
 };
 constexpr std::array material_colors{
-    MaterialTrack<glm::dvec3>{GltfProperty::material_base_color, &Material::base_color},
-    MaterialTrack<glm::dvec3>{GltfProperty::material_emission, &Material::emission},
-    MaterialTrack<glm::dvec3>{GltfProperty::material_specular_color, &Material::specular_color},
-    MaterialTrack<glm::dvec3>{GltfProperty::material_attenuation_color, &Material::attenuation_color},
-    MaterialTrack<glm::dvec3>{GltfProperty::material_sheen_color, &Material::sheen_color},
+    MaterialTrack<glm::dvec3>{GltfProperty::material_base_color, {at<&Material::base_color>}},
+    MaterialTrack<glm::dvec3>{GltfProperty::material_emission, {at<&Material::glow, &Glow::color>}},
+    MaterialTrack<glm::dvec3>{GltfProperty::material_specular_color, {at<&Material::gloss, &Gloss::specular_color>}},
+    MaterialTrack<glm::dvec3>{GltfProperty::material_attenuation_color,
+                              {at<&Material::glass, &Glass::attenuation_color>}},
+    MaterialTrack<glm::dvec3>{GltfProperty::material_sheen_color, {at<&Material::layers, &Layers::sheen_color>}},
 };
 
 void read_material_channel(GltfReader& reader, const Channel& channel) {
@@ -136,10 +141,11 @@ void read_material_channel(GltfReader& reader, const Channel& channel) {
     clamp_to_range(reader, keys, channel);
     const GltfProperty property = channel.target.info->property;
     for (const auto& entry : material_numbers)
-        if (entry.property == property) material.*entry.track = number_track(reader, keys, channel.place);
+        if (entry.property == property) entry.in(material) = number_track(reader, keys, channel.place);
     for (const auto& entry : material_colors)
-        if (entry.property == property) material.*entry.track = vector_track(reader, keys, channel.place);
-    if (property == GltfProperty::material_base_color) material.alpha = number_track(reader, keys, channel.place, 3);
+        if (entry.property == property) entry.in(material) = vector_track(reader, keys, channel.place);
+    if (property == GltfProperty::material_base_color)
+        material.opacity.alpha = number_track(reader, keys, channel.place, 3);
 }
 
 void read_channel(GltfReader& reader, const Channel& channel) {

@@ -11,7 +11,7 @@ void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_nod
                  const LoadLimits& limits, const std::vector<std::string>* animations) {
     const GltfSource source = load_gltf_source(file, limits);
     GltfReader reader(source);
-    reader.part.warnings = source.warnings;
+    reader.part.source.warnings = source.warnings;
     read_materials(reader);
     read_meshes(reader);
     read_cameras_and_lights(reader);

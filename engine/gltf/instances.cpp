@@ -35,13 +35,13 @@ std::size_t read_instances(GltfReader& reader, std::size_t node_index, int paren
         const auto vector = [&](const std::vector<double>& v) {
             return glm::dvec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
         };
-        if (!translations.empty()) node.translation = vector(translations);
-        if (!scales.empty()) node.scale = vector(scales);
+        if (!translations.empty()) node.transform.translation = vector(translations);
+        if (!scales.empty()) node.transform.scale = vector(scales);
         if (!rotations.empty()) {
             const UnitRotation unit =
                 read_rotation(reader, &rotations[4 * i], fmt::format("{}/attributes/ROTATION: instance {}", place, i));
             if (unit.was_far_from_unit(rotation_tolerance(is_float))) ++far_from_unit;
-            node.rotation = unit.rotation;
+            node.transform.rotation = unit.rotation;
         }
         node.meshes = take_meshes(reader, node_index);
         made += node.meshes.size();

@@ -15,12 +15,12 @@ constexpr double min_scale = 1e-12;
 
 /// True if the node's own transform is constant and shrinks everything to a point.
 bool shrinks_to_point(const Node& node) {
-    if (!node.matrix) {
-        const glm::dvec3 scale = glm::abs(key_value(node.scale, 0));
-        return !is_animated(node.scale) && std::max({scale.x, scale.y, scale.z}) < min_scale;
+    if (!node.transform.matrix) {
+        const glm::dvec3 scale = glm::abs(key_value(node.transform.scale, 0));
+        return !is_animated(node.transform.scale) && std::max({scale.x, scale.y, scale.z}) < min_scale;
     }
-    if (is_animated(*node.matrix)) return false;
-    const glm::dmat4& matrix = key_value(*node.matrix, 0);
+    if (is_animated(*node.transform.matrix)) return false;
+    const glm::dmat4& matrix = key_value(*node.transform.matrix, 0);
     double largest = 0.0;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(matrix[column][row]));
@@ -32,7 +32,7 @@ std::vector<bool> find_nodes_with_meshes(const Scene& part) {
     std::vector<bool> holds(part.nodes.size(), false);
     for (std::size_t i = part.nodes.size(); i-- > 0;) {
         const Node& node = part.nodes[i];
-        for (const int mesh : node.meshes) holds[i] = holds[i] || part.meshes[mesh].skin == no_index;
+        for (const int mesh : node.meshes) holds[i] = holds[i] || part.meshes[mesh].deformation.skin == no_index;
         if (holds[i] && node.parent != no_index) holds[node.parent] = true;
     }
     return holds;
@@ -52,7 +52,7 @@ void warn_of_invisible_meshes(GltfReader& reader) {
         has_mesh = has_mesh || model.nodes[i].mesh >= 0;
         const Node& node = reader.part.nodes[index];
         if (!holds[index] || !shrinks_to_point(node)) continue;
-        if (count++ == 0) first = fmt::format("/nodes/{}/{}", i, node.matrix ? "matrix" : "scale");
+        if (count++ == 0) first = fmt::format("/nodes/{}/{}", i, node.transform.matrix ? "matrix" : "scale");
     }
     if (!has_mesh) {
         const std::string place =

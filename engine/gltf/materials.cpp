@@ -65,74 +65,74 @@ double normal_scale(const nlohmann::json& owner, const char* key) {
 
 void MaterialReader::read_base_extensions(const nlohmann::json& extensions, Material& material) {
     if (const auto found = extensions.find("KHR_materials_emissive_strength"); found != extensions.end()) {
-        material.emission_strength = number(*found, "emissiveStrength", 1.0, unlimited);
+        material.glow.strength = number(*found, "emissiveStrength", 1.0, unlimited);
     }
     if (const auto found = extensions.find("KHR_materials_ior"); found != extensions.end()) {
         const double ior = found->value("ior", 1.5);
-        material.ior = ior == 0.0 ? 0.0 : clamped(ior, 1.0, unlimited, "ior");  // 0 is allowed: full reflection
+        material.gloss.ior = ior == 0.0 ? 0.0 : clamped(ior, 1.0, unlimited, "ior");  // 0 is allowed: full reflection
     }
     material.unlit = extensions.contains("KHR_materials_unlit");
     if (const auto found = extensions.find("KHR_materials_transmission"); found != extensions.end()) {
-        material.transmission = number(*found, "transmissionFactor", 0.0);
-        material.transmission_texture = textures_.read(*found, "transmissionTexture");
+        material.glass.transmission = number(*found, "transmissionFactor", 0.0);
+        material.textures[TextureSlot::transmission] = textures_.read(*found, "transmissionTexture");
     }
     if (const auto found = extensions.find("KHR_materials_specular"); found != extensions.end()) {
-        material.specular = number(*found, "specularFactor", 1.0);
-        material.specular_color = color(*found, "specularColorFactor", 1.0, unlimited);
-        material.specular_texture = textures_.read(*found, "specularTexture");
-        material.specular_color_texture = textures_.read(*found, "specularColorTexture");
+        material.gloss.specular = number(*found, "specularFactor", 1.0);
+        material.gloss.specular_color = color(*found, "specularColorFactor", 1.0, unlimited);
+        material.textures[TextureSlot::specular] = textures_.read(*found, "specularTexture");
+        material.textures[TextureSlot::specular_color] = textures_.read(*found, "specularColorTexture");
     }
 }
 
 void MaterialReader::read_volume(const nlohmann::json& volume, Material& material) {
-    material.thickness = number(volume, "thicknessFactor", 0.0, unlimited);
-    material.thickness_texture = textures_.read(volume, "thicknessTexture");
-    material.attenuation_distance = volume.value("attenuationDistance", 0.0);  // glTF: infinite where absent
-    material.attenuation_color = color(volume, "attenuationColor", 1.0);
+    material.glass.thickness = number(volume, "thicknessFactor", 0.0, unlimited);
+    material.textures[TextureSlot::thickness] = textures_.read(volume, "thicknessTexture");
+    material.glass.attenuation_distance = volume.value("attenuationDistance", 0.0);  // glTF: infinite where absent
+    material.glass.attenuation_color = color(volume, "attenuationColor", 1.0);
 }
 
 void MaterialReader::read_clearcoat(const nlohmann::json& coat, Material& material) {
-    material.clearcoat = number(coat, "clearcoatFactor", 0.0);
-    material.clearcoat_texture = textures_.read(coat, "clearcoatTexture");
-    material.clearcoat_roughness = number(coat, "clearcoatRoughnessFactor", 0.0);
-    material.clearcoat_roughness_texture = textures_.read(coat, "clearcoatRoughnessTexture");
-    material.clearcoat_normal_texture = textures_.read(coat, "clearcoatNormalTexture");
-    material.clearcoat_normal_scale = normal_scale(coat, "clearcoatNormalTexture");
+    material.layers.clearcoat = number(coat, "clearcoatFactor", 0.0);
+    material.textures[TextureSlot::clearcoat] = textures_.read(coat, "clearcoatTexture");
+    material.layers.clearcoat_roughness = number(coat, "clearcoatRoughnessFactor", 0.0);
+    material.textures[TextureSlot::clearcoat_roughness] = textures_.read(coat, "clearcoatRoughnessTexture");
+    material.textures[TextureSlot::clearcoat_normal] = textures_.read(coat, "clearcoatNormalTexture");
+    material.textures.clearcoat_normal_scale = normal_scale(coat, "clearcoatNormalTexture");
 }
 
 void MaterialReader::read_sheen(const nlohmann::json& sheen, Material& material) {
-    material.sheen_color = color(sheen, "sheenColorFactor", 0.0);
-    material.sheen_color_texture = textures_.read(sheen, "sheenColorTexture");
-    material.sheen_roughness = number(sheen, "sheenRoughnessFactor", 0.0);
-    material.sheen_roughness_texture = textures_.read(sheen, "sheenRoughnessTexture");
+    material.layers.sheen_color = color(sheen, "sheenColorFactor", 0.0);
+    material.textures[TextureSlot::sheen_color] = textures_.read(sheen, "sheenColorTexture");
+    material.layers.sheen_roughness = number(sheen, "sheenRoughnessFactor", 0.0);
+    material.textures[TextureSlot::sheen_roughness] = textures_.read(sheen, "sheenRoughnessTexture");
 }
 
 void MaterialReader::read_anisotropy(const nlohmann::json& anisotropy, Material& material) {
-    material.anisotropy = number(anisotropy, "anisotropyStrength", 0.0);
-    material.anisotropy_rotation = anisotropy.value("anisotropyRotation", 0.0);
-    material.anisotropy_texture = textures_.read(anisotropy, "anisotropyTexture");
+    material.layers.anisotropy = number(anisotropy, "anisotropyStrength", 0.0);
+    material.layers.anisotropy_rotation = anisotropy.value("anisotropyRotation", 0.0);
+    material.textures[TextureSlot::anisotropy] = textures_.read(anisotropy, "anisotropyTexture");
 }
 
 void MaterialReader::read_core(const tinygltf::Material& source, const nlohmann::json& raw, Material& material) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     const std::vector<double>& base = pbr.baseColorFactor;
     material.base_color = clamped({base[0], base[1], base[2]}, 1.0, "baseColorFactor");
-    material.alpha = clamped(base[3], 0.0, 1.0, "baseColorFactor");
-    material.metallic = clamped(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
-    material.roughness = clamped(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
+    material.opacity.alpha = clamped(base[3], 0.0, 1.0, "baseColorFactor");
+    material.gloss.metallic = clamped(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
+    material.gloss.roughness = clamped(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
     if (const auto found = raw.find("pbrMetallicRoughness"); found != raw.end()) {
-        material.base_color_texture = textures_.read(*found, "baseColorTexture");
-        material.metallic_roughness_texture = textures_.read(*found, "metallicRoughnessTexture");
+        material.textures[TextureSlot::base_color] = textures_.read(*found, "baseColorTexture");
+        material.textures[TextureSlot::metallic_roughness] = textures_.read(*found, "metallicRoughnessTexture");
     }
-    material.normal_texture = textures_.read(raw, "normalTexture");
-    material.normal_scale = normal_scale(raw, "normalTexture");
+    material.textures[TextureSlot::normal] = textures_.read(raw, "normalTexture");
+    material.textures.normal_scale = normal_scale(raw, "normalTexture");
     const std::vector<double>& emission = source.emissiveFactor;
-    material.emission = clamped({emission[0], emission[1], emission[2]}, 1.0, "emissiveFactor");
-    material.emission_texture = textures_.read(raw, "emissiveTexture");
+    material.glow.color = clamped({emission[0], emission[1], emission[2]}, 1.0, "emissiveFactor");
+    material.textures[TextureSlot::emission] = textures_.read(raw, "emissiveTexture");
     material.double_sided = source.doubleSided;
-    if (source.alphaMode == "MASK") material.alpha_mode = Material::AlphaMode::mask;
-    if (source.alphaMode == "BLEND") material.alpha_mode = Material::AlphaMode::blend;
-    material.alpha_cutoff = raw.value("alphaCutoff", 0.5);
+    if (source.alphaMode == "MASK") material.opacity.mode = Opacity::Mode::mask;
+    if (source.alphaMode == "BLEND") material.opacity.mode = Opacity::Mode::blend;
+    material.opacity.cutoff = raw.value("alphaCutoff", 0.5);
 }
 
 Material MaterialReader::read(std::size_t index) {

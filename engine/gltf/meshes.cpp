@@ -107,7 +107,7 @@ std::uint64_t byte_count(const Mesh& mesh) {
     const auto bytes = [](const auto& list) { return std::uint64_t{list.size()} * sizeof(list[0]); };
     std::uint64_t total = bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.uv[0]) + bytes(mesh.uv[1]) +
                           bytes(mesh.colors) + bytes(mesh.triangles);
-    for (const MorphTarget& target : mesh.targets) total += bytes(target.positions) + bytes(target.normals);
+    for (const MorphTarget& target : mesh.deformation.targets) total += bytes(target.positions) + bytes(target.normals);
     return total;
 }
 
@@ -116,10 +116,10 @@ int add_copy(GltfReader& reader, int original) {
     const Mesh& source = reader.part.meshes[original];
     reader.accessors.charge(byte_count(source), fmt::format("mesh \"{}\"", printable(source.name)));
     Mesh copy = source;
-    copy.target_weights.assign(copy.targets.size(), Track<double>(0.0));
-    copy.skin = no_index;
-    copy.joint_weights.clear();
-    copy.joints_per_vertex = 0;
+    copy.deformation.target_weights.assign(copy.deformation.targets.size(), Track<double>(0.0));
+    copy.deformation.skin = no_index;
+    copy.deformation.joint_weights.clear();
+    copy.deformation.joints_per_vertex = 0;
     reader.part.meshes.push_back(std::move(copy));
     return static_cast<int>(reader.part.meshes.size()) - 1;
 }
@@ -180,13 +180,13 @@ std::vector<int> take_meshes(GltfReader& reader, std::size_t node_index) {
     std::vector<int> taken;
     for (const int original : reader.meshes_of[node.mesh]) {
         const GltfMeshUse use = reader.uses[original];
-        const bool morphs = !reader.part.meshes[original].targets.empty();
+        const bool morphs = !reader.part.meshes[original].deformation.targets.empty();
         const bool deforms = morphs || skin != raw.end();
         const int index = deforms ? take_own(reader, original) : take_rigid(reader, original);
         taken.push_back(index);
         if (!deforms) continue;
         Mesh& mesh = reader.part.meshes[index];
-        for (std::size_t k = 0; k < weights.size(); ++k) mesh.target_weights[k] = Track<double>(weights[k]);
+        for (std::size_t k = 0; k < weights.size(); ++k) mesh.deformation.target_weights[k] = Track<double>(weights[k]);
         if (morphs) reader.morphs_of[node_index].push_back(index);
         if (skin != raw.end()) read_joint_weights(reader, use, skin->get<std::size_t>(), mesh);
     }

@@ -31,19 +31,19 @@ void read_transform(GltfReader& reader, const tinygltf::Node& source, const std:
     if (!source.matrix.empty()) {
         glm::dmat4 matrix;
         for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = source.matrix[i];
-        node.matrix = Track<glm::dmat4>(matrix);
+        node.transform.matrix = Track<glm::dmat4>(matrix);
         return;
     }
     const auto vector = [](const std::vector<double>& v) { return glm::dvec3(v[0], v[1], v[2]); };
-    if (!source.translation.empty()) node.translation = vector(source.translation);
+    if (!source.translation.empty()) node.transform.translation = vector(source.translation);
     if (!source.rotation.empty()) {
         const UnitRotation unit = read_rotation(reader, source.rotation.data(), place + "/rotation");
         if (unit.was_far_from_unit()) {
             reader.warn(place, fmt::format("the rotation quaternion has length {:.6g} and is normalized", unit.length));
         }
-        node.rotation = unit.rotation;
+        node.transform.rotation = unit.rotation;
     }
-    if (!source.scale.empty()) node.scale = vector(source.scale);
+    if (!source.scale.empty()) node.transform.scale = vector(source.scale);
 }
 
 /// tinygltf reads the file's lights, but not which node holds which.

@@ -31,7 +31,7 @@ struct GltfReader {
     std::vector<int> skin_of;                 ///< glTF skin -> scene skin, or no_index where no node uses it
 
     void warn(const std::string& place, const std::string& text) {
-        part.warnings.push_back(source.file + ": " + place + ": " + text);
+        part.source.warnings.push_back(source.file + ": " + place + ": " + text);
     }
 };
 

@@ -80,9 +80,9 @@ void read_joint_weights(GltfReader& reader, const GltfMeshUse& use, std::size_t 
     const int sets = attributes.contains("JOINTS_1") ? 2 : 1;
     const std::size_t per_vertex = static_cast<std::size_t>(sets * joints_per_set);
     reader.accessors.charge(mesh.positions.size() * per_vertex * sizeof(JointWeight), place);
-    mesh.skin = use_skin(reader, skin);
-    mesh.joints_per_vertex = static_cast<int>(per_vertex);
-    mesh.joint_weights.assign(mesh.positions.size() * per_vertex, {});
+    mesh.deformation.skin = use_skin(reader, skin);
+    mesh.deformation.joints_per_vertex = static_cast<int>(per_vertex);
+    mesh.deformation.joint_weights.assign(mesh.positions.size() * per_vertex, {});
     for (int set = 0; set < sets; ++set) {
         const int joints_accessor = attributes[fmt::format("JOINTS_{}", set)].get<int>();
         const int weights_accessor = attributes[fmt::format("WEIGHTS_{}", set)].get<int>();
@@ -96,13 +96,15 @@ void read_joint_weights(GltfReader& reader, const GltfMeshUse& use, std::size_t 
             }
             const std::size_t vertex = i / joints_per_set, k = i % joints_per_set;
             JointWeight& slot =
-                mesh.joint_weights[vertex * per_vertex + static_cast<std::size_t>(set * joints_per_set) + k];
+                mesh.deformation
+                    .joint_weights[vertex * per_vertex + static_cast<std::size_t>(set * joints_per_set) + k];
             slot = {joints[i], weights[i]};
         }
     }
     std::size_t far_from_one = 0;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        if (!normalize_weights(&mesh.joint_weights[i * per_vertex], mesh.joints_per_vertex)) ++far_from_one;
+        if (!normalize_weights(&mesh.deformation.joint_weights[i * per_vertex], mesh.deformation.joints_per_vertex))
+            ++far_from_one;
     }
     if (far_from_one > 0) {
         reader.warn(place,
@@ -142,7 +144,7 @@ void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, cons
     bool dropped_normals = false;
     for (const std::map<std::string, int>& source : primitive.targets) {
         MorphTarget target;
-        target.name = fmt::format("target{}", mesh.targets.size());
+        target.name = fmt::format("target{}", mesh.deformation.targets.size());
         if (const auto found = source.find("POSITION"); found != source.end()) {
             target.positions = read_vec3(reader, found->second);
         }
@@ -153,9 +155,9 @@ void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, cons
                 target.normals = read_vec3(reader, found->second);
             }
         }
-        mesh.targets.push_back(std::move(target));
+        mesh.deformation.targets.push_back(std::move(target));
     }
-    mesh.target_weights.assign(mesh.targets.size(), Track<double>(0.0));
+    mesh.deformation.target_weights.assign(mesh.deformation.targets.size(), Track<double>(0.0));
     if (dropped_normals) reader.warn(place, "the mesh is shaded flat, so its morph targets' normals are not used");
 }
 

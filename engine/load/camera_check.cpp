@@ -31,7 +31,7 @@ void check_camera_axes(const Scene& scene) {
     posed.world.resize(scene.nodes.size());
     posed.visible.resize(scene.nodes.size());
     for (const std::int64_t number : {range.first, range.first + (range.last - range.first) / 2, range.last}) {
-        const double seconds = scene.frame_rate.seconds_of(number);
+        const double seconds = scene.film.frame_rate.seconds_of(number);
         for (int i = 0; i < std::ssize(scene.nodes); ++i) {
             if (!holds[i]) continue;
             place_node(scene, i, seconds, posed);

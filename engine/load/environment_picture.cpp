@@ -13,9 +13,8 @@ namespace {
 
 bool is_texture(const Scene& scene, int image) {
     return std::ranges::any_of(scene.materials, [&](const Material& material) {
-        return std::ranges::any_of(material_textures, [&](const MaterialTexture& texture) {
-            return (material.*texture.member).image == image;
-        });
+        return std::ranges::any_of(material.textures.all,
+                                   [&](const TextureRef& texture) { return texture.image == image; });
     });
 }
 
@@ -42,16 +41,16 @@ Image<glm::vec4> to_linear(const Image<glm::u8vec4>& bytes) {
 }  // namespace
 
 void make_environment_linear(Scene& scene) {
-    if (scene.environment_image == no_index) return;
-    const SceneImage& picture = scene.images[scene.environment_image];
+    if (scene.environment.image == no_index) return;
+    const SceneImage& picture = scene.images[scene.environment.image];
     if (picture.bytes.empty()) return;
-    if (is_texture(scene, scene.environment_image)) {
+    if (is_texture(scene, scene.environment.image)) {
         SceneImage copy = picture;
         copy.name = unused_name(scene, copy.name);
-        scene.environment_image = static_cast<int>(scene.images.size());
+        scene.environment.image = static_cast<int>(scene.images.size());
         scene.images.push_back(std::move(copy));
     }
-    SceneImage& own = scene.images[scene.environment_image];
+    SceneImage& own = scene.images[scene.environment.image];
     own.floats = to_linear(own.bytes);
     own.bytes = {};
 }

@@ -32,7 +32,7 @@ void add_flat_warnings(Scene& scene, const SceneFormats& formats) {
     for (std::size_t n = 0; n < flat.size(); ++n) flat[n] = !scene.nodes[n].meshes.empty();
     const FrameRange range = frame_range(scene);
     for (const std::int64_t frame : {range.first, range.first + (range.last - range.first) / 2, range.last}) {
-        const ScenePose posed = place_nodes(scene, scene.frame_rate.seconds_of(frame));
+        const ScenePose posed = place_nodes(scene, scene.film.frame_rate.seconds_of(frame));
         for (std::size_t n = 0; n < flat.size(); ++n)
             flat[n] = flat[n] != 0 && !has_full_rank(posed.world[n]) &&
                       !has_warning(scene, formats, scene.nodes[n], posed.world[n]);
@@ -44,7 +44,7 @@ void add_flat_warnings(Scene& scene, const SceneFormats& formats) {
         ++count;
     }
     if (count == 0) return;
-    scene.warnings.push_back(
+    scene.source.warnings.push_back(
         fmt::format("node \"{}\"{}: the scale is 0, or next to it, along an axis, so nothing of it can be seen",
                     printable(scene.nodes[first].name), count > 1 ? fmt::format(" and {} more", count - 1) : ""));
 }

@@ -30,7 +30,7 @@ Bounds scene_bounds(const Scene& scene) {
             range.first + (steps == 1 ? 0
                                       : (range.last - range.first) / (steps - 1) * step +
                                             (range.last - range.first) % (steps - 1) * step / (steps - 1));
-        const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const ScenePose now = pose(scene, scene.film.frame_rate.seconds_of(frame));
         for (std::size_t i = 0; i < now.instances.size(); ++i) {
             if (now.shown[i] == 0) continue;
             const int m = now.instances[i].mesh;
@@ -68,21 +68,22 @@ void add_framing_camera(Scene& scene) {
 
     Node node{.name = camera.name, .camera = 0};
     const glm::dvec3 eye = center + distance * safe_normalize(glm::dvec3(0.0, 0.3, 1.0));
-    node.translation = eye;
-    node.rotation = safe_normalize(glm::quat_cast(glm::dmat3(look_at(eye, center, glm::dvec3(0.0, 1.0, 0.0)))));
+    node.transform.translation = eye;
+    node.transform.rotation =
+        safe_normalize(glm::quat_cast(glm::dmat3(look_at(eye, center, glm::dvec3(0.0, 1.0, 0.0)))));
 
     for (Node& other : scene.nodes) {
         shift(other.parent);
         shift(other.camera);
     }
-    for (Include& include : scene.includes) shift(include.node);
+    for (Include& include : scene.source.includes) shift(include.node);
     scene.nodes.insert(scene.nodes.begin(), std::move(node));
     scene.cameras.insert(scene.cameras.begin(), std::move(camera));
-    scene.warnings.push_back(bounds.empty()
-                                 ? "there is no camera and nothing to see: one was added that looks at the origin"
-                                 : fmt::format("there is no camera: one was added at {:.4g}, {:.4g}, {:.4g} that sees "
-                                               "everything over the whole range",
-                                               eye.x, eye.y, eye.z));
+    scene.source.warnings.push_back(
+        bounds.empty() ? "there is no camera and nothing to see: one was added that looks at the origin"
+                       : fmt::format("there is no camera: one was added at {:.4g}, {:.4g}, {:.4g} that sees "
+                                     "everything over the whole range",
+                                     eye.x, eye.y, eye.z));
 }
 
 }  // namespace aleph

@@ -25,15 +25,15 @@ bool is_same_content(const Include& a, const Include& b) {
 
 /// A node that turns and scales the file's content, if it has to be.
 int add_axes_node(Scene& scene, int index) {
-    const Include& include = scene.includes[index];
+    const Include& include = scene.source.includes[index];
     if (include.scale == 1.0 && include.up == Include::Up::y) return include.node;
     constexpr double quarter = std::numbers::pi / 2.0;
     Node node{.name = include.path};
     node.parent = include.node;
     node.include = index;
-    node.scale = glm::dvec3(include.scale);
-    if (include.up == Include::Up::x) node.rotation = glm::angleAxis(quarter, glm::dvec3(0.0, 0.0, 1.0));
-    if (include.up == Include::Up::z) node.rotation = glm::angleAxis(-quarter, glm::dvec3(1.0, 0.0, 0.0));
+    node.transform.scale = glm::dvec3(include.scale);
+    if (include.up == Include::Up::x) node.transform.rotation = glm::angleAxis(quarter, glm::dvec3(0.0, 0.0, 1.0));
+    if (include.up == Include::Up::z) node.transform.rotation = glm::angleAxis(-quarter, glm::dvec3(1.0, 0.0, 0.0));
     scene.nodes.push_back(std::move(node));
     return static_cast<int>(scene.nodes.size()) - 1;
 }
@@ -46,14 +46,14 @@ int find_material(const Scene& scene, const std::string& name, const std::string
         if (scene.materials[i].name == name) return i;
         known.push_back(scene.materials[i].name);
     }
-    throw InputError(scene.file, place,
+    throw InputError(scene.source.file, place,
                      fmt::format("there is no material \"{}\"{}", printable(name),
                                  known.empty() ? "; there are none" : suggestion(name, known)));
 }
 
 /// Replaces materials of the file by the scene's own.
 void replace_materials(Scene& scene, int index, const std::string& place) {
-    for (const auto& [theirs, ours] : scene.includes[index].materials) {
+    for (const auto& [theirs, ours] : scene.source.includes[index].materials) {
         const std::string pair = fmt::format("{}/materials/{}", place, printable(theirs));
         const int replaced = find_material(scene, theirs, pair, [&](const Material& m) { return m.include == index; });
         const int used = find_material(scene, ours, pair, [](const Material& m) { return m.include == no_index; });
@@ -64,10 +64,11 @@ void replace_materials(Scene& scene, int index, const std::string& place) {
 }
 
 void append_file(Scene& scene, int index, const std::string& place, const LoadRequest& request) {
-    const Include include = scene.includes[index];
-    const SceneFormat& format = require_format(request.formats, FormatUse::include, include.path, scene.file, place);
+    const Include include = scene.source.includes[index];
+    const SceneFormat& format =
+        require_format(request.formats, FormatUse::include, include.path, scene.source.file, place);
     if (include.animations && !format.has_animation_names) {
-        throw InputError(scene.file, place + "/animation",
+        throw InputError(scene.source.file, place + "/animation",
                          fmt::format("{} has no animations to choose from", format.description));
     }
     const int parent = add_axes_node(scene, index);
@@ -81,11 +82,11 @@ void append_file(Scene& scene, int index, const std::string& place, const LoadRe
 
 void load_includes(Scene& scene, const std::vector<std::string>& places, const LoadRequest& request) {
     std::vector<Included> included;
-    for (int i = 0; i < std::ssize(scene.includes); ++i) {
-        const Include& include = scene.includes[i];
+    for (int i = 0; i < std::ssize(scene.source.includes); ++i) {
+        const Include& include = scene.source.includes[i];
         const int begin = static_cast<int>(scene.nodes.size());
         int same = 0;
-        while (same < i && !(is_same_content(scene.includes[same], include) &&
+        while (same < i && !(is_same_content(scene.source.includes[same], include) &&
                              can_be_copied(scene, included[same].begin, included[same].end))) {
             ++same;
         }

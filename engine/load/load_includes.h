@@ -8,8 +8,8 @@
 
 namespace aleph {
 
-/// Appends the content of Scene::includes. A file that is included again in the same way shares its meshes, unless they
-/// have skins or morph targets.
+/// Appends the content of SceneSource::includes. A file that is included again in the same way shares its meshes,
+/// unless they have skins or morph targets.
 /// @param places   JSON pointer of each include, for messages
 /// @param request  the scene file's own
 /// @throws InputError

@@ -17,22 +17,22 @@ namespace {
 
 /// Frame rate and range as the file states them. The range includes samples at both ends that do not change.
 void set_timing(const FileTiming& timing, Scene& scene) {
-    if (timing.frame_rate) scene.frame_rate = *timing.frame_rate;
+    if (timing.frame_rate) scene.film.frame_rate = *timing.frame_rate;
     if (!timing.first) return;
     Scene ends;  // a scene with two keys: frame_range turns their times into frames
-    ends.frame_rate = scene.frame_rate;
+    ends.film.frame_rate = scene.film.frame_rate;
     ends.nodes.emplace_back().visible.values = {1.0, 0.0};
     ends.nodes.back().visible.sampling.kind = TimeSampling::Kind::acyclic;
     ends.nodes.back().visible.sampling.times = {*timing.first, *timing.last};
-    scene.range = frame_range(ends);
+    scene.film.range = frame_range(ends);
 }
 
 /// A scene of what the format appends.
 Scene load_alone(const SceneFormat& format, const LoadRequest& request) {
     Scene scene;
-    scene.file = request.file;
-    scene.name = request.path.stem().string();
-    scene.includes.emplace_back().path = request.path.filename().string();
+    scene.source.file = request.file;
+    scene.source.name = request.path.stem().string();
+    scene.source.includes.emplace_back().path = request.path.filename().string();
     set_timing(format.append({request.path, no_index, 0, request.limits}, scene), scene);
     const bool has_camera =
         std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.camera != no_index; });

@@ -12,15 +12,15 @@ namespace aleph {
 /// Reads a scene file (.json), a .gltf or .glb, or an .abc, with its includes and images. An .abc that is loaded by
 /// itself sets frame rate and range; where it is included, those of the scene file are used.
 /// A glTF or Alembic file without a camera gets one that sees its bounds over the whole range, a scene without light
-/// gets a constant white environment. Scene::warnings tells of both, and of what is read and cannot be seen.
+/// gets a constant white environment. SceneSource::warnings tells of both, and of what is read and cannot be seen.
 /// @param formats  what else than aleph's own formats is read: a copy of scene_formats() with more rows
 /// @throws InputError with file, place and reason
 Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits = {},
                  const SceneFormats& formats = scene_formats());
 
 /// Writes a scene file (.json). load_scene then returns an equal scene, apart from `file` and `warnings`: a camera or a
-/// light that was added is written like the rest. Includes stay includes. In another folder than that of Scene::file
-/// the paths of includes and images change accordingly. The file is written completely or not at all.
+/// light that was added is written like the rest. Includes stay includes. In another folder than that of
+/// SceneSource::file the paths of includes and images change accordingly. The file is written completely or not at all.
 /// @throws InputError where the file format has no words for what the scene holds, OutputError if writing fails
 void save_scene(const Scene& scene, const std::filesystem::path& path, const SceneFormats& formats = scene_formats());
 

@@ -43,8 +43,10 @@ bool has_area(const Mesh& mesh, const glm::uvec3& triangle) {
 
 /// True for a rigid mesh with vertices of which nothing can be drawn.
 bool is_degenerate(const Scene& scene, const Mesh& mesh) {
-    const bool moves = mesh.points != no_index && scene.point_caches[mesh.points].positions.size() > 1;
-    if (mesh.positions.empty() || moves || !mesh.targets.empty() || mesh.skin != no_index || mesh.cage != no_index)
+    const bool moves =
+        mesh.deformation.points != no_index && scene.point_caches[mesh.deformation.points].positions.size() > 1;
+    if (mesh.positions.empty() || moves || !mesh.deformation.targets.empty() || mesh.deformation.skin != no_index ||
+        mesh.subdivision.cage != no_index)
         return false;
     return std::ranges::none_of(mesh.triangles, [&](const glm::uvec3& triangle) { return has_area(mesh, triangle); });
 }
@@ -64,16 +66,16 @@ struct UvNeed {
 };
 
 /// True for a texture that gives directions: those are relative to the directions of u and v.
-bool is_directional(const MaterialTexture& texture) {
-    return texture.member == &Material::normal_texture || texture.member == &Material::clearcoat_normal_texture ||
-           texture.member == &Material::anisotropy_texture;
+bool is_directional(TextureSlot slot) {
+    return is_normal_map(slot) || slot == TextureSlot::anisotropy;
 }
 
 /// The first texture of the material whose set of coordinates the mesh does not have; nothing where it has them all.
 std::optional<UvNeed> find_texture_without_uv(const Material& material, const Mesh& mesh, bool directional) {
     for (const MaterialTexture& texture : material_textures) {
-        const TextureRef& reference = material.*texture.member;
-        if (is_directional(texture) == directional && reference.image != no_index && mesh.uv[reference.uv_set].empty())
+        const TextureRef& reference = material.textures[texture.slot];
+        if (is_directional(texture.slot) == directional && reference.image != no_index &&
+            mesh.uv[reference.uv_set].empty())
             return UvNeed{texture.key, reference.uv_set};
     }
     return std::nullopt;
@@ -82,19 +84,20 @@ std::optional<UvNeed> find_texture_without_uv(const Material& material, const Me
 /// The same for what needs the directions of u and v: normal maps and anisotropy.
 std::optional<UvNeed> find_direction_without_uv(const Material& material, const Mesh& mesh) {
     if (const auto texture = find_texture_without_uv(material, mesh, true)) return texture;
-    const bool stretched = std::ranges::any_of(material.anisotropy.values, [](double v) { return v > 0.0; });
+    const bool stretched = std::ranges::any_of(material.layers.anisotropy.values, [](double v) { return v > 0.0; });
     // Without a texture of its own it is relative to the normal map's coordinates (KHR_materials_anisotropy).
-    const bool has_own = material.anisotropy_texture.image != no_index;
-    const int set = has_own ? material.anisotropy_texture.uv_set : material.normal_texture.uv_set;
+    const bool has_own = material.textures[TextureSlot::anisotropy].image != no_index;
+    const int set =
+        has_own ? material.textures[TextureSlot::anisotropy].uv_set : material.textures[TextureSlot::normal].uv_set;
     if (stretched && mesh.uv[set].empty()) return UvNeed{"anisotropy", set};
     return std::nullopt;
 }
 
 void warn_of_missing_uv(Scene& scene, std::size_t material_index, const UvNeed& need, const Found& found,
                         const char* effect) {
-    scene.warnings.push_back(fmt::format("{}: no texture coordinates {} for the {} of material \"{}\"; {}",
-                                         name_meshes(scene, found), need.uv_set, need.key,
-                                         printable(scene.materials[material_index].name), effect));
+    scene.source.warnings.push_back(fmt::format("{}: no texture coordinates {} for the {} of material \"{}\"; {}",
+                                                name_meshes(scene, found), need.uv_set, need.key,
+                                                printable(scene.materials[material_index].name), effect));
 }
 
 }  // namespace
@@ -116,8 +119,8 @@ void add_mesh_warnings(Scene& scene) {
         if (find_direction_without_uv(material, mesh)) without_directions[mesh.material].add(i);
     }
     if (degenerate.count > 0) {
-        scene.warnings.push_back(name_meshes(scene, degenerate) +
-                                 ": no triangle has an area, so nothing of it can be seen");
+        scene.source.warnings.push_back(name_meshes(scene, degenerate) +
+                                        ": no triangle has an area, so nothing of it can be seen");
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const auto warn = [&](const Found& found, const auto& find, const char* effect) {
@@ -130,7 +133,7 @@ void add_mesh_warnings(Scene& scene) {
         warn(without_directions[i], find_direction_without_uv, "it has no effect there");
     }
     if (huge.count > 0) {
-        scene.warnings.push_back(
+        scene.source.warnings.push_back(
             fmt::format("{}: texture coordinates go beyond {:g}, where single precision holds no "
                         "place within a texture; they count as 0",
                         name_meshes(scene, huge), max_texture_coordinate));

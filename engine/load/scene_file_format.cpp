@@ -46,16 +46,16 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
 }
 
 void check_cameras(const Scene& scene, const std::string& file) {
-    if (!scene.camera.empty()) {
+    if (!scene.film.camera.empty()) {
         try {
-            find_camera(scene, scene.camera);
+            find_camera(scene, scene.film.camera);
         } catch (const InputError& error) {
             throw InputError(file, "/camera", error.reason());
         }
     }
-    for (std::size_t i = 0; i < scene.camera_keys.size(); ++i) {
+    for (std::size_t i = 0; i < scene.film.camera_keys.size(); ++i) {
         try {
-            find_camera(scene, scene.camera_keys[i].camera);
+            find_camera(scene, scene.film.camera_keys[i].camera);
         } catch (const InputError& error) {
             throw InputError(file, fmt::format("/camera/keys/{}", i), error.reason());
         }
@@ -77,10 +77,10 @@ Scene load_scene_file(const LoadRequest& request) {
     }
     SceneText text = read_text_of(request);
     Scene& scene = text.scene;
-    scene.file = file;
+    scene.source.file = file;
     const fs::path folder = request.path.parent_path();
-    for (std::size_t i = 0; i < scene.includes.size(); ++i) {
-        const std::string &path = scene.includes[i].path, &place = text.include_places[i];
+    for (std::size_t i = 0; i < scene.source.includes.size(); ++i) {
+        const std::string &path = scene.source.includes[i].path, &place = text.include_places[i];
         require_format(request.formats, FormatUse::include, path, file, place);
         check_regular_file(folder / path, file, place);
     }
@@ -105,10 +105,10 @@ fs::path folder_of(const fs::path& file) {
 void save_scene_file(const Scene& scene, const fs::path& path) {
     const std::string file = path.string();
     Scene own = without_includes(scene, file);
-    if (!scene.file.empty()) {  // paths are relative to the file they stand in
-        const fs::path from = folder_of(scene.file), to = folder_of(path);
+    if (!scene.source.file.empty()) {  // paths are relative to the file they stand in
+        const fs::path from = folder_of(scene.source.file), to = folder_of(path);
         if (from != to) {
-            for (Include& include : own.includes) include.path = move_path(include.path, from, to);
+            for (Include& include : own.source.includes) include.path = move_path(include.path, from, to);
             for (SceneImage& image : own.images) image.path = move_path(image.path, from, to);
         }
     }
@@ -131,10 +131,10 @@ void list_missing_of_scene_file(const LoadRequest& request, std::vector<MissingF
             missing.push_back({request.file, text.image_places[i], text.scene.images[i].path});
     }
     std::set<fs::path> seen;  // a thousand includes of one large file cost one
-    for (std::size_t i = 0; i < text.scene.includes.size(); ++i) {
-        const fs::path include = folder / text.scene.includes[i].path;
+    for (std::size_t i = 0; i < text.scene.source.includes.size(); ++i) {
+        const fs::path include = folder / text.scene.source.includes[i].path;
         if (!is_there(include)) {
-            missing.push_back({request.file, text.include_places[i], text.scene.includes[i].path});
+            missing.push_back({request.file, text.include_places[i], text.scene.source.includes[i].path});
             continue;
         }
         const SceneFormat* format = find_format(request.formats, include);

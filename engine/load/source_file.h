@@ -10,8 +10,8 @@ namespace aleph {
 
 /// The path of the file that brought an element: of the include, or of the scene itself for no_index.
 inline std::string source_file(const Scene& scene, int include) {
-    if (include == no_index) return scene.file;
-    return (std::filesystem::path(scene.file).parent_path() / scene.includes[include].path).string();
+    if (include == no_index) return scene.source.file;
+    return (std::filesystem::path(scene.source.file).parent_path() / scene.source.includes[include].path).string();
 }
 
 }  // namespace aleph

@@ -45,15 +45,16 @@ bool look_like_radians(const std::vector<double>& angles) {
 std::vector<double> find_angles(const Node& node) {
     using Kind = OperationStack::Kind;
     std::vector<double> angles;
-    if (node.axis_rotation) for_each_key(node.axis_rotation->angle, [&](double angle) { angles.push_back(angle); });
-    if (!node.operations) return angles;
+    if (node.transform.axis_rotation)
+        for_each_key(node.transform.axis_rotation->angle, [&](double angle) { angles.push_back(angle); });
+    if (!node.transform.operations) return angles;
     std::size_t channel = 0;
-    for (std::size_t sample = 0; sample < sample_count(*node.operations); ++sample) {
-        for (const Kind kind : node.operations->operations) {
+    for (std::size_t sample = 0; sample < sample_count(*node.transform.operations); ++sample) {
+        for (const Kind kind : node.transform.operations->operations) {
             channel += channel_count(kind);
             const bool turns =
                 kind == Kind::rotate || kind == Kind::rotate_x || kind == Kind::rotate_y || kind == Kind::rotate_z;
-            if (turns) angles.push_back(node.operations->channels[channel - 1]);
+            if (turns) angles.push_back(node.transform.operations->channels[channel - 1]);
         }
     }
     return angles;
@@ -62,9 +63,9 @@ std::vector<double> find_angles(const Node& node) {
 /// One line for all elements that share a mistake.
 void add_warning(Scene& scene, const std::vector<std::string>& names, const char* element, const std::string& reason) {
     if (names.empty()) return;
-    scene.warnings.push_back(fmt::format("{} \"{}\"{}: {}", element, printable(names.front()),
-                                         names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "",
-                                         reason));
+    scene.source.warnings.push_back(fmt::format("{} \"{}\"{}: {}", element, printable(names.front()),
+                                                names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "",
+                                                reason));
 }
 
 /// Times of the keys at which a track jumps to another value.
@@ -80,16 +81,16 @@ void add_jumps(const Track<T>& track, std::vector<double>& seconds) {
 std::set<std::int64_t> find_jumps(const Scene& scene, const Node* node, const FrameRange& range) {
     std::vector<double> seconds;
     for (;; node = &scene.nodes[node->parent]) {
-        add_jumps(node->translation, seconds);
-        add_jumps(node->rotation, seconds);
-        add_jumps(node->scale, seconds);
-        if (node->matrix) add_jumps(*node->matrix, seconds);
-        if (node->axis_rotation) add_jumps(node->axis_rotation->angle, seconds);
+        add_jumps(node->transform.translation, seconds);
+        add_jumps(node->transform.rotation, seconds);
+        add_jumps(node->transform.scale, seconds);
+        if (node->transform.matrix) add_jumps(*node->transform.matrix, seconds);
+        if (node->transform.axis_rotation) add_jumps(node->transform.axis_rotation->angle, seconds);
         if (node->parent == no_index) break;
     }
     std::set<std::int64_t> frames;
     const double rate =
-        static_cast<double>(scene.frame_rate.numerator) / static_cast<double>(scene.frame_rate.denominator);
+        static_cast<double>(scene.film.frame_rate.numerator) / static_cast<double>(scene.film.frame_rate.denominator);
     for (const double time : seconds) {
         const double frame = std::ceil(time * rate - 1e-6);
         if (frame > static_cast<double>(range.first) && frame <= static_cast<double>(range.last))
@@ -124,17 +125,18 @@ void add_radian_warnings(Scene& scene) {
 void add_cut_warnings(Scene& scene) {
     const FrameRange range = frame_range(scene);
     const auto is_outside = [&](std::int64_t cut) { return cut < range.first || cut > range.last; };
-    const auto outside = std::ranges::find_if(scene.cuts, is_outside);
-    if (outside != scene.cuts.end()) {
-        scene.warnings.push_back(fmt::format("the cut at frame {} lies outside the frames {} to {}, so it does nothing",
-                                             *outside, range.first, range.last));
+    const auto outside = std::ranges::find_if(scene.film.cuts, is_outside);
+    if (outside != scene.film.cuts.end()) {
+        scene.source.warnings.push_back(
+            fmt::format("the cut at frame {} lies outside the frames {} to {}, so it does nothing", *outside,
+                        range.first, range.last));
     }
     for (const Node& node : scene.nodes) {
         if (node.camera == no_index) continue;
         std::set<std::int64_t> jumps = find_jumps(scene, &node, range);
-        for (const std::int64_t cut : scene.cuts) jumps.erase(cut);
+        for (const std::int64_t cut : scene.film.cuts) jumps.erase(cut);
         if (jumps.empty()) continue;
-        scene.warnings.push_back(fmt::format(
+        scene.source.warnings.push_back(fmt::format(
             "camera of node \"{}\": step keys move it at frame {}{}, which is not in \"cuts\": every pixel "
             "seems to move there; add \"cuts\": [{}]",
             printable(node.name), *jumps.begin(),

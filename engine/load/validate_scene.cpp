@@ -25,7 +25,7 @@ class Element {
         if (!name.empty()) place_ += fmt::format(" \"{}\"", printable(name));
     }
 
-    [[noreturn]] void refuse(const std::string& reason) const { throw InputError(scene_.file, place_, reason); }
+    [[noreturn]] void refuse(const std::string& reason) const { throw InputError(scene_.source.file, place_, reason); }
     void require(bool holds, const char* reason) const {
         if (!holds) refuse(reason);
     }
@@ -40,7 +40,7 @@ class Element {
 
     template <class T>
     void check_track(const Track<T>& track) const {
-        aleph::validate(track, scene_.file, place_);
+        aleph::validate(track, scene_.source.file, place_);
     }
     void check_track(const OperationStack& stack) const {
         if (stack.operations.empty()) return;
@@ -49,7 +49,7 @@ class Element {
                 "its operations need as many channels for every sample");
         require(std::ranges::all_of(stack.channels, [](double v) { return std::isfinite(v); }),
                 "a channel of its operations is not finite");
-        aleph::validate(stack.sampling, sample_count(stack), scene_.file, place_);
+        aleph::validate(stack.sampling, sample_count(stack), scene_.source.file, place_);
     }
     void check_axis(const std::optional<AxisRotation>& rotation) const {
         if (!rotation) return;
@@ -74,34 +74,38 @@ bool is_positive(double value) {
 
 void validate_shot(const Scene& scene) {
     const auto require = [&](bool holds, const char* place, const char* reason) {
-        if (!holds) throw InputError(scene.file, place, reason);
+        if (!holds) throw InputError(scene.source.file, place, reason);
     };
-    require(scene.frame_rate.numerator > 0 && scene.frame_rate.denominator > 0, "frame rate",
+    require(scene.film.frame_rate.numerator > 0 && scene.film.frame_rate.denominator > 0, "frame rate",
             "both numbers have to be above 0");
-    require(!scene.range || scene.range->first <= scene.range->last, "range", "its last frame is before its first");
-    require(is_positive(scene.viewing.pixels_per_degree), "viewing", "pixels per degree have to be above 0");
-    require(is_positive(scene.viewing.display_white), "viewing", "the luminance of white has to be above 0");
-    require(is_positive(scene.viewing.persistence) && scene.viewing.persistence <= 1.0, "viewing",
+    require(!scene.film.range || scene.film.range->first <= scene.film.range->last, "range",
+            "its last frame is before its first");
+    require(is_positive(scene.film.viewing.pixels_per_degree), "viewing", "pixels per degree have to be above 0");
+    require(is_positive(scene.film.viewing.display_white), "viewing", "the luminance of white has to be above 0");
+    require(is_positive(scene.film.viewing.persistence) && scene.film.viewing.persistence <= 1.0, "viewing",
             "persistence has to be above 0 and at most 1");
-    require(!scene.exposure || is_positive(*scene.exposure), "exposure", "has to be above 0");
+    require(!scene.film.exposure || is_positive(*scene.film.exposure), "exposure", "has to be above 0");
     const Element environment(scene, "environment", 0, "");
-    visit_environment(scene, [&](const auto& track) { environment.check_track(track); });
-    environment.check_axis(scene.environment_axis_rotation);
-    environment.check_index(scene.environment_image, scene.images.size(), "image");
-    if (scene.environment_image == no_index) return;
-    environment.require(scene.environment.has_value(), "a picture of the surroundings needs `environment`, its factor");
-    environment.require(!scene.images[scene.environment_image].floats.empty(),
+    visit_tracks(scene.environment, [&](const auto& track) { environment.check_track(track); });
+    environment.check_axis(scene.environment.axis_rotation);
+    environment.check_index(scene.environment.image, scene.images.size(), "image");
+    if (scene.environment.image == no_index) return;
+    environment.require(scene.environment.radiance.has_value(),
+                        "a picture of the surroundings needs `environment`, its factor");
+    environment.require(!scene.images[scene.environment.image].floats.empty(),
                         "the picture of the surroundings has no floating-point pixels");
 }
 
 void validate_camera_keys(const Scene& scene) {
-    for (std::size_t i = 0; i < scene.camera_keys.size(); ++i) {
-        const Element at(scene, "camera key", i, scene.camera_keys[i].camera);
-        at.require(i == 0 || scene.camera_keys[i].frame > scene.camera_keys[i - 1].frame, "frames have to ascend");
-        find_camera(scene, scene.camera_keys[i].camera);
+    for (std::size_t i = 0; i < scene.film.camera_keys.size(); ++i) {
+        const Element at(scene, "camera key", i, scene.film.camera_keys[i].camera);
+        at.require(i == 0 || scene.film.camera_keys[i].frame > scene.film.camera_keys[i - 1].frame,
+                   "frames have to ascend");
+        find_camera(scene, scene.film.camera_keys[i].camera);
     }
-    const Element both(scene, "camera", 0, scene.camera);
-    both.require(scene.camera.empty() || scene.camera_keys.empty(), "either a camera or camera keys can be set");
+    const Element both(scene, "camera", 0, scene.film.camera);
+    both.require(scene.film.camera.empty() || scene.film.camera_keys.empty(),
+                 "either a camera or camera keys can be set");
 }
 
 void validate_nodes(const Scene& scene) {
@@ -111,11 +115,11 @@ void validate_nodes(const Scene& scene) {
         at.check_index(node.parent, scene.nodes.size(), "parent");
         at.require(node.parent < static_cast<int>(i), "its parent has to stand before it");
         visit_tracks(node, [&](const auto& track) { at.check_track(track); });
-        at.check_axis(node.axis_rotation);
+        at.check_axis(node.transform.axis_rotation);
         for (const int mesh : node.meshes) at.check_index(mesh, scene.meshes.size(), "mesh", false);
         at.check_index(node.camera, scene.cameras.size(), "camera");
         at.check_index(node.light, scene.lights.size(), "light");
-        at.check_index(node.include, scene.includes.size(), "include");
+        at.check_index(node.include, scene.source.includes.size(), "include");
     }
 }
 
@@ -125,7 +129,7 @@ void validate_materials(const Scene& scene) {
         const Element at(scene, "material", i, material.name);
         visit_tracks(material, [&](const auto& track) { at.check_track(track); });
         for (const MaterialTexture& texture : material_textures) {
-            const TextureRef& reference = material.*texture.member;
+            const TextureRef& reference = material.textures[texture.slot];
             at.check_index(reference.image, scene.images.size(), "image");
             if (reference.uv_set != 0 && reference.uv_set != 1) {
                 at.refuse(fmt::format("{}: texture coordinates 0 and 1 exist, not {}", texture.key, reference.uv_set));
@@ -160,7 +164,7 @@ void validate_motion_sources(const Scene& scene) {
         const PointCache& cache = scene.point_caches[i];
         const Element at(scene, "point cache", i, cache.name);
         at.require(!cache.positions.empty(), "has no samples");
-        validate(cache.sampling, cache.positions.size(), scene.file, fmt::format("point cache {}", i));
+        validate(cache.sampling, cache.positions.size(), scene.source.file, fmt::format("point cache {}", i));
         for (const auto& points : cache.positions) {
             at.require(points.size() == cache.point_count(), "its samples have different numbers of points");
             at.require(std::ranges::all_of(points, is_finite), "a point is not finite");
@@ -191,41 +195,45 @@ void validate_mesh(const Scene& scene, int index) {
     at.require(fits(mesh.uv[0].size()) && fits(mesh.uv[1].size()),
                "needs as many texture coordinates as positions, or none");
     at.require(fits(mesh.colors.size()), "needs as many colours as positions, or none");
-    at.require(fits(mesh.vertex_points.size()), "needs as many vertex_points as positions, or none");
+    at.require(fits(mesh.deformation.vertex_points.size()), "needs as many vertex_points as positions, or none");
     at.require(std::ranges::all_of(mesh.positions, is_finite), "a position is not finite");
     for (const glm::uvec3& triangle : mesh.triangles) {
         const std::uint32_t highest = std::max({triangle.x, triangle.y, triangle.z});
         if (highest >= count) at.refuse(fmt::format("a triangle has vertex {}, but there are {}", highest, count));
     }
     at.check_index(mesh.material, scene.materials.size(), "material");
-    at.check_index(mesh.points, scene.point_caches.size(), "point cache");
-    at.check_index(mesh.cage, scene.cages.size(), "cage");
-    at.check_index(mesh.skin, scene.skins.size(), "skin");
+    at.check_index(mesh.deformation.points, scene.point_caches.size(), "point cache");
+    at.check_index(mesh.subdivision.cage, scene.cages.size(), "cage");
+    at.check_index(mesh.deformation.skin, scene.skins.size(), "skin");
     visit_tracks(mesh, [&](const Track<double>& track) { at.check_track(track); });
-    if (mesh.points != no_index) {
-        const std::size_t points = scene.point_caches[mesh.points].point_count();
-        at.require(!mesh.vertex_points.empty() || count <= points, "has more vertices than its point cache has points");
-        for (const std::uint32_t point : mesh.vertex_points) {
+    if (mesh.deformation.points != no_index) {
+        const std::size_t points = scene.point_caches[mesh.deformation.points].point_count();
+        at.require(!mesh.deformation.vertex_points.empty() || count <= points,
+                   "has more vertices than its point cache has points");
+        for (const std::uint32_t point : mesh.deformation.vertex_points) {
             if (point >= points) at.refuse(fmt::format("a vertex uses point {}, but the cache has {}", point, points));
         }
     }
-    for (const auto& normals : mesh.normal_samples) {
+    for (const auto& normals : mesh.deformation.normal_samples) {
         at.require(normals.size() == count, "a sample of its normals has another number of them than of positions");
     }
-    if (!mesh.normal_samples.empty()) {
-        validate(mesh.normal_sampling, mesh.normal_samples.size(), scene.file, fmt::format("mesh {}", index));
+    if (!mesh.deformation.normal_samples.empty()) {
+        validate(mesh.deformation.normal_sampling, mesh.deformation.normal_samples.size(), scene.source.file,
+                 fmt::format("mesh {}", index));
     }
-    at.require(mesh.target_weights.size() == mesh.targets.size(), "needs one weight track for each morph target");
-    for (const MorphTarget& target : mesh.targets) {
+    at.require(mesh.deformation.target_weights.size() == mesh.deformation.targets.size(),
+               "needs one weight track for each morph target");
+    for (const MorphTarget& target : mesh.deformation.targets) {
         at.require(fits(target.positions.size()) && fits(target.normals.size()),
                    "a morph target needs as many displacements as the mesh has positions, or none");
     }
-    if (mesh.skin == no_index) return;
-    at.require(mesh.joints_per_vertex > 0 &&
-                   mesh.joint_weights.size() == count * static_cast<std::size_t>(mesh.joints_per_vertex),
+    if (mesh.deformation.skin == no_index) return;
+    at.require(mesh.deformation.joints_per_vertex > 0 &&
+                   mesh.deformation.joint_weights.size() ==
+                       count * static_cast<std::size_t>(mesh.deformation.joints_per_vertex),
                "needs joints_per_vertex weights for each vertex");
-    const std::size_t joints = scene.skins[mesh.skin].joints.size();
-    for (const JointWeight& weight : mesh.joint_weights) {
+    const std::size_t joints = scene.skins[mesh.deformation.skin].joints.size();
+    for (const JointWeight& weight : mesh.deformation.joint_weights) {
         at.check_index(static_cast<int>(weight.joint), joints, "joint", false);
     }
 }

@@ -9,7 +9,7 @@ namespace aleph {
 /// Checks that every index names an element, that arrays which belong together have fitting sizes, and that every
 /// number that a picture depends on is finite and in its range: tracks, frame rate, range, viewing, points.
 /// Textures' pixels, a mesh's normals, texture coordinates and colours may be any number.
-/// @throws InputError: Scene::file, the element (`node 3 "ball"`), the reason
+/// @throws InputError: SceneSource::file, the element (`node 3 "ball"`), the reason
 void validate(const Scene& scene);
 
 /// A mesh of the scene: sizes and indices of its arrays, and its points.

@@ -46,20 +46,21 @@ bool is_positive_somewhere(const Track<T>& track) {
 void add_rotation_warnings(Scene& scene) {
     for (const Node& node : scene.nodes) {
         // Other readers warn of their own nodes, with the place in the file.
-        if (node.include == no_index && !node.matrix && !node.axis_rotation)
-            add_rotation_warnings(node.rotation, fmt::format("node \"{}\"", printable(node.name)), scene.warnings);
+        if (node.include == no_index && !node.transform.matrix && !node.transform.axis_rotation)
+            add_rotation_warnings(node.transform.rotation, fmt::format("node \"{}\"", printable(node.name)),
+                                  scene.source.warnings);
     }
-    if (!scene.environment_axis_rotation)
-        add_rotation_warnings(scene.environment_rotation, "environment_rotation", scene.warnings);
+    if (!scene.environment.axis_rotation)
+        add_rotation_warnings(scene.environment.rotation, "environment_rotation", scene.source.warnings);
 }
 
 bool gives_light(const Material& material) {
-    return !material.unlit && is_positive_somewhere(material.emission) &&
-           is_positive_somewhere(material.emission_strength);
+    return !material.unlit && is_positive_somewhere(material.glow.color) &&
+           is_positive_somewhere(material.glow.strength);
 }
 
 bool has_light(const Scene& scene) {
-    if (scene.environment && is_positive_somewhere(*scene.environment)) return true;
+    if (scene.environment.radiance && is_positive_somewhere(*scene.environment.radiance)) return true;
     return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
         if (node.light != no_index) return true;
         return std::any_of(node.meshes.begin(), node.meshes.end(), [&](int mesh) {
@@ -71,9 +72,9 @@ bool has_light(const Scene& scene) {
 }
 
 void add_missing_light(Scene& scene) {
-    if (has_light(scene) || scene.environment) return;  // a black environment is a choice
-    scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
-    scene.warnings.emplace_back("there is no light: a constant white environment was added");
+    if (has_light(scene) || scene.environment.radiance) return;  // a black environment is a choice
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
+    scene.source.warnings.emplace_back("there is no light: a constant white environment was added");
 }
 
 }  // namespace aleph

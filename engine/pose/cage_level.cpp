@@ -83,16 +83,16 @@ double measure_bend(const LimitSurface& surface, int part, const std::vector<glm
 
 /// Fills what depends on time.
 void place_shape(SurfaceShape& shape, const Scene& scene, const Mesh& mesh, double seconds) {
-    const Cage& cage = scene.cages[mesh.cage];
+    const Cage& cage = scene.cages[mesh.subdivision.cage];
     const auto control = shape.surface->make_control_points(cage_points_at(scene, cage, seconds));
     std::vector<glm::vec3> normals;
-    shape.surface->evaluate_vertices(mesh.cage_part, control, shape.positions, normals);
+    shape.surface->evaluate_vertices(mesh.subdivision.part, control, shape.positions, normals);
     shape.bends.resize(shape.triangles.size());
     constexpr std::size_t triangles_per_chunk = 1024;
     parallel_for(shape.bends.size(), triangles_per_chunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            shape.bends[i] = measure_bend(*shape.surface, mesh.cage_part, control, shape.positions, shape.triangles[i],
-                                          static_cast<int>(i));
+            shape.bends[i] = measure_bend(*shape.surface, mesh.subdivision.part, control, shape.positions,
+                                          shape.triangles[i], static_cast<int>(i));
         }
     });
 }
@@ -139,7 +139,7 @@ class Shapes {
     const SurfaceShape& at(int mesh_index, double seconds) {
         const auto m = static_cast<std::size_t>(mesh_index);
         const Mesh& mesh = scene_.meshes[m];
-        const Cage& cage = scene_.cages[mesh.cage];
+        const Cage& cage = scene_.cages[mesh.subdivision.cage];
         const PointCache& cache = scene_.point_caches[cage.points];
         SurfaceShape& shape = shapes_[m];
         const bool is_new = shape.surface == nullptr;
@@ -153,13 +153,13 @@ class Shapes {
 
   private:
     void choose_surface(SurfaceShape& shape, const Mesh& mesh, const Cage& cage, std::size_t points) {
-        shape.surface = mesh.limit.surface;
+        shape.surface = mesh.subdivision.limit.surface;
         shape.triangles = mesh.triangles;
         if (shape.surface->level() >= lowest_measured_level) return;
-        auto& probe = probes_[mesh.cage];
+        auto& probe = probes_[mesh.subdivision.cage];
         if (probe == nullptr) probe = std::make_shared<const LimitSurface>(cage, points, lowest_measured_level);
         shape.surface = probe;
-        shape.triangles = probe->triangles(mesh.cage_part);
+        shape.triangles = probe->triangles(mesh.subdivision.part);
     }
 
     const Scene& scene_;
@@ -185,12 +185,12 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
     std::vector<Instance> instances = list_instances(scene);
     std::erase_if(instances, [&](const Instance& instance) {
         const Mesh& mesh = scene.meshes[instance.mesh];
-        return mesh.cage == no_index || mesh.limit.surface == nullptr || mesh.triangles.empty();
+        return mesh.subdivision.cage == no_index || mesh.subdivision.limit.surface == nullptr || mesh.triangles.empty();
     });
     std::vector<double> most(scene.cages.size(), -std::numeric_limits<double>::infinity());
     Shapes shapes(scene);
     for (const std::int64_t number : sample_frames(frame_range(scene), settings.samples)) {
-        const double seconds = scene.frame_rate.seconds_of(number);
+        const double seconds = scene.film.frame_rate.seconds_of(number);
         ScenePose posed = place_nodes(scene, seconds);
         posed.instances = instances;
         const CameraView view =
@@ -198,7 +198,7 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
         for (std::size_t i = 0; i < instances.size(); ++i) {
             if (!is_shown(scene, posed, i)) continue;
             const Mesh& mesh = scene.meshes[instances[i].mesh];
-            double& needed = most[mesh.cage];
+            double& needed = most[mesh.subdivision.cage];
             needed = std::max(needed, find_level_needed(shapes.at(instances[i].mesh, seconds),
                                                         posed.world[instances[i].node], view, settings));
         }
@@ -208,7 +208,7 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
 
 std::size_t count_triangles(const Cage& cage, int level) {
     std::size_t pieces = 0;  // triangles at level 0 were every face a quad or a Loop triangle
-    for (const int size : cage.face_sizes) {
+    for (const int size : cage.faces.sizes) {
         pieces += cage.scheme == Cage::Scheme::loop ? 2u : size == 4 ? 4u : static_cast<std::size_t>(size);
     }
     return pieces * (std::size_t{1} << (2 * level)) / 2;

@@ -15,28 +15,27 @@ namespace aleph {
 namespace {
 
 bool is_skinned(const Mesh& mesh) {
-    return mesh.skin != no_index && mesh.joints_per_vertex > 0;
+    return mesh.deformation.skin != no_index && mesh.deformation.joints_per_vertex > 0;
 }
 
 const PointCache& cache_of(const Scene& scene, const Mesh& mesh) {
-    return scene.point_caches[mesh.points];
+    return scene.point_caches[mesh.deformation.points];
 }
 
 bool is_cage_animated(const Scene& scene, const Mesh& mesh) {
-    if (mesh.cage == no_index || mesh.limit.surface == nullptr) return false;
-    const int points = scene.cages[mesh.cage].points;
+    if (mesh.subdivision.cage == no_index || mesh.subdivision.limit.surface == nullptr) return false;
+    const int points = scene.cages[mesh.subdivision.cage].points;
     return points != no_index && is_animated(scene.point_caches[points]);
 }
 
-bool are_weights_on(const Mesh& mesh) {
-    return std::ranges::any_of(mesh.target_weights, [](const Track<double>& weight) {
+bool are_weights_on(const Deformation& deformation) {
+    return std::ranges::any_of(deformation.target_weights, [](const Track<double>& weight) {
         return is_animated(weight) || key_value(weight, 0) != 0.0;
     });
 }
 
-bool has_normal_samples(const Mesh& mesh) {
-    return std::ranges::any_of(mesh.normal_samples,
-                               [&](const auto& sample) { return sample != mesh.normal_samples.front(); });
+bool has_moving_normals(const std::vector<std::vector<glm::vec3>>& samples) {
+    return std::ranges::any_of(samples, [&](const auto& sample) { return sample != samples.front(); });
 }
 
 /// Vertices of one point and one rest normal get one number.
@@ -45,7 +44,7 @@ std::vector<std::uint32_t> group_normals(const Mesh& mesh) {
     std::map<std::tuple<std::uint32_t, float, float, float>, std::uint32_t> known;
     for (std::uint32_t v = 0; v < groups.size(); ++v) {
         const glm::vec3& n = mesh.normals[v];
-        const std::uint32_t point = mesh.vertex_points.empty() ? v : mesh.vertex_points[v];
+        const std::uint32_t point = mesh.deformation.vertex_points.empty() ? v : mesh.deformation.vertex_points[v];
         const auto next = static_cast<std::uint32_t>(known.size());
         groups[v] = known.try_emplace({point, n.x, n.y, n.z}, next).first->second;
     }
@@ -73,11 +72,12 @@ std::vector<glm::vec3> find_normals(const Mesh& mesh, const std::vector<glm::dve
     return normals;
 }
 
-std::vector<glm::vec3> sample_normals(const Mesh& mesh, double seconds) {
-    const SampleSpan span = find_samples(mesh.normal_sampling, mesh.normal_samples.size(), seconds);
-    std::vector<glm::vec3> normals = mesh.normal_samples[span.floor];
+std::vector<glm::vec3> sample_normals(const Deformation& deformation, double seconds) {
+    const auto& samples = deformation.normal_samples;
+    const SampleSpan span = find_samples(deformation.normal_sampling, samples.size(), seconds);
+    std::vector<glm::vec3> normals = samples[span.floor];
     if (span.floor == span.ceil) return normals;
-    const std::vector<glm::vec3>& next = mesh.normal_samples[span.ceil];
+    const std::vector<glm::vec3>& next = samples[span.ceil];
     const auto fraction = static_cast<float>(span.fraction);
     for (std::size_t v = 0; v < normals.size(); ++v) normals[v] += (next[v] - normals[v]) * fraction;
     return normals;
@@ -86,16 +86,17 @@ std::vector<glm::vec3> sample_normals(const Mesh& mesh, double seconds) {
 void deform_points(const Scene& scene, const Deformer& deformer, double seconds, PosedMesh& posed) {
     const Mesh& mesh = scene.meshes[deformer.mesh];
     std::vector<glm::dvec3> points = sample_points(cache_of(scene, mesh), seconds);
-    if (mesh.vertex_points.empty()) {
+    const std::vector<std::uint32_t>& vertex_points = mesh.deformation.vertex_points;
+    if (vertex_points.empty()) {
         posed.positions = std::move(points);
     } else {
-        posed.positions.resize(mesh.vertex_points.size());
-        for (std::size_t v = 0; v < posed.positions.size(); ++v) posed.positions[v] = points[mesh.vertex_points[v]];
+        posed.positions.resize(vertex_points.size());
+        for (std::size_t v = 0; v < posed.positions.size(); ++v) posed.positions[v] = points[vertex_points[v]];
     }
     if (!deformer.normal_groups.empty()) {
         posed.normals = find_normals(mesh, posed.positions, deformer.normal_groups);
-    } else if (!mesh.normal_samples.empty()) {
-        posed.normals = sample_normals(mesh, seconds);
+    } else if (!mesh.deformation.normal_samples.empty()) {
+        posed.normals = sample_normals(mesh.deformation, seconds);
     } else {
         posed.normals = mesh.normals;
     }
@@ -106,10 +107,11 @@ void morph(const Mesh& mesh, double seconds, PosedMesh& posed) {
     posed.positions.assign(mesh.positions.begin(), mesh.positions.end());
     std::vector<glm::dvec3> normals(mesh.normals.begin(), mesh.normals.end());
     bool moves_normals = false;
-    for (std::size_t i = 0; i < std::min(mesh.targets.size(), mesh.target_weights.size()); ++i) {
-        const double weight = evaluate(mesh.target_weights[i], seconds);
+    const Deformation& deformation = mesh.deformation;
+    for (std::size_t i = 0; i < std::min(deformation.targets.size(), deformation.target_weights.size()); ++i) {
+        const double weight = evaluate(deformation.target_weights[i], seconds);
         if (weight == 0.0) continue;
-        const MorphTarget& target = mesh.targets[i];
+        const MorphTarget& target = deformation.targets[i];
         for (std::size_t v = 0; v < target.positions.size(); ++v)
             posed.positions[v] += weight * glm::dvec3(target.positions[v]);
         if (normals.empty() || target.normals.empty()) continue;
@@ -127,18 +129,18 @@ void apply_skin(const Scene& scene, const Mesh& mesh, int node, std::span<const 
     const glm::dmat4& placed = world[node];
     if (!has_full_rank(placed)) return;
     const glm::dmat4 undo = glm::inverse(placed);
-    const Skin& skin = scene.skins[mesh.skin];
+    const Skin& skin = scene.skins[mesh.deformation.skin];
     std::vector<glm::dmat4> joints;
     joints.reserve(skin.joints.size());
     for (std::size_t j = 0; j < skin.joints.size(); ++j)
         joints.push_back(undo * world[skin.joints[j]] * skin.inverse_binds[j]);
 
-    const auto per_vertex = static_cast<std::size_t>(mesh.joints_per_vertex);
+    const auto per_vertex = static_cast<std::size_t>(mesh.deformation.joints_per_vertex);
     for (std::size_t v = 0; v < posed.positions.size(); ++v) {
         glm::dmat4 blend(0.0);
         double sum = 0.0;
         for (std::size_t k = 0; k < per_vertex; ++k) {
-            const JointWeight& influence = mesh.joint_weights[v * per_vertex + k];
+            const JointWeight& influence = mesh.deformation.joint_weights[v * per_vertex + k];
             if (influence.weight == 0.0f) continue;
             blend += joints[influence.joint] * static_cast<double>(influence.weight);
             sum += static_cast<double>(influence.weight);
@@ -159,14 +161,14 @@ struct LastCage {
 };
 
 void deform_cage(const Scene& scene, const Mesh& mesh, double seconds, LastCage& last, PosedMesh& posed) {
-    const LimitSurface& surface = *mesh.limit.surface;
-    if (last.cage != mesh.cage || last.surface != &surface) {
-        last.cage = mesh.cage;
+    const LimitSurface& surface = *mesh.subdivision.limit.surface;
+    if (last.cage != mesh.subdivision.cage || last.surface != &surface) {
+        last.cage = mesh.subdivision.cage;
         last.surface = &surface;
-        last.control = surface.make_control_points(cage_points_at(scene, scene.cages[mesh.cage], seconds));
+        last.control = surface.make_control_points(cage_points_at(scene, scene.cages[mesh.subdivision.cage], seconds));
     }
     posed.control = last.control;
-    surface.evaluate_vertices(mesh.cage_part, posed.control, posed.positions, posed.normals);
+    surface.evaluate_vertices(mesh.subdivision.part, posed.control, posed.positions, posed.normals);
 }
 
 }  // namespace
@@ -183,13 +185,17 @@ std::vector<Deformer> find_deformers(const Scene& scene, std::span<const std::ui
         Deformer deformer{static_cast<int>(m), node_of[m], false, {}};
         if (is_skinned(mesh)) {
             const auto moves = [&](int node) { return moving_nodes[node] != 0; };
-            deformer.changes = moves(deformer.node) || std::ranges::any_of(scene.skins[mesh.skin].joints, moves) ||
-                               std::ranges::any_of(mesh.target_weights, [](const auto& w) { return is_animated(w); });
-        } else if (mesh.points != no_index && (is_animated(cache_of(scene, mesh)) || has_normal_samples(mesh))) {
+            deformer.changes =
+                moves(deformer.node) || std::ranges::any_of(scene.skins[mesh.deformation.skin].joints, moves) ||
+                std::ranges::any_of(mesh.deformation.target_weights, [](const auto& w) { return is_animated(w); });
+        } else if (mesh.deformation.points != no_index &&
+                   (is_animated(cache_of(scene, mesh)) || has_moving_normals(mesh.deformation.normal_samples))) {
             deformer.changes = true;
-            if (mesh.normal_samples.empty() && !mesh.normals.empty()) deformer.normal_groups = group_normals(mesh);
-        } else if (are_weights_on(mesh)) {
-            deformer.changes = std::ranges::any_of(mesh.target_weights, [](const auto& w) { return is_animated(w); });
+            if (mesh.deformation.normal_samples.empty() && !mesh.normals.empty())
+                deformer.normal_groups = group_normals(mesh);
+        } else if (are_weights_on(mesh.deformation)) {
+            deformer.changes =
+                std::ranges::any_of(mesh.deformation.target_weights, [](const auto& w) { return is_animated(w); });
         } else if (is_cage_animated(scene, mesh)) {
             deformer.changes = true;
         } else {
@@ -213,9 +219,9 @@ void deform(const Scene& scene, std::span<const Deformer> deformers, std::span<c
             target = {};
         } else if (!all && !deformer.changes && !target.positions.empty()) {
             continue;
-        } else if (mesh.cage != no_index && mesh.limit.surface != nullptr) {
+        } else if (mesh.subdivision.cage != no_index && mesh.subdivision.limit.surface != nullptr) {
             deform_cage(scene, mesh, seconds, last, target);
-        } else if (mesh.points != no_index) {
+        } else if (mesh.deformation.points != no_index) {
             deform_points(scene, deformer, seconds, target);
         } else {
             morph(mesh, seconds, target);

@@ -33,13 +33,13 @@ glm::dquat rotation_at(const Track<glm::dquat>& rotation, const std::optional<Ax
     return safe_normalize(glm::dquat(std::cos(half), axis * std::sin(half)));
 }
 
-glm::dmat4 local_transform(const Node& node, double seconds) {
-    if (node.operations) return evaluate(*node.operations, seconds);
-    if (node.matrix) return evaluate(*node.matrix, seconds);
-    const glm::dmat3 rotation = glm::mat3_cast(rotation_at(node.rotation, node.axis_rotation, seconds));
-    const glm::dvec3 scale = evaluate(node.scale, seconds);
+glm::dmat4 matrix_at(const LocalTransform& local, double seconds) {
+    if (local.operations) return evaluate(*local.operations, seconds);
+    if (local.matrix) return evaluate(*local.matrix, seconds);
+    const glm::dmat3 rotation = glm::mat3_cast(rotation_at(local.rotation, local.axis_rotation, seconds));
+    const glm::dvec3 scale = evaluate(local.scale, seconds);
     return {glm::dvec4(rotation[0] * scale.x, 0.0), glm::dvec4(rotation[1] * scale.y, 0.0),
-            glm::dvec4(rotation[2] * scale.z, 0.0), glm::dvec4(evaluate(node.translation, seconds), 1.0)};
+            glm::dvec4(rotation[2] * scale.z, 0.0), glm::dvec4(evaluate(local.translation, seconds), 1.0)};
 }
 
 /// The value of a key, without interpolation: for visibility, which does not fade.
@@ -55,7 +55,7 @@ double evaluate_whole(const Track<double>& track, double seconds) {
 void place_node(const Scene& scene, int index, double seconds, ScenePose& posed) {
     const Node& node = scene.nodes[index];
     ALEPH_CHECK(node.parent < index, fmt::format("node {} has parent {}", index, node.parent));
-    const glm::dmat4 local = local_transform(node, seconds);
+    const glm::dmat4 local = matrix_at(node.transform, seconds);
     const double visible = evaluate_whole(node.visible, seconds);
     const bool root = node.parent == no_index;
     const bool detached = root || evaluate_whole(node.inherits, seconds) == 0.0;
@@ -83,26 +83,32 @@ bool is_always_present(const Mesh& mesh) {
 }
 
 MaterialValues pose_material(const Material& material, double seconds) {
-    MaterialValues values;
-    values.base_color = Rgb(glm::min(not_negative(material.base_color, seconds), glm::dvec3(1.0)));
-    values.alpha = unit_range(material.alpha, seconds);
-    values.metallic = unit_range(material.metallic, seconds);
-    values.roughness = unit_range(material.roughness, seconds);
-    values.emission = Rgb(not_negative(material.emission, seconds) * not_negative(material.emission_strength, seconds));
-    values.specular = unit_range(material.specular, seconds);
-    values.specular_color = Rgb(not_negative(material.specular_color, seconds));
-    values.transmission = unit_range(material.transmission, seconds);
-    values.ior = static_cast<float>(not_negative(material.ior, seconds));
-    values.thickness = static_cast<float>(not_negative(material.thickness, seconds));
-    values.attenuation_distance = static_cast<float>(not_negative(material.attenuation_distance, seconds));
-    values.attenuation_color = Rgb(glm::min(not_negative(material.attenuation_color, seconds), glm::dvec3(1.0)));
-    values.clearcoat = unit_range(material.clearcoat, seconds);
-    values.clearcoat_roughness = unit_range(material.clearcoat_roughness, seconds);
-    values.sheen_color = Rgb(glm::min(not_negative(material.sheen_color, seconds), glm::dvec3(1.0)));
-    values.sheen_roughness = unit_range(material.sheen_roughness, seconds);
-    values.anisotropy = unit_range(material.anisotropy, seconds);
-    values.anisotropy_rotation = static_cast<float>(evaluate(material.anisotropy_rotation, seconds));
-    return values;
+    const auto unit = [&](const Track<double>& track) { return unit_range(track, seconds); };
+    const auto positive = [&](const Track<double>& track) { return static_cast<float>(not_negative(track, seconds)); };
+    const auto color = [&](const Track<glm::dvec3>& track) {
+        return Rgb(glm::min(not_negative(track, seconds), glm::dvec3(1.0)));
+    };
+    const Gloss& gloss = material.gloss;
+    const Glass& glass = material.glass;
+    const Layers& layers = material.layers;
+    return {.base_color = color(material.base_color),
+            .alpha = unit(material.opacity.alpha),
+            .emission = Rgb(not_negative(material.glow.color, seconds) * not_negative(material.glow.strength, seconds)),
+            .gloss = {.metallic = unit(gloss.metallic),
+                      .roughness = unit(gloss.roughness),
+                      .specular = unit(gloss.specular),
+                      .specular_color = Rgb(not_negative(gloss.specular_color, seconds)),
+                      .ior = positive(gloss.ior)},
+            .glass = {.transmission = unit(glass.transmission),
+                      .thickness = positive(glass.thickness),
+                      .attenuation_distance = positive(glass.attenuation_distance),
+                      .attenuation_color = color(glass.attenuation_color)},
+            .layers = {.clearcoat = unit(layers.clearcoat),
+                       .clearcoat_roughness = unit(layers.clearcoat_roughness),
+                       .sheen_color = color(layers.sheen_color),
+                       .sheen_roughness = unit(layers.sheen_roughness),
+                       .anisotropy = unit(layers.anisotropy),
+                       .anisotropy_rotation = static_cast<float>(evaluate(layers.anisotropy_rotation, seconds))}};
 }
 
 LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, double seconds) {
@@ -136,10 +142,9 @@ CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, 
             .focus_distance = not_negative(camera.focus_distance, seconds)};
 }
 
-void pose_environment(const Scene& scene, double seconds, ScenePose& posed) {
-    posed.environment = scene.environment ? Rgb(not_negative(*scene.environment, seconds)) : Rgb(0.0f);
-    posed.environment_rotation =
-        glm::mat3_cast(rotation_at(scene.environment_rotation, scene.environment_axis_rotation, seconds));
+void pose_environment(const Environment& environment, double seconds, ScenePose& posed) {
+    posed.environment = environment.radiance ? Rgb(not_negative(*environment.radiance, seconds)) : Rgb(0.0f);
+    posed.environment_rotation = glm::mat3_cast(rotation_at(environment.rotation, environment.axis_rotation, seconds));
 }
 
 }  // namespace aleph

@@ -22,6 +22,6 @@ bool is_always_present(const Mesh& mesh);
 MaterialValues pose_material(const Material& material, double seconds);
 LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, double seconds);
 CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, double seconds);
-void pose_environment(const Scene& scene, double seconds, ScenePose& posed);
+void pose_environment(const Environment& environment, double seconds, ScenePose& posed);
 
 }  // namespace aleph

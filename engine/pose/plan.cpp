@@ -62,7 +62,8 @@ PosePlan make_pose_plan(const Scene& scene) {
     plan_instances(scene, plan);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (has_animated_tracks(scene.materials[i])) plan.materials.push_back(static_cast<int>(i));
-    visit_environment(scene, [&](const auto& track) { plan.environment = plan.environment || is_animated(track); });
+    visit_tracks(scene.environment,
+                 [&](const auto& track) { plan.environment = plan.environment || is_animated(track); });
     return plan;
 }
 
@@ -94,7 +95,7 @@ void update_pose(const Scene& scene, const PosePlan& plan, double seconds, Scene
         CameraValues& values = posed.cameras[camera];
         values = pose_camera(scene, values.node, posed.world[values.node], seconds);
     }
-    if (plan.environment) pose_environment(scene, seconds, posed);
+    if (plan.environment) pose_environment(scene.environment, seconds, posed);
 }
 
 }  // namespace aleph

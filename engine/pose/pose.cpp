@@ -33,7 +33,7 @@ ScenePose pose(const Scene& scene, double seconds) {
     deform(scene, deformers, shown, true, posed);
     posed.materials.reserve(scene.materials.size());
     for (const Material& material : scene.materials) posed.materials.push_back(pose_material(material, seconds));
-    pose_environment(scene, seconds, posed);
+    pose_environment(scene.environment, seconds, posed);
     return posed;
 }
 

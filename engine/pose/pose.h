@@ -20,19 +20,10 @@ struct Instance {
 struct MaterialValues {
     Rgb base_color{1.0f};
     float alpha = 1.0f;
-    float metallic = 1.0f, roughness = 1.0f;
     Rgb emission{0.0f};  ///< radiance, strength included
-    float specular = 1.0f;
-    Rgb specular_color{1.0f};
-    float ior = 1.5f;
-    float transmission = 0.0f;
-    float thickness = 0.0f;             ///< m; above 0: the mesh encloses a volume
-    float attenuation_distance = 0.0f;  ///< m; 0: no attenuation
-    Rgb attenuation_color{1.0f};
-    float clearcoat = 0.0f, clearcoat_roughness = 0.0f;
-    Rgb sheen_color{0.0f};
-    float sheen_roughness = 0.0f;
-    float anisotropy = 0.0f, anisotropy_rotation = 0.0f;  ///< rotation in radians
+    GlossOf<float, Rgb> gloss;
+    GlassOf<float, Rgb> glass;
+    LayersOf<float, Rgb> layers;
     bool operator==(const MaterialValues&) const = default;
 };
 
@@ -80,7 +71,7 @@ struct ScenePose {
     std::vector<MaterialValues> materials;
     std::vector<LightValues> lights;       ///< visible nodes that hold a light, in node order
     std::vector<CameraValues> cameras;     ///< nodes that hold a camera, in node order
-    Rgb environment{0.0f};                 ///< radiance, or factor on Scene::environment_image
+    Rgb environment{0.0f};                 ///< radiance, or factor on Environment::image
     glm::dmat3 environment_rotation{1.0};  ///< picture to world
 };
 
@@ -93,7 +84,7 @@ std::vector<std::uint8_t> list_ever_shown(const Scene& scene);
 /// Poses the scene at a time, s. The result depends on the arguments alone. Any depth of the hierarchy is fine.
 ScenePose pose(const Scene& scene, double seconds);
 
-/// The scene's frames: Scene::range where given, else the span of all keys, rounded inwards to whole frames.
+/// The scene's frames: Film::range where given, else the span of all keys, rounded inwards to whole frames.
 FrameRange frame_range(const Scene& scene);
 
 /// Index into ScenePose::cameras (the same at every time) by node or camera name; an empty name takes the scene's

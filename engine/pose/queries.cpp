@@ -66,7 +66,7 @@ std::vector<std::uint8_t> list_ever_shown(const Scene& scene) {
 }
 
 FrameRange frame_range(const Scene& scene) {
-    if (scene.range) return *scene.range;
+    if (scene.film.range) return *scene.film.range;
     double earliest = std::numeric_limits<double>::infinity(), latest = -earliest;
     const auto widen_samples = [&](const TimeSampling& sampling, std::size_t count) {
         if (count <= 1) return;
@@ -80,22 +80,22 @@ FrameRange frame_range(const Scene& scene) {
     for (const Node& node : scene.nodes) visit_tracks(node, visit);
     for (const Mesh& mesh : scene.meshes) {
         visit_tracks(mesh, visit);
-        widen_samples(mesh.normal_sampling, mesh.normal_samples.size());
+        widen_samples(mesh.deformation.normal_sampling, mesh.deformation.normal_samples.size());
     }
     for (const PointCache& cache : scene.point_caches) widen_samples(cache.sampling, cache.positions.size());
     for (const Material& material : scene.materials) visit_tracks(material, visit);
     for (const Light& light : scene.lights) visit_tracks(light, visit);
     for (const Camera& camera : scene.cameras) visit_tracks(camera, visit);
-    visit_environment(scene, visit);
-    for (const CameraKey& key : scene.camera_keys) {
-        earliest = std::min(earliest, scene.frame_rate.seconds_of(key.frame));
-        latest = std::max(latest, scene.frame_rate.seconds_of(key.frame));
+    visit_tracks(scene.environment, visit);
+    for (const CameraKey& key : scene.film.camera_keys) {
+        earliest = std::min(earliest, scene.film.frame_rate.seconds_of(key.frame));
+        latest = std::max(latest, scene.film.frame_rate.seconds_of(key.frame));
     }
     if (!(earliest <= latest)) return {};
 
     // A key within rounding of a frame is on it: single-precision times are off by up to 6e-8 of themselves.
     const auto slack = [](double frame) { return 1e-6 + 1.2e-7 * std::abs(frame); };
-    const double per_second = scene.frame_rate.per_second();
+    const double per_second = scene.film.frame_rate.per_second();
     const double limit = 9e15;  // whole numbers are exact in double up to here
     const double begin = std::clamp(earliest * per_second, -limit, limit);
     const double end = std::clamp(latest * per_second, -limit, limit);
@@ -105,12 +105,13 @@ FrameRange frame_range(const Scene& scene) {
 }
 
 int find_camera(const Scene& scene, const std::string& name) {
-    const std::string& chosen = scene.camera_keys.empty() ? scene.camera : scene.camera_keys.front().camera;
+    const std::string& chosen =
+        scene.film.camera_keys.empty() ? scene.film.camera : scene.film.camera_keys.front().camera;
     const std::string& wanted = name.empty() ? chosen : name;
     std::vector<const Node*> holders;
     for (const Node& node : scene.nodes)
         if (node.camera != no_index) holders.push_back(&node);
-    if (holders.empty()) throw InputError(scene.file, "camera", "the scene has no camera");
+    if (holders.empty()) throw InputError(scene.source.file, "camera", "the scene has no camera");
     if (wanted.empty()) return 0;
 
     const auto index_where = [&](const auto& is_it) {
@@ -127,14 +128,14 @@ int find_camera(const Scene& scene, const std::string& name) {
         const std::string& shown = node->name.empty() ? camera_name(node) : node->name;
         known += fmt::format("{}'{}'", known.empty() ? "" : ", ", printable(shown));
     }
-    throw InputError(scene.file, "camera",
+    throw InputError(scene.source.file, "camera",
                      fmt::format("there is no camera '{}'; there is {}", printable(wanted), known));
 }
 
 std::vector<CameraShot> list_camera_shots(const Scene& scene, const std::string& name) {
     std::vector<CameraShot> shots{{0, find_camera(scene, name)}};
     if (!name.empty()) return shots;
-    for (const CameraKey& key : scene.camera_keys) {
+    for (const CameraKey& key : scene.film.camera_keys) {
         const int camera = find_camera(scene, key.camera);
         if (camera != shots.back().camera) shots.push_back({key.frame, camera});
     }
@@ -155,14 +156,14 @@ bool is_world_animated(const Scene& scene) {
         if (content[i]) visit_tracks(scene.nodes[i], look);
     for (const Mesh& mesh : scene.meshes) {
         visit_tracks(mesh, look);
-        animated = animated || std::ranges::any_of(mesh.normal_samples, [&](const auto& sample) {
-                       return sample != mesh.normal_samples.front();
+        animated = animated || std::ranges::any_of(mesh.deformation.normal_samples, [&](const auto& sample) {
+                       return sample != mesh.deformation.normal_samples.front();
                    });
     }
     for (const PointCache& cache : scene.point_caches) look(cache);
     for (const Material& material : scene.materials) visit_tracks(material, look);
     for (const Light& light : scene.lights) visit_tracks(light, look);
-    visit_environment(scene, look);
+    visit_tracks(scene.environment, look);
     return animated;
 }
 

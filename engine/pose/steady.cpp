@@ -74,12 +74,13 @@ bool has_steady_tracks(const Element& element, double from, double to) {
 }
 
 bool is_mesh_steady(const Mesh& mesh, double from, double to) {
-    return has_steady_tracks(mesh, from, to) && are_samples_steady(mesh.normal_sampling, mesh.normal_samples, from, to);
+    return has_steady_tracks(mesh, from, to) &&
+           are_samples_steady(mesh.deformation.normal_sampling, mesh.deformation.normal_samples, from, to);
 }
 
 bool is_environment_steady(const Scene& scene, double from, double to) {
     bool steady = true;
-    visit_environment(scene, [&](const auto& track) { steady = steady && is_steady(track, from, to); });
+    visit_tracks(scene.environment, [&](const auto& track) { steady = steady && is_steady(track, from, to); });
     return steady;
 }
 
@@ -100,8 +101,8 @@ SteadySpans::SteadySpans(const Scene& scene, const PosePlan& plan)
     sort_unique(meshes_);
     for (const int m : meshes_) {
         const Mesh& mesh = scene.meshes[m];
-        if (mesh.points != no_index) point_caches_.push_back(mesh.points);
-        if (mesh.cage != no_index) point_caches_.push_back(scene.cages[mesh.cage].points);
+        if (mesh.deformation.points != no_index) point_caches_.push_back(mesh.deformation.points);
+        if (mesh.subdivision.cage != no_index) point_caches_.push_back(scene.cages[mesh.subdivision.cage].points);
     }
     std::erase(point_caches_, no_index);
     sort_unique(point_caches_);

@@ -37,8 +37,8 @@ bool is_opaque(const SceneImage& image) {
 
 /// True where alpha is 1 everywhere, at every time.
 bool is_opaque(const Scene& scene, const Mesh& mesh, const Material& material) {
-    const int image = material.base_color_texture.image;
-    return !is_animated(material.alpha) && evaluate(material.alpha, 0.0) == 1.0 &&
+    const int image = material.textures[TextureSlot::base_color].image;
+    return !is_animated(material.opacity.alpha) && evaluate(material.opacity.alpha, 0.0) == 1.0 &&
            std::ranges::all_of(mesh.colors, [](const glm::vec4& color) { return color.w == 1.0f; }) &&
            (image == no_index || is_opaque(scene.images[image]));
 }
@@ -96,8 +96,8 @@ float AlphaCutout::alpha_at(float material_alpha, unsigned primitive, float u, f
 bool has_cutout(const Scene& scene, const Mesh& mesh) {
     if (mesh.material == no_index) return false;
     const Material& material = scene.materials[mesh.material];
-    if (material.alpha_mode == Material::AlphaMode::opaque) return false;
-    const bool one_is_whole = material.alpha_mode == Material::AlphaMode::blend || material.alpha_cutoff <= 1.0;
+    if (material.opacity.mode == Opacity::Mode::opaque) return false;
+    const bool one_is_whole = material.opacity.mode == Opacity::Mode::blend || material.opacity.cutoff <= 1.0;
     return !(one_is_whole && is_opaque(scene, mesh, material));
 }
 
@@ -105,8 +105,8 @@ bool has_blended(const Scene& scene) {
     return std::ranges::any_of(scene.nodes, [&](const Node& node) {
         return std::ranges::any_of(node.meshes, [&](int index) {
             const Mesh& mesh = scene.meshes[index];
-            return mesh.material != no_index &&
-                   scene.materials[mesh.material].alpha_mode == Material::AlphaMode::blend && has_cutout(scene, mesh);
+            return mesh.material != no_index && scene.materials[mesh.material].opacity.mode == Opacity::Mode::blend &&
+                   has_cutout(scene, mesh);
         });
     });
 }
@@ -115,11 +115,11 @@ AlphaCutout make_alpha_cutout(const Scene& scene, const Mesh& mesh) {
     const Material& material = scene.materials[mesh.material];
     AlphaCutout cutout;
     cutout.material = mesh.material;
-    cutout.blended = material.alpha_mode == Material::AlphaMode::blend;
-    if (!cutout.blended) cutout.cutoff = static_cast<float>(material.alpha_cutoff);
-    cutout.texture = make_alpha_texture(scene, material.base_color_texture);
+    cutout.blended = material.opacity.mode == Opacity::Mode::blend;
+    if (!cutout.blended) cutout.cutoff = static_cast<float>(material.opacity.cutoff);
+    cutout.texture = make_alpha_texture(scene, material.textures[TextureSlot::base_color]);
     cutout.triangles = mesh.triangles;
-    cutout.uv = mesh.uv[material.base_color_texture.uv_set == 1 ? 1 : 0];
+    cutout.uv = mesh.uv[material.textures[TextureSlot::base_color].uv_set == 1 ? 1 : 0];
     for (const glm::vec4& color : mesh.colors) cutout.vertex_alpha.push_back(color.w);
     return cutout;
 }

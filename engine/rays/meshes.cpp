@@ -102,7 +102,7 @@ class ObjectMaker {
   public:
     ObjectMaker(MeshStructures& structures, const Scene& scene, const PosePlan& plan, const FlatPlan& flat)
         : structures_(structures), scene_(scene), plan_(plan), flat_(flat), kinds_(scene, plan_) {
-        structures_.flat_tree = build_flat_tree(*structures_.device, scene_, flat_, structures_.cutouts);
+        structures_.flat.tree = build_flat_tree(*structures_.device, scene_, flat_, structures_.cutouts);
     }
 
     void add_node(int node) {
@@ -190,9 +190,9 @@ MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::un
         any_blended = any_blended || cutouts[i]->blended;
     }
     const FlatPlan flat_plan = make_flat_plan(scene, plan, flatten);
-    flat = flat_plan.flat;
-    flat_origin = flat_plan.origin;
-    flat_count = static_cast<std::size_t>(std::ranges::count(flat, 1));
+    flat.instances = flat_plan.flat;
+    flat.origin = flat_plan.origin;
+    flat.count = static_cast<std::size_t>(std::ranges::count(flat.instances, 1));
     ObjectMaker maker(*this, scene, plan, flat_plan);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) maker.add_node(static_cast<int>(n));
     maker.finish();

@@ -97,9 +97,9 @@ std::size_t RayScene::update(const ScenePose& posed, const glm::dvec3& anchor) {
     const std::size_t first = state_->moving->size();
     std::size_t touched = place_objects({*state_->moving, objects.first(first)}, *state_, changes, posed, anchor);
     touched += place_objects({*state_->still, objects.subspan(first)}, *state_, changes, posed, anchor);
-    if (!state_->placed || anchor != state_->anchor) touched += state_->meshes->flat_count;
+    if (!state_->placed || anchor != state_->anchor) touched += state_->meshes->flat.count;
     state_->anchor = anchor;
-    state_->flat_shift = anchor - state_->meshes->flat_origin;
+    state_->flat_shift = anchor - state_->meshes->flat.origin;
     state_->placed = true;
     return touched;
 }
@@ -118,10 +118,10 @@ const glm::dvec3& RayScene::anchor() const {
     return state_->anchor;
 }
 bool RayScene::is_flat(int instance) const {
-    return state_->meshes->flat[static_cast<std::size_t>(instance)] != 0;
+    return state_->meshes->flat.instances[static_cast<std::size_t>(instance)] != 0;
 }
 const glm::dvec3& RayScene::flat_origin() const {
-    return state_->meshes->flat_origin;
+    return state_->meshes->flat.origin;
 }
 std::size_t RayScene::degenerate_triangles() const {
     return state_->meshes->degenerate_triangles;

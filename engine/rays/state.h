@@ -15,6 +15,14 @@
 
 namespace aleph {
 
+/// One tree of what stands still.
+struct FlatTree {
+    std::unique_ptr<TriangleTree> tree;   ///< null: nothing is flat
+    std::vector<std::uint8_t> instances;  ///< per instance: in the tree
+    glm::dvec3 origin{0.0};               ///< m, world: the tree's coordinates are relative to it
+    std::size_t count = 0;                ///< instances in it
+};
+
 /// Embree's structures of every mesh, built once and shared by the RayScenes of neighbouring frames, and which
 /// instances they belong to. What stands still is in one flat tree (FlatPlan); other meshes are in object space.
 struct MeshStructures {
@@ -38,10 +46,7 @@ struct MeshStructures {
     int packet_width = 1;  ///< 16, 8, or 1: the widest packets that the processor traces as such
     std::vector<std::unique_ptr<const AlphaCutout>> cutouts;  ///< as Scene::meshes; null: no holes
     std::vector<std::unique_ptr<TriangleTree>> trees;
-    std::unique_ptr<TriangleTree> flat_tree;  ///< null: nothing is flat
-    std::vector<std::uint8_t> flat;           ///< per instance: in the flat tree
-    glm::dvec3 flat_origin{0.0};              ///< m, world: the flat tree's coordinates are relative to it
-    std::size_t flat_count = 0;               ///< instances in it
+    FlatTree flat;
     /// First what can move, deform, come or go, then what never does; in the order of the scene within both.
     std::vector<Object> objects;
     std::size_t moving_count = 0;

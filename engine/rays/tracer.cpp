@@ -38,8 +38,8 @@ Hit make_hit(const RayLane& lane) {
 
 void trace_lane(const RayScene::State& state, Blend blend, bool occlusion, RayLane& lane) {
     Traversal traversal(state, &lane, blend, occlusion);
-    if (state.meshes->flat_tree != nullptr && state.placed)
-        trace_triangles(*state.meshes->flat_tree, lane.origin + state.flat_shift, lane.direction, traversal);
+    if (state.meshes->flat.tree != nullptr && state.placed)
+        trace_triangles(*state.meshes->flat.tree, lane.origin + state.flat_shift, lane.direction, traversal);
     for (const ObjectLayer* layer : state.layers()) {
         glm::dvec3 start;
         if (layer->enabled() == 0 || lane.blocked ||
@@ -82,8 +82,8 @@ class PacketTracer {
             valid_[i] = is_valid(rays[i]);
             lanes_[i].set(rays[i]);
         }
-        if (state_.meshes->flat_tree != nullptr && state_.placed) {
-            const TriangleTree& tree = *state_.meshes->flat_tree;
+        if (state_.meshes->flat.tree != nullptr && state_.placed) {
+            const TriangleTree& tree = *state_.meshes->flat.tree;
             trace(tree.scene(), tree.extent(), state_.flat_shift, [](RayLane& lane, const glm::dvec3& start) {
                 lane.local.set(start, lane.direction);
                 return &lane.object_entry;

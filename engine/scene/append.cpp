@@ -38,16 +38,16 @@ void rebase(Scene& part, const Scene& scene, int parent_node) {
     }
     for (Mesh& mesh : part.meshes) {
         shift(mesh.material, scene.materials.size());
-        shift(mesh.points, scene.point_caches.size());
-        shift(mesh.skin, scene.skins.size());
-        shift(mesh.cage, scene.cages.size());
+        shift(mesh.deformation.points, scene.point_caches.size());
+        shift(mesh.deformation.skin, scene.skins.size());
+        shift(mesh.subdivision.cage, scene.cages.size());
     }
     for (Cage& cage : part.cages) shift(cage.points, scene.point_caches.size());
     for (Skin& skin : part.skins) {
         for (int& joint : skin.joints) shift(joint, scene.nodes.size());
     }
     for (Material& material : part.materials) {
-        for (const auto& field : material_textures) shift((material.*field.member).image, scene.images.size());
+        for (TextureRef& texture : material.textures.all) shift(texture.image, scene.images.size());
     }
 }
 
@@ -66,15 +66,16 @@ void append_part(Scene& scene, Scene&& part, int parent_node, int include) {
         all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     };
     for_each_list(reserve, scene, part);
-    reserve(scene.warnings, part.warnings);
+    reserve(scene.source.warnings, part.source.warnings);
     for_each_list(append, scene, part);
-    append(scene.warnings, part.warnings);
+    append(scene.source.warnings, part.source.warnings);
 }
 
 bool can_be_copied(const Scene& scene, int begin, int end) {
     for (int i = begin; i < end; ++i) {
         for (const int mesh : scene.nodes[i].meshes) {
-            if (scene.meshes[mesh].skin != no_index || !scene.meshes[mesh].targets.empty()) return false;
+            const Deformation& deformation = scene.meshes[mesh].deformation;
+            if (deformation.skin != no_index || !deformation.targets.empty()) return false;
         }
     }
     return true;

@@ -2,6 +2,7 @@
 // Materials, and the images of their textures.
 
 #include <array>
+#include <cstdint>
 #include <glm/gtc/type_precision.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -42,77 +43,154 @@ struct TextureRef {
     bool operator==(const TextureRef&) const = default;
 };
 
-/// glTF 2.0 metallic-roughness, its defaults.
-struct Material {
-    std::string name{};
-    Track<glm::dvec3> base_color{glm::dvec3(1.0)};
-    Track<double> alpha{1.0};
-    Track<double> metallic{1.0};
-    Track<double> roughness{1.0};
-    Track<glm::dvec3> emission{glm::dvec3(0.0)};  ///< radiance factor
-    Track<double> emission_strength{1.0};         ///< KHR_materials_emissive_strength
-    Track<double> specular{1.0};                  ///< KHR_materials_specular: 0 is a pure Lambert surface
-    Track<glm::dvec3> specular_color{glm::dvec3(1.0)};
-    Track<double> ior{1.5};
-    Track<double> transmission{0.0};  ///< KHR_materials_transmission: share of light that passes the surface
-    /// KHR_materials_volume. Above 0: the mesh encloses a volume and light refracts; its value is not used further.
-    /// 0: the surface is a thin sheet, which light passes straight.
-    Track<double> thickness{0.0};                          ///< m, object space
-    Track<double> attenuation_distance{0.0};               ///< m, in which white becomes attenuation_color; 0: none
-    Track<glm::dvec3> attenuation_color{glm::dvec3(1.0)};  ///< of the volume, 0 to 1
-    Track<double> clearcoat{0.0};                          ///< KHR_materials_clearcoat: strength of the coat
-    Track<double> clearcoat_roughness{0.0};
-    Track<glm::dvec3> sheen_color{glm::dvec3(0.0)};  ///< KHR_materials_sheen
-    Track<double> sheen_roughness{0.0};
-    Track<double> anisotropy{0.0};           ///< KHR_materials_anisotropy: strength, 0 to 1
-    Track<double> anisotropy_rotation{0.0};  ///< radians, counter-clockwise from the tangent
-    double normal_scale = 1.0;               ///< factor on x and y of the normal map
-    double clearcoat_normal_scale = 1.0;
-    enum class AlphaMode { opaque, mask, blend };
-    AlphaMode alpha_mode = AlphaMode::opaque;
-    double alpha_cutoff = 0.5;                 ///< mask: not there where alpha is below
-    bool unlit = false;                        ///< KHR_materials_unlit: shows its base colour, takes and gives no light
-    TextureRef base_color_texture{};           ///< sRGB, with alpha
-    TextureRef metallic_roughness_texture{};   ///< B metallic, G roughness, linear
-    TextureRef emission_texture{};             ///< sRGB
-    TextureRef specular_texture{};             ///< A, linear
-    TextureRef specular_color_texture{};       ///< sRGB
-    TextureRef transmission_texture{};         ///< R, linear
-    TextureRef normal_texture{};               ///< tangent space, linear; x along u, y against v, z outwards
-    TextureRef thickness_texture{};            ///< G, linear
-    TextureRef clearcoat_texture{};            ///< R, linear
-    TextureRef clearcoat_roughness_texture{};  ///< G, linear
-    TextureRef clearcoat_normal_texture{};     ///< as normal_texture, for the coat
-    TextureRef sheen_color_texture{};          ///< sRGB
-    TextureRef sheen_roughness_texture{};      ///< A, linear
-    TextureRef anisotropy_texture{};           ///< RG direction, B strength, linear
-    bool double_sided = false;                 ///< lit and, where it emits, shining on both sides
-    int include = no_index;
-
-    bool operator==(const Material&) const = default;
+/// Textures of a material. Colours are sRGB, all else linear.
+enum class TextureSlot : std::uint8_t {
+    base_color,           ///< with alpha
+    metallic_roughness,   ///< B metallic, G roughness
+    emission,             ///< colour
+    specular,             ///< A
+    specular_color,       ///< colour
+    transmission,         ///< R
+    normal,               ///< tangent space; x along u, y against v, z outwards
+    thickness,            ///< G
+    clearcoat,            ///< R
+    clearcoat_roughness,  ///< G
+    clearcoat_normal,     ///< as `normal`, for the coat
+    sheen_color,          ///< colour
+    sheen_roughness,      ///< A
+    anisotropy,           ///< RG direction, B strength
 };
 
 /// A texture of a material, and its key in scene files.
 struct MaterialTexture {
     const char* key;
-    TextureRef Material::*member;
+    TextureSlot slot;
 };
 
+/// In the order of the slots.
 inline constexpr std::array material_textures{
-    MaterialTexture{"base_color_texture", &Material::base_color_texture},
-    MaterialTexture{"metallic_roughness_texture", &Material::metallic_roughness_texture},
-    MaterialTexture{"emission_texture", &Material::emission_texture},
-    MaterialTexture{"specular_texture", &Material::specular_texture},
-    MaterialTexture{"specular_color_texture", &Material::specular_color_texture},
-    MaterialTexture{"transmission_texture", &Material::transmission_texture},
-    MaterialTexture{"normal_texture", &Material::normal_texture},
-    MaterialTexture{"thickness_texture", &Material::thickness_texture},
-    MaterialTexture{"clearcoat_texture", &Material::clearcoat_texture},
-    MaterialTexture{"clearcoat_roughness_texture", &Material::clearcoat_roughness_texture},
-    MaterialTexture{"clearcoat_normal_texture", &Material::clearcoat_normal_texture},
-    MaterialTexture{"sheen_color_texture", &Material::sheen_color_texture},
-    MaterialTexture{"sheen_roughness_texture", &Material::sheen_roughness_texture},
-    MaterialTexture{"anisotropy_texture", &Material::anisotropy_texture},
+    MaterialTexture{"base_color_texture", TextureSlot::base_color},
+    MaterialTexture{"metallic_roughness_texture", TextureSlot::metallic_roughness},
+    MaterialTexture{"emission_texture", TextureSlot::emission},
+    MaterialTexture{"specular_texture", TextureSlot::specular},
+    MaterialTexture{"specular_color_texture", TextureSlot::specular_color},
+    MaterialTexture{"transmission_texture", TextureSlot::transmission},
+    MaterialTexture{"normal_texture", TextureSlot::normal},
+    MaterialTexture{"thickness_texture", TextureSlot::thickness},
+    MaterialTexture{"clearcoat_texture", TextureSlot::clearcoat},
+    MaterialTexture{"clearcoat_roughness_texture", TextureSlot::clearcoat_roughness},
+    MaterialTexture{"clearcoat_normal_texture", TextureSlot::clearcoat_normal},
+    MaterialTexture{"sheen_color_texture", TextureSlot::sheen_color},
+    MaterialTexture{"sheen_roughness_texture", TextureSlot::sheen_roughness},
+    MaterialTexture{"anisotropy_texture", TextureSlot::anisotropy},
+};
+
+/// Textures that hold colours.
+constexpr bool is_color(TextureSlot slot) {
+    return slot == TextureSlot::base_color || slot == TextureSlot::emission || slot == TextureSlot::specular_color ||
+           slot == TextureSlot::sheen_color;
+}
+
+/// Textures that change normals.
+constexpr bool is_normal_map(TextureSlot slot) {
+    return slot == TextureSlot::normal || slot == TextureSlot::clearcoat_normal;
+}
+
+/// One value for each texture of a material.
+template <class T>
+struct TextureSlots {
+    std::array<T, material_textures.size()> all{};
+
+    T& operator[](TextureSlot slot) { return all[static_cast<std::size_t>(slot)]; }
+    const T& operator[](TextureSlot slot) const { return all[static_cast<std::size_t>(slot)]; }
+    bool operator==(const TextureSlots&) const = default;
+};
+
+// Groups of a material's properties: as tracks in a Material, as values at a time in MaterialValues (engine/pose).
+
+/// What reflects: metal, and the dielectric's surface.
+template <class Number, class Color>
+struct GlossOf {
+    Number metallic{1.0};
+    Number roughness{1.0};
+    Number specular{1.0};  ///< KHR_materials_specular: 0 is a pure Lambert surface
+    Color specular_color{glm::dvec3(1.0)};
+    Number ior{1.5};
+
+    bool operator==(const GlossOf&) const = default;
+};
+
+/// What passes the surface.
+template <class Number, class Color>
+struct GlassOf {
+    Number transmission{0.0};  ///< KHR_materials_transmission: share of light that passes the surface
+    /// KHR_materials_volume. m, object space. Above 0: the mesh encloses a volume and light refracts; its value is not
+    /// used further. 0: the surface is a thin sheet, which light passes straight.
+    Number thickness{0.0};
+    Number attenuation_distance{0.0};          ///< m, in which white becomes attenuation_color; 0: none
+    Color attenuation_color{glm::dvec3(1.0)};  ///< of the volume, 0 to 1
+
+    bool operator==(const GlassOf&) const = default;
+};
+
+/// Layers above the gloss, and how its lobe is stretched.
+template <class Number, class Color>
+struct LayersOf {
+    Number clearcoat{0.0};  ///< KHR_materials_clearcoat: strength of the coat
+    Number clearcoat_roughness{0.0};
+    Color sheen_color{glm::dvec3(0.0)};  ///< KHR_materials_sheen
+    Number sheen_roughness{0.0};
+    Number anisotropy{0.0};           ///< KHR_materials_anisotropy: strength, 0 to 1
+    Number anisotropy_rotation{0.0};  ///< radians, counter-clockwise from the tangent
+
+    bool operator==(const LayersOf&) const = default;
+};
+
+using Gloss = GlossOf<Track<double>, Track<glm::dvec3>>;
+using Glass = GlassOf<Track<double>, Track<glm::dvec3>>;
+using Layers = LayersOf<Track<double>, Track<glm::dvec3>>;
+
+/// Where the surface is.
+struct Opacity {
+    enum class Mode { opaque, mask, blend };
+    Track<double> alpha{1.0};
+    Mode mode = Mode::opaque;
+    double cutoff = 0.5;  ///< mask: not there where alpha is below
+
+    bool operator==(const Opacity&) const = default;
+};
+
+/// Radiance that the surface sends out.
+struct Glow {
+    Track<glm::dvec3> color{glm::dvec3(0.0)};
+    Track<double> strength{1.0};  ///< KHR_materials_emissive_strength
+
+    bool operator==(const Glow&) const = default;
+};
+
+/// Textures, and the factors on x and y of the normal maps.
+struct MaterialImages : TextureSlots<TextureRef> {
+    double normal_scale = 1.0;
+    double clearcoat_normal_scale = 1.0;
+
+    bool operator==(const MaterialImages&) const = default;
+};
+
+/// glTF 2.0 metallic-roughness, its defaults.
+struct Material {
+    std::string name{};
+    Track<glm::dvec3> base_color{glm::dvec3(1.0)};
+    Opacity opacity{};
+    Glow glow{};
+    Gloss gloss{};
+    Glass glass{};
+    Layers layers{};
+    MaterialImages textures{};
+    bool unlit = false;         ///< KHR_materials_unlit: shows its base colour, takes and gives no light
+    bool double_sided = false;  ///< lit and, where it emits, shining on both sides
+    int include = no_index;
+
+    bool operator==(const Material&) const = default;
 };
 
 }  // namespace aleph

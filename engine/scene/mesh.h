@@ -69,7 +69,33 @@ struct JointWeight {
     bool operator==(const JointWeight&) const = default;
 };
 
-/// A subdivision surface's control mesh. Faces are counter-clockwise seen from outside.
+/// Faces of a cage, counter-clockwise seen from outside.
+struct CageFaces {
+    std::vector<int> sizes;   ///< vertices of each face, at least 3
+    std::vector<int> points;  ///< into the point cache, face by face
+    std::vector<int> holes;   ///< faces that are not drawn
+    std::vector<int> uv;      ///< into Cage::uv, face by face as `points`; empty where there is none
+    std::vector<int> parts;   ///< which part a face belongs to (MeshSubdivision::part); empty: all part 0
+
+    bool operator==(const CageFaces&) const = default;
+};
+
+/// Sharp edges of a cage: chains of points.
+struct CageCreases {
+    std::vector<int> lengths;      ///< of the chains, each at least 2
+    std::vector<int> points;       ///< chain by chain
+    std::vector<float> sharpness;  ///< one per chain; 10 is infinitely sharp
+    bool operator==(const CageCreases&) const = default;
+};
+
+/// Sharp points of a cage.
+struct CageCorners {
+    std::vector<int> points;
+    std::vector<float> sharpness;
+    bool operator==(const CageCorners&) const = default;
+};
+
+/// A subdivision surface's control mesh.
 struct Cage {
     enum class Scheme { catmull_clark, loop, bilinear };
     enum class Boundary { none, edge_only, edge_and_corner };  ///< OpenSubdiv's vertex boundary interpolation
@@ -86,19 +112,13 @@ struct Cage {
     Scheme scheme = Scheme::catmull_clark;
     Boundary boundary = Boundary::edge_and_corner;
     UvRule uv_rule = UvRule::linear_corners_plus1;
-    std::vector<int> face_sizes;                     ///< vertices of each face, at least 3
-    std::vector<int> face_points;                    ///< into the point cache, face by face
-    std::vector<int> holes;                          ///< faces that are not drawn
-    std::vector<int> crease_lengths, crease_points;  ///< chains of points, each at least 2 long
-    std::vector<float> crease_sharpness;             ///< one per chain; 10 is infinitely sharp
-    std::vector<int> corner_points;
-    std::vector<float> corner_sharpness;
-    std::vector<glm::vec2> uv;    ///< face-varying values; v grows downwards
-    std::vector<int> face_uv;     ///< into uv, face by face as face_points; empty where there is none
-    std::vector<int> face_parts;  ///< which part a face belongs to (Mesh::cage_part); empty: all part 0
-    int points = no_index;        ///< point cache
-    int level = 2;                ///< refinement of the meshes made of it
-    int max_level = 6;            ///< the level chosen by pixel size is at most this
+    CageFaces faces;
+    CageCreases creases;
+    CageCorners corners;
+    std::vector<glm::vec2> uv;  ///< face-varying values; v grows downwards
+    int points = no_index;      ///< point cache
+    int level = 2;              ///< refinement of the meshes made of it
+    int max_level = 6;          ///< the level chosen by pixel size is at most this
     int include = no_index;
 
     bool operator==(const Cage&) const = default;
@@ -112,22 +132,12 @@ struct LimitSurfaceRef {
     bool operator==(const LimitSurfaceRef&) const { return true; }
 };
 
-/// Triangles with one material. Per-vertex arrays are empty or as long as `positions`.
-/// Points move by one of: a point cache, morph targets and then a skin, a cage; else the mesh is rigid.
-struct Mesh {
-    std::string name;
-    std::vector<glm::vec3> positions;  ///< m, object space; of a deforming mesh: its first sample, or its rest shape
-    std::vector<glm::vec3> normals;    ///< empty: flat
-    std::vector<glm::vec2> uv[2];      ///< v grows downwards, row 0 of the image at v = 0 (glTF)
-    std::vector<glm::vec4> colors;     ///< linear, multiplies the base colour
-    std::vector<glm::uvec3> triangles;
-    int material = no_index;  ///< no_index: glTF's default material
-    std::optional<Shape> shape;
-
+/// What moves the points of a mesh: a point cache, or morph targets and then a skin.
+struct Deformation {
     int points = no_index;                     ///< point cache
     std::vector<std::uint32_t> vertex_points;  ///< vertex to point of the cache; empty: one to one
-    /// Normals of every vertex over time, for a mesh with a point cache; empty: `normals`, or found anew from the moved
-    /// triangles where `normals` is not empty.
+    /// Normals of every vertex over time, for a mesh with a point cache; empty: Mesh::normals, or found anew from the
+    /// moved triangles where those are not empty.
     TimeSampling normal_sampling;
     std::vector<std::vector<glm::vec3>> normal_samples;
 
@@ -138,10 +148,32 @@ struct Mesh {
     std::vector<JointWeight> joint_weights;  ///< vertex by vertex, joints_per_vertex each
     int joints_per_vertex = 0;
 
-    int cage = no_index;
-    int cage_part = 0;
-    LimitSurfaceRef limit;  ///< of the cage at the level of these triangles
+    bool operator==(const Deformation&) const = default;
+};
 
+/// The cage that a mesh is made of.
+struct MeshSubdivision {
+    int cage = no_index;
+    int part = 0;           ///< of the cage: its faces of one material
+    LimitSurfaceRef limit;  ///< of the cage at the level of the mesh's triangles
+
+    bool operator==(const MeshSubdivision&) const = default;
+};
+
+/// Triangles with one material. Per-vertex arrays are empty or as long as `positions`.
+/// Points move by a deformation or with a cage; else the mesh is rigid.
+struct Mesh {
+    std::string name;
+    std::vector<glm::vec3> positions;  ///< m, object space; of a deforming mesh: its first sample, or its rest shape
+    std::vector<glm::vec3> normals;    ///< empty: flat
+    std::vector<glm::vec2> uv[2];      ///< v grows downwards, row 0 of the image at v = 0 (glTF)
+    std::vector<glm::vec4> colors;     ///< linear, multiplies the base colour
+    std::vector<glm::uvec3> triangles;
+    int material = no_index;  ///< no_index: glTF's default material
+    std::optional<Shape> shape;
+
+    Deformation deformation;
+    MeshSubdivision subdivision;
     /// 0 where this mesh is not there at all; step. A surface whose topology changes is one mesh for each topology:
     /// there is no motion across the change.
     Track<double> present{1.0};

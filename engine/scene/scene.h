@@ -44,17 +44,22 @@ struct OperationStack {
     bool operator==(const OperationStack&) const = default;
 };
 
-struct Node {
-    std::string name{};
-    int parent = no_index;
-
-    /// Local transform: `operations` where set, else `matrix` where set, else translation * rotation * scale.
+/// From a node to its parent: `operations` where set, else `matrix` where set, else translation * rotation * scale.
+struct LocalTransform {
     Track<glm::dvec3> translation{glm::dvec3(0.0)};
     Track<glm::dquat> rotation{glm::dquat(1.0, 0.0, 0.0, 0.0)};
     std::optional<AxisRotation> axis_rotation{};  ///< in place of `rotation`
     Track<glm::dvec3> scale{glm::dvec3(1.0)};
     std::optional<Track<glm::dmat4>> matrix{};  ///< affine, column vectors
     std::optional<OperationStack> operations{};
+
+    bool operator==(const LocalTransform&) const = default;
+};
+
+struct Node {
+    std::string name{};
+    int parent = no_index;
+    LocalTransform transform{};
     Track<double> inherits{1.0};  ///< step; where 0 the parent's transform does not apply (Alembic's `.inherits`)
 
     /// 0: hidden, with everything below; 1: as its parent; 2: shown even below a hidden parent (Alembic's explicit 1).
@@ -133,23 +138,48 @@ struct FrameRange {
     bool operator==(const FrameRange&) const = default;
 };
 
-struct Scene {
-    std::string name;
+/// What surrounds the scene.
+struct Environment {
+    std::optional<Track<glm::dvec3>> radiance;  ///< all around; factor on `image` where set; unset: black
+    /// Index of an equirectangular picture: its middle column lies along -z, u grows towards +x, its top row is +y. Its
+    /// pixels are floats, linear radiance. Needs `radiance`.
+    int image = no_index;
+    Track<glm::dquat> rotation{glm::dquat(1.0, 0.0, 0.0, 0.0)};  ///< picture to world
+    std::optional<AxisRotation> axis_rotation;                   ///< in place of `rotation`
+
+    bool operator==(const Environment&) const = default;
+};
+
+/// The film that is made of the scene: its frames, who looks, and how it is shown.
+struct Film {
     FrameRate frame_rate;
     std::optional<FrameRange> range;  ///< frames; unset: the keys' span (frame_range in pose.h)
     std::vector<std::int64_t> cuts;   ///< frames that begin a new shot: no motion from the frame before
-    ViewingConditions viewing;
-    std::optional<double> exposure;                ///< factor on radiance
-    std::optional<Track<glm::dvec3>> environment;  ///< radiance all around; factor on environment_image where set
-    /// Index of an equirectangular picture that surrounds the scene: its middle column lies along -z, u grows towards
-    /// +x, its top row is +y. Its pixels are floats, linear radiance. Needs `environment`.
-    int environment_image = no_index;
-    Track<glm::dquat> environment_rotation{glm::dquat(1.0, 0.0, 0.0, 0.0)};  ///< picture to world
-    std::optional<AxisRotation> environment_axis_rotation;                   ///< in place of `environment_rotation`
-    std::string camera;  ///< name of the camera or of its node; empty: the first
+    std::string camera;               ///< name of the camera or of its node; empty: the first
     /// In place of `camera`, frames ascending; before the first key its camera looks. A change of cameras is a cut.
     std::vector<CameraKey> camera_keys;
+    std::optional<double> exposure;  ///< factor on radiance
+    ViewingConditions viewing;
 
+    bool operator==(const Film&) const = default;
+};
+
+/// Where the scene is from, and what its file says beside the elements.
+struct SceneSource {
+    std::string name;  ///< of the scene
+    std::string file;  ///< where it was read from; empty for a scene made in code
+    std::vector<Include> includes;
+    SettingMap settings;
+    /// Problems of the file that do not stop it from loading; the command line prints them.
+    std::vector<std::string> warnings;
+
+    bool operator==(const SceneSource&) const = default;
+};
+
+struct Scene {
+    SceneSource source;
+    Film film;
+    Environment environment;
     std::vector<Node> nodes;  ///< a parent stands before its children
     std::vector<Mesh> meshes;
     std::vector<PointCache> point_caches;
@@ -159,12 +189,6 @@ struct Scene {
     std::vector<SceneImage> images;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    std::vector<Include> includes;
-    SettingMap settings;
-
-    std::string file;  ///< where it was read from; empty for a scene made in code
-    std::vector<std::string>
-        warnings;  ///< problems of the file that do not stop it from loading; the command line prints them
 
     bool operator==(const Scene&) const = default;
 };

@@ -29,12 +29,9 @@ class SceneHash {
     std::string digest() { return sha_.digest(); }
 
     void add(const Scene& scene) {
-        const auto& [name, frame_rate, range, cuts, viewing, exposure, environment, environment_image,
-                     environment_rotation, environment_axis_rotation, camera, camera_keys, nodes, meshes, point_caches,
-                     skins, cages, materials, images, lights, cameras, includes, settings, file, warnings] = scene;
-        add_all(frame_rate, range, cuts, viewing, exposure, environment, environment_image, environment_rotation,
-                environment_axis_rotation, nodes, meshes, point_caches, skins, cages, materials, images, lights,
-                cameras);
+        const auto& [source, film, environment, nodes, meshes, point_caches, skins, cages, materials, images, lights,
+                     cameras] = scene;
+        add_all(film, environment, nodes, meshes, point_caches, skins, cages, materials, images, lights, cameras);
     }
 
   private:
@@ -85,27 +82,46 @@ class SceneHash {
         const auto& [operations, sampling, channels] = stack;
         add_all(operations, sampling, channels);
     }
+    void add(const Film& film) {
+        const auto& [frame_rate, range, cuts, camera, camera_keys, exposure, viewing] = film;
+        add_all(frame_rate, range, cuts, viewing, exposure);
+    }
+    void add(const Environment& environment) {
+        const auto& [radiance, image, rotation, axis_rotation] = environment;
+        add_all(radiance, image, rotation, axis_rotation);
+    }
+    void add(const LocalTransform& transform) {
+        const auto& [translation, rotation, axis_rotation, scale, matrix, operations] = transform;
+        add_all(translation, rotation, axis_rotation, scale, matrix, operations);
+    }
     void add(const Node& node) {
-        const auto& [name, parent, translation, rotation, axis_rotation, scale, matrix, operations, inherits, visible,
-                     meshes, camera, light, include] = node;
-        add_all(parent, translation, rotation, axis_rotation, scale, matrix, operations, inherits, visible, meshes,
-                camera, light);
+        const auto& [name, parent, transform, inherits, visible, meshes, camera, light, include] = node;
+        add_all(parent, transform, inherits, visible, meshes, camera, light);
+    }
+    void add(const Deformation& deformation) {
+        const auto& [points, vertex_points, normal_sampling, normal_samples, targets, target_weights, skin,
+                     joint_weights, joints_per_vertex] = deformation;
+        add_all(points, vertex_points, normal_sampling, normal_samples, targets, target_weights, skin, joint_weights,
+                joints_per_vertex);
+    }
+    void add(const MeshSubdivision& subdivision) {
+        const auto& [cage, part, limit] = subdivision;
+        add_all(cage, part);
     }
     void add(const Mesh& mesh) {
-        const auto& [name, positions, normals, uv, colors, triangles, material, shape, points, vertex_points,
-                     normal_sampling, normal_samples, targets, target_weights, skin, joint_weights, joints_per_vertex,
-                     cage, cage_part, limit, present, include] = mesh;
-        add_all(positions, normals, uv[0], uv[1], colors, triangles, material, points, vertex_points, normal_sampling,
-                normal_samples, targets, target_weights, skin, joint_weights, joints_per_vertex, cage, cage_part,
-                present);
+        const auto& [name, positions, normals, uv, colors, triangles, material, shape, deformation, subdivision,
+                     present, include] = mesh;
+        add_all(positions, normals, uv[0], uv[1], colors, triangles, material, deformation, subdivision, present);
     }
     void add(const PointCache& cache) { add_all(cache.sampling, cache.positions); }
     void add(const MorphTarget& target) { add_all(target.positions, target.normals); }
     void add(const Skin& skin) { add_all(skin.joints, skin.inverse_binds); }
     void add(const Cage& cage) {
-        const auto& [name, scheme, boundary, uv_rule, face_sizes, face_points, holes, crease_lengths, crease_points,
-                     crease_sharpness, corner_points, corner_sharpness, uv, face_uv, face_parts, points, level,
-                     max_level, include] = cage;
+        const auto& [name, scheme, boundary, uv_rule, faces, creases, corners, uv, points, level, max_level, include] =
+            cage;
+        const auto& [face_sizes, face_points, holes, face_uv, face_parts] = faces;
+        const auto& [crease_lengths, crease_points, crease_sharpness] = creases;
+        const auto& [corner_points, corner_sharpness] = corners;
         add_all(scheme, boundary, uv_rule, face_sizes, face_points, holes, crease_lengths, crease_points,
                 crease_sharpness, corner_points, corner_sharpness, uv, face_uv, face_parts, points, level, max_level);
     }
@@ -116,8 +132,9 @@ class SceneHash {
     }
     void add(const Material& m) {
         visit_tracks(m, [this](const auto& track) { add(track); });
-        add_all(m.normal_scale, m.clearcoat_normal_scale, m.alpha_mode, m.alpha_cutoff, m.unlit, m.double_sided);
-        for (const MaterialTexture& texture : material_textures) add(m.*texture.member);
+        add_all(m.textures.normal_scale, m.textures.clearcoat_normal_scale, m.opacity.mode, m.opacity.cutoff, m.unlit,
+                m.double_sided);
+        for (const TextureRef& texture : m.textures.all) add(texture);
     }
     void add(const Light& light) {
         add(light.kind);

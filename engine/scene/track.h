@@ -26,7 +26,7 @@ struct Track {
     std::vector<T> values;
 
     Track() = default;
-    Track(const T& constant) : values{constant} {}  // implicit, for `node.scale = dvec3(2)`
+    Track(const T& constant) : values{constant} {}  // implicit, for `node.transform.scale = dvec3(2)`
 
     /// Keys, not values: a cubic key has three values.
     std::size_t key_count() const { return interpolation == Interpolation::cubic ? values.size() / 3 : values.size(); }

@@ -10,38 +10,43 @@ template <class Visit>
 void visit_tracks(const Node& node, const Visit& visit) {
     visit(node.visible);
     visit(node.inherits);
-    if (node.operations) {
-        visit(*node.operations);
-    } else if (node.matrix) {
-        visit(*node.matrix);
+    const LocalTransform& local = node.transform;
+    if (local.operations) {
+        visit(*local.operations);
+    } else if (local.matrix) {
+        visit(*local.matrix);
     } else {
-        visit(node.translation);
-        visit(node.scale);
-        if (node.axis_rotation)
-            visit(node.axis_rotation->angle);
+        visit(local.translation);
+        visit(local.scale);
+        if (local.axis_rotation)
+            visit(local.axis_rotation->angle);
         else
-            visit(node.rotation);
+            visit(local.rotation);
     }
 }
 
 template <class Visit>
 void visit_tracks(const Material& m, const Visit& visit) {
-    for (const auto* track : {&m.base_color, &m.emission, &m.specular_color, &m.attenuation_color, &m.sheen_color})
+    const auto& [metallic, roughness, specular, specular_color, ior] = m.gloss;
+    const auto& [transmission, thickness, attenuation_distance, attenuation_color] = m.glass;
+    const auto& [clearcoat, clearcoat_roughness, sheen_color, sheen_roughness, anisotropy, anisotropy_rotation] =
+        m.layers;
+    for (const auto* track : {&m.base_color, &m.glow.color, &specular_color, &attenuation_color, &sheen_color})
         visit(*track);
-    for (const auto* track : {&m.alpha, &m.metallic, &m.roughness, &m.emission_strength, &m.specular, &m.ior,
-                              &m.transmission, &m.thickness, &m.attenuation_distance, &m.clearcoat,
-                              &m.clearcoat_roughness, &m.sheen_roughness, &m.anisotropy, &m.anisotropy_rotation})
+    for (const auto* track :
+         {&m.opacity.alpha, &metallic, &roughness, &m.glow.strength, &specular, &ior, &transmission, &thickness,
+          &attenuation_distance, &clearcoat, &clearcoat_roughness, &sheen_roughness, &anisotropy, &anisotropy_rotation})
         visit(*track);
 }
 
 /// The environment's radiance, and the rotation of its picture.
 template <class Visit>
-void visit_environment(const Scene& scene, const Visit& visit) {
-    if (scene.environment) visit(*scene.environment);
-    if (scene.environment_axis_rotation)
-        visit(scene.environment_axis_rotation->angle);
+void visit_tracks(const Environment& environment, const Visit& visit) {
+    if (environment.radiance) visit(*environment.radiance);
+    if (environment.axis_rotation)
+        visit(environment.axis_rotation->angle);
     else
-        visit(scene.environment_rotation);
+        visit(environment.rotation);
 }
 
 template <class Visit>
@@ -61,7 +66,7 @@ void visit_tracks(const Camera& camera, const Visit& visit) {
 template <class Visit>
 void visit_tracks(const Mesh& mesh, const Visit& visit) {
     visit(mesh.present);
-    for (const Track<double>& weight : mesh.target_weights) visit(weight);
+    for (const Track<double>& weight : mesh.deformation.target_weights) visit(weight);
 }
 
 }  // namespace aleph

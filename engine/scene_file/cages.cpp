@@ -21,8 +21,8 @@ void read_faces(const JsonRef& at, std::size_t points, Cage& cage) {
         const JsonRef face = at[i];
         const std::vector<int> indices = read_indices(face, 1, points, "point");
         if (indices.size() < 3) face.fail(fmt::format("has {} points; a face has at least 3", indices.size()));
-        cage.face_sizes.push_back(static_cast<int>(indices.size()));
-        cage.face_points.insert(cage.face_points.end(), indices.begin(), indices.end());
+        cage.faces.sizes.push_back(static_cast<int>(indices.size()));
+        cage.faces.points.insert(cage.faces.points.end(), indices.begin(), indices.end());
     }
 }
 
@@ -32,27 +32,27 @@ void read_uv(const JsonRef& at, Cage& cage) {
     if (!uv) return;
     cage.uv = read_vec2s(*uv);
     if (!faces) {
-        const int max_point = *std::max_element(cage.face_points.begin(), cage.face_points.end());
+        const int max_point = *std::max_element(cage.faces.points.begin(), cage.faces.points.end());
         if (max_point >= std::ssize(cage.uv)) {
             uv->fail(
                 fmt::format("has {} texture coordinates, but faces name point {}: one for each point was "
                             "expected, or \"face_uv\"",
                             cage.uv.size(), max_point));
         }
-        cage.face_uv = cage.face_points;
+        cage.faces.uv = cage.faces.points;
         return;
     }
-    if (faces->array_size() != cage.face_sizes.size()) {
-        faces->fail(fmt::format("has {} lists for {} faces", faces->array_size(), cage.face_sizes.size()));
+    if (faces->array_size() != cage.faces.sizes.size()) {
+        faces->fail(fmt::format("has {} lists for {} faces", faces->array_size(), cage.faces.sizes.size()));
     }
     for (std::size_t i = 0; i < faces->array_size(); ++i) {
         const JsonRef face = (*faces)[i];
         const std::vector<int> indices = read_indices(face, 1, cage.uv.size(), "texture coordinate");
-        if (std::ssize(indices) != cage.face_sizes[i]) {
+        if (std::ssize(indices) != cage.faces.sizes[i]) {
             face.fail(
-                fmt::format("has {} texture coordinates for a face of {} points", indices.size(), cage.face_sizes[i]));
+                fmt::format("has {} texture coordinates for a face of {} points", indices.size(), cage.faces.sizes[i]));
         }
-        cage.face_uv.insert(cage.face_uv.end(), indices.begin(), indices.end());
+        cage.faces.uv.insert(cage.faces.uv.end(), indices.begin(), indices.end());
     }
 }
 
@@ -62,17 +62,17 @@ void read_sharp_parts(const JsonRef& at, std::size_t points, Cage& cage) {
             const JsonRef crease = (*creases)[i];
             const JsonRef chain = crease.require("points"), sharpness = crease.require("sharpness");
             const std::vector<int> indices = read_indices(chain, 1, points, "point");
-            cage.crease_lengths.push_back(static_cast<int>(indices.size()));
-            cage.crease_points.insert(cage.crease_points.end(), indices.begin(), indices.end());
-            cage.crease_sharpness.push_back(static_cast<float>(sharpness.number()));
+            cage.creases.lengths.push_back(static_cast<int>(indices.size()));
+            cage.creases.points.insert(cage.creases.points.end(), indices.begin(), indices.end());
+            cage.creases.sharpness.push_back(static_cast<float>(sharpness.number()));
         }
     }
     if (const auto corners = at.find("corners")) {
         for (std::size_t i = 0; i < corners->array_size(); ++i) {
             const JsonRef corner = (*corners)[i];
             const JsonRef point = corner.require("point"), sharpness = corner.require("sharpness");
-            cage.corner_points.push_back(read_index(point, points, "point"));
-            cage.corner_sharpness.push_back(static_cast<float>(sharpness.number()));
+            cage.corners.points.push_back(read_index(point, points, "point"));
+            cage.corners.sharpness.push_back(static_cast<float>(sharpness.number()));
         }
     }
 }
@@ -96,12 +96,12 @@ int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     read_faces(faces, points.count, cage);
     read_sharp_parts(at, points.count, cage);
     read_uv(at, cage);
-    const std::size_t count = cage.face_sizes.size();
-    if (const auto holes = at.find("holes")) cage.holes = read_indices(*holes, 1, count, "face");
+    const std::size_t count = cage.faces.sizes.size();
+    if (const auto holes = at.find("holes")) cage.faces.holes = read_indices(*holes, 1, count, "face");
     if (const auto parts = at.find("parts")) {
-        cage.face_parts = read_indices(*parts, 1, count, "part");
-        if (cage.face_parts.size() != count) {
-            parts->fail(fmt::format("has {} numbers for {} faces", cage.face_parts.size(), count));
+        cage.faces.parts = read_indices(*parts, 1, count, "part");
+        if (cage.faces.parts.size() != count) {
+            parts->fail(fmt::format("has {} numbers for {} faces", cage.faces.parts.size(), count));
         }
     }
     if (const auto level = at.find_integer("level", 0, max_subdivision_level)) cage.level = static_cast<int>(*level);
@@ -117,21 +117,21 @@ int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
         at.fail(error.reason());
     }
     reader.cage_places.push_back(at.pointer());
-    return SceneReader::add(std::move(cage), reader.scene.cages, reader.cages);
+    return SceneReader::add(std::move(cage), reader.scene.cages, reader.names.cages);
 }
 
 }  // namespace
 
 std::size_t count_parts(const Cage& cage) {
-    return cage.face_parts.empty()
+    return cage.faces.parts.empty()
                ? 1
-               : static_cast<std::size_t>(*std::max_element(cage.face_parts.begin(), cage.face_parts.end())) + 1;
+               : static_cast<std::size_t>(*std::max_element(cage.faces.parts.begin(), cage.faces.parts.end())) + 1;
 }
 
 std::size_t count_cage_triangles(const Cage& cage) {
     // A face of n points becomes n quads at level 1, and four of each at the next.
-    const std::size_t loop = cage.scheme == Cage::Scheme::loop ? cage.face_sizes.size() : 0;
-    const std::size_t quads = loop > 0 ? 0 : cage.face_points.size();
+    const std::size_t loop = cage.scheme == Cage::Scheme::loop ? cage.faces.sizes.size() : 0;
+    const std::size_t quads = loop > 0 ? 0 : cage.faces.points.size();
     const std::size_t at_level_1 = 4 * loop + 2 * quads;
     return at_level_1 << (2 * std::max(cage.level - 1, 0));
 }
@@ -141,8 +141,8 @@ void read_cage(SceneReader& reader, const JsonRef& at, const std::string& name) 
 }
 
 int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    if (at.json().is_string()) return reader.cages.require(at);
-    return add_cage(reader, at, reader.cages.unused(name));
+    if (at.json().is_string()) return reader.names.cages.require(at);
+    return add_cage(reader, at, reader.names.cages.unused(name));
 }
 
 void make_cage_meshes(SceneReader& reader) {

@@ -22,7 +22,7 @@ int add_image(SceneReader& reader, const JsonRef& at, const std::string& name) {
     reader.charge(sizeof(SceneImage) + 300, at, "it has too many images");
     SceneImage image{.name = name, .path = read_path(at)};
     reader.result.image_places.push_back(at.pointer());
-    const int index = SceneReader::add(std::move(image), reader.scene.images, reader.images);
+    const int index = SceneReader::add(std::move(image), reader.scene.images, reader.names.images);
     reader.image_of_path.emplace(reader.scene.images[index].path, index);
     return index;
 }
@@ -35,11 +35,10 @@ std::optional<JsonRef> read_angle(const JsonRef& at, const AngleField<Element>& 
     if (degrees && radians) {
         radians->fail(fmt::format("either \"{}\" or \"{}\", not both", field.key, field.key_in_radians));
     }
-    if (degrees) element.*field.member = read_degrees(*degrees, rate, field.range);
+    if (degrees) field.in(element) = read_degrees(*degrees, rate, field.range);
     if (radians) {
         const ValueRange& range = field.range;
-        element.*field.member =
-            read_number(*radians, rate, {to_radians(range.low), to_radians(range.high), range.open});
+        field.in(element) = read_number(*radians, rate, {to_radians(range.low), to_radians(range.high), range.open});
     }
     return degrees ? degrees : radians;
 }
@@ -73,39 +72,39 @@ TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
 }
 
 int add_material(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    const FrameRate& rate = reader.scene.frame_rate;
+    const FrameRate& rate = reader.scene.film.frame_rate;
     reader.charge(sizeof(Material) + 900, at, "let shapes share materials");
     Material material = absent_material();
     material.name = name;
     for (const auto& field : material_numbers) {
-        if (const auto value = at.find(field.key)) material.*field.member = read_number(*value, rate, field.range);
+        if (const auto value = at.find(field.key)) field.in(material) = read_number(*value, rate, field.range);
     }
     for (const auto& field : material_colors) {
-        if (const auto value = at.find(field.key)) material.*field.member = read_vector(*value, rate, field.range);
+        if (const auto value = at.find(field.key)) field.in(material) = read_vector(*value, rate, field.range);
     }
     for (const auto& field : material_angles) read_angle(at, field, rate, material);
     for (const auto& field : material_scales) {
-        if (const auto value = at.find(field.key)) material.*field.member = value->number();
+        if (const auto value = at.find(field.key)) field.in(material) = value->number();
     }
     for (const auto& field : material_textures) {
-        if (const auto value = at.find(field.key)) material.*field.member = read_texture(reader, *value);
+        if (const auto value = at.find(field.key)) material.textures[field.slot] = read_texture(reader, *value);
     }
     if (const auto value = at.find("alpha_mode")) {
-        material.alpha_mode = read_word<Material::AlphaMode>(*value, alpha_words);
+        material.opacity.mode = read_word<Opacity::Mode>(*value, alpha_words);
     }
     if (const auto value = at.find("alpha_cutoff")) {
-        material.alpha_cutoff = value->number();
-        if (material.alpha_mode != Material::AlphaMode::mask) {
+        material.opacity.cutoff = value->number();
+        if (material.opacity.mode != Opacity::Mode::mask) {
             value->fail("\"alpha_cutoff\" needs \"alpha_mode\": \"mask\"");
         }
     }
     if (const auto value = at.find("unlit")) material.unlit = value->boolean();
     if (const auto value = at.find("double_sided")) material.double_sided = value->boolean();
-    return SceneReader::add(std::move(material), reader.scene.materials, reader.materials);
+    return SceneReader::add(std::move(material), reader.scene.materials, reader.names.materials);
 }
 
 int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    const FrameRate& rate = reader.scene.frame_rate;
+    const FrameRate& rate = reader.scene.film.frame_rate;
     reader.charge(sizeof(Light) + 300, at, "it has too many lights");
     Light light{.name = name};
     const JsonRef type = at.require("type");
@@ -124,18 +123,18 @@ int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
     if (constant && light.inner_cone.values[0] > light.outer_cone.values[0]) {
         at.fail("\"inner_cone\", where the light begins to fade, cannot be wider than \"outer_cone\", where it ends");
     }
-    return SceneReader::add(std::move(light), reader.scene.lights, reader.lights);
+    return SceneReader::add(std::move(light), reader.scene.lights, reader.names.lights);
 }
 
 int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    const FrameRate& rate = reader.scene.frame_rate;
+    const FrameRate& rate = reader.scene.film.frame_rate;
     reader.charge(sizeof(Camera) + 400, at, "it has too many cameras");
     Camera camera{.name = name};
     for (const auto& field : camera_angles) read_angle(at, field, rate, camera);
     const auto orthographic = at.find("orthographic");
     if (orthographic) camera.orthographic = orthographic->boolean();
     for (const auto& field : camera_numbers) {
-        if (const auto value = at.find(field.key)) camera.*field.member = read_number(*value, rate, field.range);
+        if (const auto value = at.find(field.key)) field.in(camera) = read_number(*value, rate, field.range);
     }
     if (const auto value = at.find("half_height"); value && !orthographic) {
         value->fail("\"half_height\" needs \"orthographic\": true");
@@ -145,7 +144,7 @@ int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) 
         camera.shutter = read_dvec2(*value);
         if (camera.shutter.y < camera.shutter.x) value->fail("the shutter has to open before it closes");
     }
-    return SceneReader::add(std::move(camera), reader.scene.cameras, reader.cameras);
+    return SceneReader::add(std::move(camera), reader.scene.cameras, reader.names.cameras);
 }
 
 /// Calls add(element, name) for the members of one of the root's objects, in the order of the file.
@@ -173,25 +172,25 @@ std::string path_fault(std::string_view path) {
 }
 
 int read_image_use(SceneReader& reader, const JsonRef& at) {
-    if (const auto named = reader.images.find(at.string())) return *named;
+    if (const auto named = reader.names.images.find(at.string())) return *named;
     if (const auto known = reader.image_of_path.find(at.string()); known != reader.image_of_path.end())
         return known->second;
     return add_image(reader, at, at.string());
 }
 
 int read_material_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    if (at.json().is_string()) return reader.materials.require(at);
-    return add_material(reader, at, reader.materials.unused(name));
+    if (at.json().is_string()) return reader.names.materials.require(at);
+    return add_material(reader, at, reader.names.materials.unused(name));
 }
 
 int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    if (at.json().is_string()) return reader.lights.require(at);
-    return add_light(reader, at, reader.lights.unused(name));
+    if (at.json().is_string()) return reader.names.lights.require(at);
+    return add_light(reader, at, reader.names.lights.unused(name));
 }
 
 int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    if (at.json().is_string()) return reader.cameras.require(at);
-    return add_camera(reader, at, reader.cameras.unused(name));
+    if (at.json().is_string()) return reader.names.cameras.require(at);
+    return add_camera(reader, at, reader.names.cameras.unused(name));
 }
 
 void read_elements(SceneReader& reader, const JsonRef& root, const KeyOrder& order) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/place.h"
 #include "engine/scene/scene.h"
 
 namespace aleph {
@@ -29,55 +30,59 @@ inline constexpr ValueRange cone_degrees{0.0, 90.0, false};
 template <class Element, class T>
 struct TrackField {
     const char* key;
-    Track<T> Element::*member;
+    Place<Element, Track<T>> in;
     ValueRange range;
 };
 
 inline constexpr std::array material_numbers{
-    TrackField<Material, double>{"alpha", &Material::alpha, zero_to_one},
-    TrackField<Material, double>{"metallic", &Material::metallic, zero_to_one},
-    TrackField<Material, double>{"roughness", &Material::roughness, zero_to_one},
-    TrackField<Material, double>{"specular", &Material::specular, zero_to_one},
-    TrackField<Material, double>{"ior", &Material::ior, at_least_one},
-    TrackField<Material, double>{"emission_strength", &Material::emission_strength, not_negative},
-    TrackField<Material, double>{"transmission", &Material::transmission, zero_to_one},
-    TrackField<Material, double>{"thickness", &Material::thickness, not_negative},
-    TrackField<Material, double>{"attenuation_distance", &Material::attenuation_distance, not_negative},
-    TrackField<Material, double>{"clearcoat", &Material::clearcoat, zero_to_one},
-    TrackField<Material, double>{"clearcoat_roughness", &Material::clearcoat_roughness, zero_to_one},
-    TrackField<Material, double>{"sheen_roughness", &Material::sheen_roughness, zero_to_one},
-    TrackField<Material, double>{"anisotropy", &Material::anisotropy, zero_to_one},
+    TrackField<Material, double>{"alpha", {at<&Material::opacity, &Opacity::alpha>}, zero_to_one},
+    TrackField<Material, double>{"metallic", {at<&Material::gloss, &Gloss::metallic>}, zero_to_one},
+    TrackField<Material, double>{"roughness", {at<&Material::gloss, &Gloss::roughness>}, zero_to_one},
+    TrackField<Material, double>{"specular", {at<&Material::gloss, &Gloss::specular>}, zero_to_one},
+    TrackField<Material, double>{"ior", {at<&Material::gloss, &Gloss::ior>}, at_least_one},
+    TrackField<Material, double>{"emission_strength", {at<&Material::glow, &Glow::strength>}, not_negative},
+    TrackField<Material, double>{"transmission", {at<&Material::glass, &Glass::transmission>}, zero_to_one},
+    TrackField<Material, double>{"thickness", {at<&Material::glass, &Glass::thickness>}, not_negative},
+    TrackField<Material, double>{
+        "attenuation_distance", {at<&Material::glass, &Glass::attenuation_distance>}, not_negative},
+    TrackField<Material, double>{"clearcoat", {at<&Material::layers, &Layers::clearcoat>}, zero_to_one},
+    TrackField<Material, double>{
+        "clearcoat_roughness", {at<&Material::layers, &Layers::clearcoat_roughness>}, zero_to_one},
+    TrackField<Material, double>{"sheen_roughness", {at<&Material::layers, &Layers::sheen_roughness>}, zero_to_one},
+    TrackField<Material, double>{"anisotropy", {at<&Material::layers, &Layers::anisotropy>}, zero_to_one},
 };
 inline constexpr std::array material_colors{
-    TrackField<Material, glm::dvec3>{"base_color", &Material::base_color, zero_to_one},
-    TrackField<Material, glm::dvec3>{"specular_color", &Material::specular_color, not_negative},
-    TrackField<Material, glm::dvec3>{"emission", &Material::emission, not_negative},
-    TrackField<Material, glm::dvec3>{"attenuation_color", &Material::attenuation_color, zero_to_one},
-    TrackField<Material, glm::dvec3>{"sheen_color", &Material::sheen_color, zero_to_one},
+    TrackField<Material, glm::dvec3>{"base_color", {at<&Material::base_color>}, zero_to_one},
+    TrackField<Material, glm::dvec3>{"specular_color", {at<&Material::gloss, &Gloss::specular_color>}, not_negative},
+    TrackField<Material, glm::dvec3>{"emission", {at<&Material::glow, &Glow::color>}, not_negative},
+    TrackField<Material, glm::dvec3>{
+        "attenuation_color", {at<&Material::glass, &Glass::attenuation_color>}, zero_to_one},
+    TrackField<Material, glm::dvec3>{"sheen_color", {at<&Material::layers, &Layers::sheen_color>}, zero_to_one},
 };
 /// A value that does not change over time.
 template <class Element, class T>
 struct Field {
     const char* key;
-    T Element::*member;
+    Place<Element, T> in;
 };
 
 inline constexpr std::array camera_numbers{
-    TrackField<Camera, double>{"half_height", &Camera::half_height, above_zero},
-    TrackField<Camera, double>{"shift_x", &Camera::shift_x, any_value},
-    TrackField<Camera, double>{"shift_y", &Camera::shift_y, any_value},
-    TrackField<Camera, double>{"aperture", &Camera::aperture, not_negative},
-    TrackField<Camera, double>{"focus", &Camera::focus_distance, above_zero},
+    TrackField<Camera, double>{"half_height", {at<&Camera::half_height>}, above_zero},
+    TrackField<Camera, double>{"shift_x", {at<&Camera::shift_x>}, any_value},
+    TrackField<Camera, double>{"shift_y", {at<&Camera::shift_y>}, any_value},
+    TrackField<Camera, double>{"aperture", {at<&Camera::aperture>}, not_negative},
+    TrackField<Camera, double>{"focus", {at<&Camera::focus_distance>}, above_zero},
 };
 
 inline constexpr std::array material_scales{
-    Field<Material, double>{"normal_scale", &Material::normal_scale},
-    Field<Material, double>{"clearcoat_normal_scale", &Material::clearcoat_normal_scale},
+    Field<Material, double>{"normal_scale", {at<&Material::textures, &MaterialImages::normal_scale>}},
+    Field<Material, double>{"clearcoat_normal_scale",
+                            {at<&Material::textures, &MaterialImages::clearcoat_normal_scale>}},
 };
 inline constexpr std::array viewing_numbers{
-    Field<ViewingConditions, double>{"pixels_per_degree", &ViewingConditions::pixels_per_degree},
-    Field<ViewingConditions, double>{"display_white", &ViewingConditions::display_white},
-    Field<ViewingConditions, double>{"persistence", &ViewingConditions::persistence},
+    Field<ViewingConditions, double>{"pixels_per_degree", {at<&ViewingConditions::pixels_per_degree>}},
+    Field<ViewingConditions, double>{"display_white", {at<&ViewingConditions::display_white>}},
+    Field<ViewingConditions, double>{"persistence", {at<&ViewingConditions::persistence>}},
 };
 
 /// An angle under one of two keys.
@@ -85,32 +90,34 @@ template <class Element>
 struct AngleField {
     const char* key;             ///< degrees
     const char* key_in_radians;  ///< where programs need every bit
-    Track<double> Element::*member;
+    Place<Element, Track<double>> in;
     ValueRange range;  ///< degrees
 };
 
 inline constexpr std::array camera_angles{
-    AngleField<Camera>{"fov", "fov_radians", &Camera::fov, field_of_view_degrees},
+    AngleField<Camera>{"fov", "fov_radians", {at<&Camera::fov>}, field_of_view_degrees},
 };
 inline constexpr std::array light_cones{
-    AngleField<Light>{"inner_cone", "inner_cone_radians", &Light::inner_cone, cone_degrees},
-    AngleField<Light>{"outer_cone", "outer_cone_radians", &Light::outer_cone, cone_degrees},
+    AngleField<Light>{"inner_cone", "inner_cone_radians", {at<&Light::inner_cone>}, cone_degrees},
+    AngleField<Light>{"outer_cone", "outer_cone_radians", {at<&Light::outer_cone>}, cone_degrees},
 };
 inline constexpr std::array material_angles{
-    AngleField<Material>{"anisotropy_rotation", "anisotropy_rotation_radians", &Material::anisotropy_rotation,
+    AngleField<Material>{"anisotropy_rotation",
+                         "anisotropy_rotation_radians",
+                         {at<&Material::layers, &Layers::anisotropy_rotation>},
                          any_value},
 };
 
 inline constexpr std::array shape_numbers{
-    Field<Shape, double>{"radius", &Shape::radius},
-    Field<Shape, double>{"tube_radius", &Shape::tube_radius},
-    Field<Shape, double>{"height", &Shape::height},
+    Field<Shape, double>{"radius", {at<&Shape::radius>}},
+    Field<Shape, double>{"tube_radius", {at<&Shape::tube_radius>}},
+    Field<Shape, double>{"height", {at<&Shape::height>}},
 };
 
 /// The material of an empty object. Unlike in glTF an absent `metallic` is 0: in a file written by hand a colour alone
 /// means a plain surface.
 inline Material absent_material() {
-    return {.metallic = 0.0};
+    return {.gloss = {.metallic = 0.0}};
 }
 
 // Words of enumerations, in the order of their values.

@@ -35,7 +35,7 @@ Shape read_shape(const JsonRef& at, Shape::Kind kind) {
         shape.size = flat ? glm::dvec3(read_dvec2(*value), 1.0) : read_dvec3(*value);
     }
     for (const auto& field : shape_numbers) {
-        if (const auto value = at.find(field.key)) shape.*field.member = value->number();
+        if (const auto value = at.find(field.key)) field.in(shape) = value->number();
     }
     if (const auto value = at.find("profile")) {
         for (std::size_t i = 0; i < value->array_size(); ++i) {
@@ -70,7 +70,7 @@ int add_point_cache(SceneReader& reader, const JsonRef& at, const std::string& n
     if (at.json().is_array()) {
         cache.positions.push_back(read_vec3s(at));
     } else {
-        cache.sampling = read_point_samples(at, reader.scene.frame_rate, cache.positions);
+        cache.sampling = read_point_samples(at, reader.scene.film.frame_rate, cache.positions);
         if (const auto velocities = at.find("velocities")) {
             for (std::size_t i = 0; i < velocities->array_size(); ++i) {
                 const JsonRef sample = (*velocities)[i];
@@ -87,7 +87,7 @@ int add_point_cache(SceneReader& reader, const JsonRef& at, const std::string& n
         }
     }
     if (cache.point_count() == 0) at.fail("has no points");
-    return SceneReader::add(std::move(cache), reader.scene.point_caches, reader.points);
+    return SceneReader::add(std::move(cache), reader.scene.point_caches, reader.names.points);
 }
 
 void expect_count(const JsonRef& at, std::size_t found, std::size_t vertices, const char* kind) {
@@ -96,25 +96,25 @@ void expect_count(const JsonRef& at, std::size_t found, std::size_t vertices, co
     }
 }
 
-/// Mesh::points, vertex_points and positions.
+/// Deformation::points, vertex_points and positions.
 void read_vertices(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
     const auto positions = at.find("positions"), points = at.find("points"), map = at.find("vertex_points");
     const bool keyed = positions && positions->json().is_object();
     if (!positions && !points) at.fail("a mesh needs \"positions\", or \"points\" with a name from the scene's points");
     if (keyed && points) positions->fail("keyed positions already are points over time: leave out \"points\"");
-    if (points) mesh.points = reader.points.require(*points);
-    if (keyed) mesh.points = add_point_cache(reader, *positions, reader.points.unused(mesh.name));
+    if (points) mesh.deformation.points = reader.names.points.require(*points);
+    if (keyed) mesh.deformation.points = add_point_cache(reader, *positions, reader.names.points.unused(mesh.name));
     if (positions && !keyed) mesh.positions = read_vec3s(*positions);
-    if (mesh.points == no_index) {
+    if (mesh.deformation.points == no_index) {
         if (map) map->fail("\"vertex_points\" goes with \"points\" or keyed positions");
         return;
     }
-    const PointCache& cache = reader.scene.point_caches[mesh.points];
+    const PointCache& cache = reader.scene.point_caches[mesh.deformation.points];
     if (map) {
         for (const int point : read_indices(*map, 1, cache.point_count(), "point")) {
-            mesh.vertex_points.push_back(static_cast<std::uint32_t>(point));
+            mesh.deformation.vertex_points.push_back(static_cast<std::uint32_t>(point));
         }
-        if (mesh.vertex_points.empty())
+        if (mesh.deformation.vertex_points.empty())
             map->fail("is empty; leave it out if each vertex is the point of the same number");
     }
     const std::vector<glm::vec3> first = first_positions(mesh, cache);
@@ -139,9 +139,10 @@ void read_triangles(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
         if (normals->json().is_array()) {
             mesh.normals = read_vec3s(*normals);
         } else {
-            if (mesh.points == no_index) normals->fail("normals over time go with points over time");
-            mesh.normal_sampling = read_point_samples(*normals, reader.scene.frame_rate, mesh.normal_samples);
-            mesh.normals = mesh.normal_samples.front();
+            if (mesh.deformation.points == no_index) normals->fail("normals over time go with points over time");
+            mesh.deformation.normal_sampling =
+                read_point_samples(*normals, reader.scene.film.frame_rate, mesh.deformation.normal_samples);
+            mesh.normals = mesh.deformation.normal_samples.front();
         }
         expect_count(*normals, mesh.normals.size(), vertices, "normals");
     }
@@ -165,10 +166,10 @@ constexpr std::size_t mesh_bytes = sizeof(Mesh) + 1000;
 
 std::vector<glm::vec3> first_positions(const Mesh& mesh, const PointCache& cache) {
     const std::vector<glm::vec3>& points = cache.positions.front();
-    if (mesh.vertex_points.empty()) return points;
+    if (mesh.deformation.vertex_points.empty()) return points;
     std::vector<glm::vec3> positions;
-    positions.reserve(mesh.vertex_points.size());
-    for (const std::uint32_t point : mesh.vertex_points) positions.push_back(points.at(point));
+    positions.reserve(mesh.deformation.vertex_points.size());
+    for (const std::uint32_t point : mesh.deformation.vertex_points) positions.push_back(points.at(point));
     return positions;
 }
 
@@ -177,8 +178,8 @@ PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::str
     if (positions.has_value() == points.has_value()) {
         at.fail("expected either \"positions\" or \"points\" with a name from the scene's points");
     }
-    const int index =
-        points ? reader.points.require(*points) : add_point_cache(reader, *positions, reader.points.unused(name));
+    const int index = points ? reader.names.points.require(*points)
+                             : add_point_cache(reader, *positions, reader.names.points.unused(name));
     return {index, reader.scene.point_caches[index].point_count()};
 }
 
@@ -197,18 +198,18 @@ int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRe
     } else if (type.string() == "cage") {
         check_shape_keys(at, "cage", {"cage", "part"});
         const JsonRef cage = at.require("cage");
-        mesh.cage = read_cage_use(reader, cage, name);
-        const auto parts = static_cast<std::int64_t>(count_parts(reader.scene.cages[mesh.cage]));
-        mesh.cage_part = static_cast<int>(at.find_integer("part", 0, parts - 1).value_or(0));
-        reader.charge(cage_triangle_bytes * count_cage_triangles(reader.scene.cages[mesh.cage]), at,
+        mesh.subdivision.cage = read_cage_use(reader, cage, name);
+        const auto parts = static_cast<std::int64_t>(count_parts(reader.scene.cages[mesh.subdivision.cage]));
+        mesh.subdivision.part = static_cast<int>(at.find_integer("part", 0, parts - 1).value_or(0));
+        reader.charge(cage_triangle_bytes * count_cage_triangles(reader.scene.cages[mesh.subdivision.cage]), at,
                       "lower the cage's \"level\"");
     } else {
         mesh.shape = read_shape(at, read_word<Shape::Kind>(type, shape_words));
         reader.charge(shape_triangle_bytes * shape_triangle_count(*mesh.shape), at, "lower \"segments\"");
     }
     if (material) mesh.material = read_material_use(reader, *material, name);
-    if (present) mesh.present = read_visibility(*present, reader.scene.frame_rate);
-    return SceneReader::add(std::move(mesh), reader.scene.meshes, reader.meshes);
+    if (present) mesh.present = read_visibility(*present, reader.scene.film.frame_rate);
+    return SceneReader::add(std::move(mesh), reader.scene.meshes, reader.names.meshes);
 }
 
 void make_meshes(SceneReader& reader) {

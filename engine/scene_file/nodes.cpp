@@ -57,8 +57,8 @@ class NodeReader {
         if (!name) all_names_.add(node.name, index);
 
         read_transform(at, node);
-        if (const auto value = at.find("inherits")) node.inherits = read_visibility(*value, scene_.frame_rate);
-        if (const auto value = at.find("visible")) node.visible = read_visibility(*value, scene_.frame_rate);
+        if (const auto value = at.find("inherits")) node.inherits = read_visibility(*value, scene_.film.frame_rate);
+        if (const auto value = at.find("visible")) node.visible = read_visibility(*value, scene_.film.frame_rate);
         const std::string inner = node.name.empty() ? fmt::format("node {}", index) : node.name;
         read_meshes(at, node, inner);
         if (const auto value = at.find("camera")) node.camera = read_camera_use(reader_, *value, inner);
@@ -66,9 +66,9 @@ class NodeReader {
 
         add_node(std::move(node));
         if (const auto instance = at.find("instance")) read_instance(*instance, index);
-        const std::size_t includes = scene_.includes.size();
+        const std::size_t includes = scene_.source.includes.size();
         read_includes(reader_, at, index);
-        if (scene_.includes.size() > includes) with_include_.insert(index);
+        if (scene_.source.includes.size() > includes) with_include_.insert(index);
         if (const auto children = at.find("children")) read_list(*children, index);
     }
 
@@ -79,7 +79,7 @@ class NodeReader {
     }
 
     int require_earlier(const JsonRef& at, const char* what) const {
-        if (const auto found = reader_.nodes.find(at.string())) return *found;
+        if (const auto found = reader_.names.nodes.find(at.string())) return *found;
         if (at.string().empty() || !all_names_.find(at.string()))
             return all_names_.require(at, included_nodes_advice());
         at.fail(fmt::format("\"{}\" comes after this node: {} has to come before, and a node cannot lie below itself",
@@ -93,7 +93,7 @@ class NodeReader {
     }
 
     void read_transform(const JsonRef& at, Node& node) const {
-        const FrameRate& rate = scene_.frame_rate;
+        const FrameRate& rate = scene_.film.frame_rate;
         for (const char* whole : {"matrix", "operations"}) {
             if (!at.has(whole)) continue;
             for (const char* other : {"translation", "rotation", "scale", "operations"}) {
@@ -102,13 +102,14 @@ class NodeReader {
                 found->fail(fmt::format("a node has either \"{}\" or \"{}\", not both", whole, other));
             }
         }
-        if (const auto value = at.find("matrix")) node.matrix = read_matrix(*value, rate);
-        if (const auto value = at.find("operations")) node.operations = read_operations(*value, rate);
-        if (const auto value = at.find("translation")) node.translation = read_vector(*value, rate, any_value);
-        if (const auto value = at.find("scale")) node.scale = read_scale(*value, rate);
+        if (const auto value = at.find("matrix")) node.transform.matrix = read_matrix(*value, rate);
+        if (const auto value = at.find("operations")) node.transform.operations = read_operations(*value, rate);
+        if (const auto value = at.find("translation"))
+            node.transform.translation = read_vector(*value, rate, any_value);
+        if (const auto value = at.find("scale")) node.transform.scale = read_scale(*value, rate);
         if (const auto value = at.find("rotation")) {
-            node.axis_rotation = read_axis_rotation(*value, rate);
-            if (!node.axis_rotation) node.rotation = read_quaternion(*value, rate);
+            node.transform.axis_rotation = read_axis_rotation(*value, rate);
+            if (!node.transform.axis_rotation) node.transform.rotation = read_quaternion(*value, rate);
         }
     }
 
@@ -116,12 +117,13 @@ class NodeReader {
         const auto shape = at.find("shape"), material = at.find("material");
         if (material && !shape) material->fail("\"material\" goes with \"shape\"; a mesh from \"meshes\" has its own");
         if (shape)
-            node.meshes.push_back(read_mesh(reader_, *shape, material, std::nullopt, reader_.meshes.unused(name)));
-        if (const auto mesh = at.find("mesh")) node.meshes.push_back(reader_.meshes.require(*mesh));
+            node.meshes.push_back(
+                read_mesh(reader_, *shape, material, std::nullopt, reader_.names.meshes.unused(name)));
+        if (const auto mesh = at.find("mesh")) node.meshes.push_back(reader_.names.meshes.require(*mesh));
         if (const auto list = at.find("meshes")) {
             for (std::size_t i = 0; i < list->array_size(); ++i) {
                 const JsonRef mesh = (*list)[i];
-                node.meshes.push_back(reader_.meshes.require(mesh));
+                node.meshes.push_back(reader_.names.meshes.require(mesh));
             }
         }
     }
@@ -168,12 +170,12 @@ class NodeReader {
 
     /// Gives the node the source's meshes and light. @return whether the source has any
     bool share(const JsonRef& at, int source, int index) {
-        const std::size_t includes = scene_.includes.size();
+        const std::size_t includes = scene_.source.includes.size();
         for (std::size_t i = 0; with_include_.contains(source) && i < includes; ++i) {
-            if (scene_.includes[i].node != source) continue;
+            if (scene_.source.includes[i].node != source) continue;
             reader_.charge(include_bytes, at, "too many includes are shown again");
-            scene_.includes.push_back(scene_.includes[i]);
-            scene_.includes.back().node = index;
+            scene_.source.includes.push_back(scene_.source.includes[i]);
+            scene_.source.includes.back().node = index;
             reader_.result.include_places.push_back(at.pointer());
             with_include_.insert(index);
         }
@@ -182,13 +184,13 @@ class NodeReader {
         reader_.charge(from.meshes.size() * sizeof(int), at, "too many meshes are shared");
         to.meshes.insert(to.meshes.end(), from.meshes.begin(), from.meshes.end());
         if (to.light == no_index) to.light = from.light;
-        return !from.meshes.empty() || from.light != no_index || scene_.includes.size() > includes;
+        return !from.meshes.empty() || from.light != no_index || scene_.source.includes.size() > includes;
     }
 
     int add_node(Node node) {
         const int index = static_cast<int>(scene_.nodes.size());
         if (node.parent != no_index) children_[node.parent].push_back(index);
-        if (!node.name.empty()) reader_.nodes.add(node.name, index);
+        if (!node.name.empty()) reader_.names.nodes.add(node.name, index);
         children_.emplace_back();
         scene_.nodes.push_back(std::move(node));
         return index;
@@ -244,8 +246,8 @@ void read_includes(SceneReader& reader, const JsonRef& parent, int node) {
     const auto include = parent.find("include");
     if (!include) return;
     const auto add = [&](const JsonRef& at) {
-        reader.scene.includes.push_back(read_include(at));
-        reader.scene.includes.back().node = node;
+        reader.scene.source.includes.push_back(read_include(at));
+        reader.scene.source.includes.back().node = node;
         reader.result.include_places.push_back(at.pointer());
     };
     if (!include->json().is_array()) {

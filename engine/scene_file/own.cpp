@@ -35,18 +35,9 @@ void check_index(int index, std::size_t count, const char* kind, std::size_t use
 
 Scene without_includes(const Scene& scene, const std::string& file) {
     Scene own;
-    own.name = scene.name;
-    own.frame_rate = scene.frame_rate;
-    own.range = scene.range;
-    own.cuts = scene.cuts;
-    own.viewing = scene.viewing;
-    own.exposure = scene.exposure;
+    own.source = scene.source;
+    own.film = scene.film;
     own.environment = scene.environment;
-    own.environment_image = scene.environment_image;
-    own.environment_rotation = scene.environment_rotation;
-    own.environment_axis_rotation = scene.environment_axis_rotation;
-    own.camera = scene.camera;
-    own.camera_keys = scene.camera_keys;
     own.nodes = own_part("node", scene.nodes, file);
     own.meshes = own_part("mesh", scene.meshes, file);
     own.point_caches = own_part("points", scene.point_caches, file);
@@ -56,10 +47,6 @@ Scene without_includes(const Scene& scene, const std::string& file) {
     own.images = own_part("image", scene.images, file);
     own.lights = own_part("light", scene.lights, file);
     own.cameras = own_part("camera", scene.cameras, file);
-    own.includes = scene.includes;
-    own.settings = scene.settings;
-    own.file = scene.file;
-    own.warnings = scene.warnings;
 
     for (std::size_t i = 0; i < own.nodes.size(); ++i) {
         const Node& node = own.nodes[i];
@@ -71,15 +58,15 @@ Scene without_includes(const Scene& scene, const std::string& file) {
     for (std::size_t i = 0; i < own.meshes.size(); ++i) {
         const Mesh& mesh = own.meshes[i];
         check_index(mesh.material, own.materials.size(), "mesh", i, "material", file);
-        check_index(mesh.points, own.point_caches.size(), "mesh", i, "points", file);
-        check_index(mesh.skin, own.skins.size(), "mesh", i, "skin", file);
-        check_index(mesh.cage, own.cages.size(), "mesh", i, "cage", file);
+        check_index(mesh.deformation.points, own.point_caches.size(), "mesh", i, "points", file);
+        check_index(mesh.deformation.skin, own.skins.size(), "mesh", i, "skin", file);
+        check_index(mesh.subdivision.cage, own.cages.size(), "mesh", i, "cage", file);
     }
     for (std::size_t i = 0; i < own.cages.size(); ++i) {
         check_index(own.cages[i].points, own.point_caches.size(), "cage", i, "points", file);
     }
-    for (std::size_t i = 0; i < own.includes.size(); ++i) {
-        check_index(own.includes[i].node, own.nodes.size(), "include", i, "node", file);
+    for (std::size_t i = 0; i < own.source.includes.size(); ++i) {
+        check_index(own.source.includes[i].node, own.nodes.size(), "include", i, "node", file);
     }
     return own;
 }

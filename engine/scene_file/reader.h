@@ -31,13 +31,18 @@ class NameIndex {
     std::unordered_map<std::string, int> index_;
 };
 
+/// The elements of a scene file by name.
+struct SceneNames {
+    NameIndex images{"image"}, materials{"material"}, meshes{"mesh"}, lights{"light"}, cameras{"camera"}, nodes{"node"};
+    NameIndex points{"list of points"}, cages{"cage"};
+};
+
 struct SceneReader {
     SceneText result;
     Scene& scene = result.scene;
     std::string file;  ///< its name in errors
     LoadLimits limits;
-    NameIndex images{"image"}, materials{"material"}, meshes{"mesh"}, lights{"light"}, cameras{"camera"}, nodes{"node"};
-    NameIndex points{"list of points"}, cages{"cage"};
+    SceneNames names;
     std::vector<std::string> cage_places;  ///< JSON pointer per scene.cages
     std::unordered_map<std::string, int> image_of_path;
     std::size_t memory = 0;  ///< about, of the elements so far, bytes

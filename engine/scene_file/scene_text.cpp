@@ -33,29 +33,30 @@ std::int64_t read_frame(const JsonRef& list, std::size_t i) {
 /// A name, or keys of frames and names. Whether the cameras exist is known when the includes are read.
 void read_camera_choice(Scene& scene, const JsonRef& at) {
     if (at.json().is_string()) {
-        scene.camera = at.string();
+        scene.film.camera = at.string();
         return;
     }
     const JsonRef keys = at.require("keys");
     for (std::size_t i = 0; i < keys.array_size(); ++i) {
         const JsonRef key = keys[i], name = key[1];
-        scene.camera_keys.push_back({read_frame(key, 0), name.string()});
-        if (i > 0 && scene.camera_keys[i].frame <= scene.camera_keys[i - 1].frame) key.fail("key times have to ascend");
+        scene.film.camera_keys.push_back({read_frame(key, 0), name.string()});
+        if (i > 0 && scene.film.camera_keys[i].frame <= scene.film.camera_keys[i - 1].frame)
+            key.fail("key times have to ascend");
     }
 }
 
 void read_header(Scene& scene, const JsonRef& root) {
-    scene.name = root.find_string("name").value_or("");
+    scene.source.name = root.find_string("name").value_or("");
     if (const auto camera = root.find("camera")) read_camera_choice(scene, *camera);
-    if (const auto fps = root.find("fps")) scene.frame_rate = read_frame_rate(*fps);
+    if (const auto fps = root.find("fps")) scene.film.frame_rate = read_frame_rate(*fps);
     if (const auto frames = root.find("frames")) {
-        scene.range = FrameRange{read_frame(*frames, 0), read_frame(*frames, 1)};
-        if (scene.range->last < scene.range->first) frames->fail("the last frame comes before the first");
+        scene.film.range = FrameRange{read_frame(*frames, 0), read_frame(*frames, 1)};
+        if (scene.film.range->last < scene.film.range->first) frames->fail("the last frame comes before the first");
     }
     if (const auto cuts = root.find("cuts")) {
         for (std::size_t i = 0; i < cuts->array_size(); ++i) {
-            scene.cuts.push_back(read_frame(*cuts, i));
-            if (i > 0 && scene.cuts[i] <= scene.cuts[i - 1]) {
+            scene.film.cuts.push_back(read_frame(*cuts, i));
+            if (i > 0 && scene.film.cuts[i] <= scene.film.cuts[i - 1]) {
                 const JsonRef cut = (*cuts)[i];
                 cut.fail("cuts have to ascend");
             }
@@ -63,11 +64,11 @@ void read_header(Scene& scene, const JsonRef& root) {
     }
     if (const auto viewing = root.find("viewing")) {
         for (const auto& field : viewing_numbers)
-            if (const auto value = viewing->find(field.key)) scene.viewing.*field.member = value->number();
+            if (const auto value = viewing->find(field.key)) field.in(scene.film.viewing) = value->number();
     }
-    if (const auto exposure = root.find("exposure")) scene.exposure = exposure->number();
+    if (const auto exposure = root.find("exposure")) scene.film.exposure = exposure->number();
     if (const auto value = root.find("environment")) {
-        scene.environment = read_vector(*value, scene.frame_rate, not_negative);
+        scene.environment.radiance = read_vector(*value, scene.film.frame_rate, not_negative);
     }
 }
 
@@ -77,11 +78,11 @@ void read_settings(Scene& scene, const JsonRef& root) {
     for (const auto& setting : settings->json().items()) {
         const JsonRef value = settings->require(setting.key());
         if (value.json().is_boolean()) {
-            scene.settings.emplace(setting.key(), value.boolean());
+            scene.source.settings.emplace(setting.key(), value.boolean());
         } else if (value.json().is_string()) {
-            scene.settings.emplace(setting.key(), value.string());
+            scene.source.settings.emplace(setting.key(), value.string());
         } else {
-            scene.settings.emplace(setting.key(), value.number());
+            scene.source.settings.emplace(setting.key(), value.number());
         }
     }
 }
@@ -125,12 +126,13 @@ void read_environment_picture(SceneReader& reader, const JsonRef& root) {
     const auto picture = root.find("environment_image");
     if (const auto rotation = root.find("environment_rotation")) {
         if (!picture) rotation->fail("\"environment_rotation\" turns \"environment_image\", which is not given");
-        scene.environment_axis_rotation = read_axis_rotation(*rotation, scene.frame_rate);
-        if (!scene.environment_axis_rotation) scene.environment_rotation = read_quaternion(*rotation, scene.frame_rate);
+        scene.environment.axis_rotation = read_axis_rotation(*rotation, scene.film.frame_rate);
+        if (!scene.environment.axis_rotation)
+            scene.environment.rotation = read_quaternion(*rotation, scene.film.frame_rate);
     }
     if (!picture) return;
-    scene.environment_image = read_image_use(reader, *picture);
-    if (!scene.environment) scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
+    scene.environment.image = read_image_use(reader, *picture);
+    if (!scene.environment.radiance) scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
 }
 
 void SceneReader::charge(std::size_t bytes, const JsonRef& at, const char* advice) {

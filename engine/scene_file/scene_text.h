@@ -19,11 +19,11 @@ inline constexpr std::size_t max_scene_cages = 4096;
 struct SceneText {
     Scene scene;
     std::vector<std::string> image_places;    ///< JSON pointer per scene.images
-    std::vector<std::string> include_places;  ///< JSON pointer per scene.includes
+    std::vector<std::string> include_places;  ///< JSON pointer per scene.source.includes
 };
 
 /// A node without the key "name" is called "node 3". Meshes, materials, lights and cameras that are defined in a node
-/// get the node's name. Scene::file stays empty.
+/// get the node's name. SceneSource::file stays empty.
 /// @param file  its name in errors
 /// @throws InputError with a JSON pointer, or line and column for text that is not JSON
 SceneText read_scene_text(std::string_view text, const std::string& file, const LoadLimits& limits = {});

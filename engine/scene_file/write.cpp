@@ -87,50 +87,50 @@ class Writer {
     void write_header() {
         const Scene absent;
         out_["aleph"] = 1;
-        if (!scene_.name.empty()) out_["name"] = scene_.name;
+        if (!scene_.source.name.empty()) out_["name"] = scene_.source.name;
         if (at_.rate().denominator == 1) {
             out_["fps"] = at_.rate().numerator;
         } else {
             out_["fps"] = fmt::format("{}/{}", at_.rate().numerator, at_.rate().denominator);
         }
-        if (scene_.range) out_["frames"] = {scene_.range->first, scene_.range->last};
-        if (!scene_.cuts.empty()) out_["cuts"] = scene_.cuts;
+        if (scene_.film.range) out_["frames"] = {scene_.film.range->first, scene_.film.range->last};
+        if (!scene_.film.cuts.empty()) out_["cuts"] = scene_.film.cuts;
         for (const auto& field : viewing_numbers) {
-            const double value = scene_.viewing.*field.member;
-            if (value != absent.viewing.*field.member) out_["viewing"][field.key] = value;
+            const double value = field.in(scene_.film.viewing);
+            if (value != field.in(absent.film.viewing)) out_["viewing"][field.key] = value;
         }
-        if (scene_.exposure) out_["exposure"] = *scene_.exposure;
-        if (!scene_.camera.empty()) out_["camera"] = scene_.camera;
-        for (const CameraKey& key : scene_.camera_keys) out_["camera"]["keys"].push_back({key.frame, key.camera});
-        if (scene_.environment) {
+        if (scene_.film.exposure) out_["exposure"] = *scene_.film.exposure;
+        if (!scene_.film.camera.empty()) out_["camera"] = scene_.film.camera;
+        for (const CameraKey& key : scene_.film.camera_keys) out_["camera"]["keys"].push_back({key.frame, key.camera});
+        if (scene_.environment.radiance) {
             at_.place = "environment";
-            validate(*scene_.environment, at_.file, at_.place);
-            out_["environment"] = write_vector(*scene_.environment, at_.rate());
+            validate(*scene_.environment.radiance, at_.file, at_.place);
+            out_["environment"] = write_vector(*scene_.environment.radiance, at_.rate());
         }
         write_environment_picture();
-        for (const auto& [key, value] : scene_.settings) {
+        for (const auto& [key, value] : scene_.source.settings) {
             std::visit([&, name = key](const auto& v) { out_["settings"][name] = v; }, value);
         }
     }
 
     void write_environment_picture() {
         at_.place = "environment_image";
-        if (scene_.environment_image != no_index) {
-            if (!scene_.environment) at_.refuse("needs `environment`, the factor on the picture");
-            out_["environment_image"] = at_.name_in(scene_.images, scene_.environment_image);
+        if (scene_.environment.image != no_index) {
+            if (!scene_.environment.radiance) at_.refuse("needs `environment`, the factor on the picture");
+            out_["environment_image"] = at_.name_in(scene_.images, scene_.environment.image);
         }
         at_.place = "environment";
-        at_.rotation(out_, "environment_rotation", scene_.environment_rotation, scene_.environment_axis_rotation);
+        at_.rotation(out_, "environment_rotation", scene_.environment.rotation, scene_.environment.axis_rotation);
     }
 
     ordered_json write_mesh(const Mesh& mesh) const {
-        if (!mesh.targets.empty() || mesh.skin != no_index) {
+        if (!mesh.deformation.targets.empty() || mesh.deformation.skin != no_index) {
             at_.refuse("a scene file cannot hold morph targets and skins: keep the mesh in a .glb and include that");
         }
         ordered_json out;
-        if (mesh.cage != no_index) {
-            out["shape"] = {{"type", "cage"}, {"cage", at_.name_in(scene_.cages, mesh.cage)}};
-            if (mesh.cage_part != 0) out["shape"]["part"] = mesh.cage_part;
+        if (mesh.subdivision.cage != no_index) {
+            out["shape"] = {{"type", "cage"}, {"cage", at_.name_in(scene_.cages, mesh.subdivision.cage)}};
+            if (mesh.subdivision.part != 0) out["shape"]["part"] = mesh.subdivision.part;
         } else if (mesh.shape) {
             validate(*mesh.shape, at_.file, at_.place);
             out["shape"] = write_shape(*mesh.shape);
@@ -143,10 +143,10 @@ class Writer {
     }
 
     const PointCache* points_of(const Mesh& mesh) const {
-        if (mesh.points == no_index) return nullptr;
-        at_.name_in(scene_.point_caches, mesh.points);
-        const PointCache& cache = scene_.point_caches[mesh.points];
-        for (const std::uint32_t point : mesh.vertex_points) {
+        if (mesh.deformation.points == no_index) return nullptr;
+        at_.name_in(scene_.point_caches, mesh.deformation.points);
+        const PointCache& cache = scene_.point_caches[mesh.deformation.points];
+        for (const std::uint32_t point : mesh.deformation.vertex_points) {
             if (point >= cache.point_count())
                 at_.refuse(fmt::format("its points \"{}\" have no point {}", cache.name, point));
         }
@@ -179,15 +179,16 @@ class Writer {
                 at_.refuse(fmt::format("its parent, node {}, needs a name in a scene file", node.parent));
             out["parent"] = parent;
         }
-        at_.track(out, "translation", node.translation, absent.translation, write_vector);
-        at_.rotation(out, "rotation", node.rotation, node.axis_rotation);
-        at_.track(out, "scale", node.scale, absent.scale, write_scale);
-        if (node.matrix) {
-            validate(*node.matrix, at_.file, at_.place + " matrix");
-            out["matrix"] = write_matrix(*node.matrix, at_.rate());
+        at_.track(out, "translation", node.transform.translation, absent.transform.translation, write_vector);
+        at_.rotation(out, "rotation", node.transform.rotation, node.transform.axis_rotation);
+        at_.track(out, "scale", node.transform.scale, absent.transform.scale, write_scale);
+        if (node.transform.matrix) {
+            validate(*node.transform.matrix, at_.file, at_.place + " matrix");
+            out["matrix"] = write_matrix(*node.transform.matrix, at_.rate());
         }
-        if (node.operations)
-            out["operations"] = write_operations(*node.operations, at_.rate(), at_.file, at_.place + " operations");
+        if (node.transform.operations)
+            out["operations"] =
+                write_operations(*node.transform.operations, at_.rate(), at_.file, at_.place + " operations");
         at_.track(out, "inherits", node.inherits, absent.inherits, write_visibility);
         at_.track(out, "visible", node.visible, absent.visible, write_visibility);
         if (node.meshes.size() == 1) {
@@ -203,7 +204,7 @@ class Writer {
 
     void write_includes(ordered_json& out, int node) const {
         ordered_json paths = ordered_json::array();
-        for (const Include& include : scene_.includes) {
+        for (const Include& include : scene_.source.includes) {
             if (include.node == node) paths.push_back(write_include(include));
         }
         if (!paths.empty()) out["include"] = paths.size() == 1 ? paths.front() : paths;
@@ -243,7 +244,7 @@ std::string first_difference(const Scene& a, const Scene& b) {
           first_difference("light", a.lights, b.lights), first_difference("camera", a.cameras, b.cameras)}) {
         if (!place.empty()) return place;
     }
-    return a.includes == b.includes ? "header" : "includes";
+    return a.source.includes == b.source.includes ? "header" : "includes";
 }
 
 }  // namespace
@@ -258,10 +259,10 @@ std::string write_scene_text(const Scene& scene, const std::string& file) {
         image.bytes = {};
         image.floats = {};
     }
-    own.file.clear();
-    own.warnings.clear();
+    own.source.file.clear();
+    own.source.warnings.clear();
     Scene again = read_scene_text(text, file).scene;
-    again.warnings.clear();
+    again.source.warnings.clear();
     if (again != own) {
         throw InputError(file, first_difference(own, again), "holds something that a scene file cannot store exactly");
     }

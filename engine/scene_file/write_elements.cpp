@@ -47,7 +47,7 @@ void SceneWriting::rotation(ordered_json& out, const char* key, const Track<glm:
         out[key]["axis"] = write_dvec3(about_axis->axis);
         angle(out[key], "degrees", "radians", about_axis->angle);
     } else {
-        track(out, key, value, Node{}.rotation, write_quaternion);
+        track(out, key, value, Node{}.transform.rotation, write_quaternion);
     }
 }
 
@@ -55,22 +55,23 @@ ordered_json write_material(const SceneWriting& at, const Material& material) {
     const Material absent = absent_material();
     ordered_json out = ordered_json::object();
     for (const auto& field : material_colors) {
-        at.track(out, field.key, material.*field.member, absent.*field.member, write_vector);
+        at.track(out, field.key, field.in(material), field.in(absent), write_vector);
     }
     for (const auto& field : material_numbers) {
-        at.track(out, field.key, material.*field.member, absent.*field.member, write_number);
+        at.track(out, field.key, field.in(material), field.in(absent), write_number);
     }
     at.angles(out, material, absent, material_angles);
     for (const auto& field : material_scales) {
-        if (material.*field.member != absent.*field.member) out[field.key] = material.*field.member;
+        if (field.in(material) != field.in(absent)) out[field.key] = field.in(material);
     }
     for (const auto& field : material_textures) {
-        if ((material.*field.member).image != no_index) out[field.key] = write_texture(at, material.*field.member);
+        if (material.textures[field.slot].image != no_index)
+            out[field.key] = write_texture(at, material.textures[field.slot]);
     }
-    if (material.alpha_mode != absent.alpha_mode) {
-        out["alpha_mode"] = alpha_words[index_of(material.alpha_mode)];
+    if (material.opacity.mode != absent.opacity.mode) {
+        out["alpha_mode"] = alpha_words[index_of(material.opacity.mode)];
     }
-    if (material.alpha_cutoff != absent.alpha_cutoff) out["alpha_cutoff"] = material.alpha_cutoff;
+    if (material.opacity.cutoff != absent.opacity.cutoff) out["alpha_cutoff"] = material.opacity.cutoff;
     if (material.unlit) out["unlit"] = true;
     if (material.double_sided) out["double_sided"] = true;
     return out;
@@ -92,7 +93,7 @@ ordered_json write_camera(const SceneWriting& at, const Camera& camera) {
     at.angles(out, camera, absent, camera_angles);
     if (camera.orthographic || camera.half_height != absent.half_height) out["orthographic"] = camera.orthographic;
     for (const auto& field : camera_numbers) {
-        at.track(out, field.key, camera.*field.member, absent.*field.member, write_number);
+        at.track(out, field.key, field.in(camera), field.in(absent), write_number);
     }
     if (camera.near_plane != absent.near_plane) out["near"] = camera.near_plane;
     if (camera.shutter != absent.shutter) out["shutter"] = {camera.shutter.x, camera.shutter.y};

@@ -18,7 +18,7 @@ struct SceneWriting {
     const std::string& file;
     std::string place;  ///< of the element that is written, for errors
 
-    const FrameRate& rate() const { return scene.frame_rate; }
+    const FrameRate& rate() const { return scene.film.frame_rate; }
     [[noreturn]] void refuse(const std::string& reason) const { throw InputError(file, place, reason); }
 
     template <class List>
@@ -43,8 +43,7 @@ struct SceneWriting {
     void angles(nlohmann::ordered_json& out, const Element& element, const Element& absent,
                 const Fields& fields) const {
         for (const auto& field : fields) {
-            if (element.*field.member != absent.*field.member)
-                angle(out, field.key, field.key_in_radians, element.*field.member);
+            if (field.in(element) != field.in(absent)) angle(out, field.key, field.key_in_radians, field.in(element));
         }
     }
 

@@ -57,7 +57,7 @@ ordered_json write_shape(const Shape& shape) {
         if (shape.kind == Shape::Kind::quad) out["size"].erase(2);
     }
     for (const auto& field : shape_numbers) {
-        if (has(field.key) && shape.*field.member != absent.*field.member) out[field.key] = shape.*field.member;
+        if (has(field.key) && field.in(shape) != field.in(absent)) out[field.key] = field.in(shape);
     }
     for (const glm::dvec2& point : shape.profile) out["profile"].push_back({point.x, point.y});
     if (shape.smooth != absent.smooth) out["smooth"] = shape.smooth;
@@ -74,20 +74,20 @@ ordered_json write_cage(const Cage& cage, const std::string& points) {
     write_word(out, "uv_rule", uv_rule_words, cage.uv_rule, absent.uv_rule);
     if (cage.level != absent.level) out["level"] = cage.level;
     if (cage.max_level != absent.max_level) out["max_level"] = cage.max_level;
-    out["faces"] = write_runs(cage.face_sizes, cage.face_points);
-    const ordered_json chains = write_runs(cage.crease_lengths, cage.crease_points);
+    out["faces"] = write_runs(cage.faces.sizes, cage.faces.points);
+    const ordered_json chains = write_runs(cage.creases.lengths, cage.creases.points);
     for (std::size_t i = 0; i < chains.size(); ++i) {
-        out["creases"].push_back({{"points", chains[i]}, {"sharpness", widen(cage.crease_sharpness[i])}});
+        out["creases"].push_back({{"points", chains[i]}, {"sharpness", widen(cage.creases.sharpness[i])}});
     }
-    for (std::size_t i = 0; i < cage.corner_points.size(); ++i) {
-        out["corners"].push_back({{"point", cage.corner_points[i]}, {"sharpness", widen(cage.corner_sharpness[i])}});
+    for (std::size_t i = 0; i < cage.corners.points.size(); ++i) {
+        out["corners"].push_back({{"point", cage.corners.points[i]}, {"sharpness", widen(cage.corners.sharpness[i])}});
     }
-    if (!cage.holes.empty()) out["holes"] = cage.holes;
+    if (!cage.faces.holes.empty()) out["holes"] = cage.faces.holes;
     if (!cage.uv.empty()) out["uv"] = write_vectors(cage.uv);
-    if (!cage.face_uv.empty() && cage.face_uv != cage.face_points) {
-        out["face_uv"] = write_runs(cage.face_sizes, cage.face_uv);
+    if (!cage.faces.uv.empty() && cage.faces.uv != cage.faces.points) {
+        out["face_uv"] = write_runs(cage.faces.sizes, cage.faces.uv);
     }
-    if (!cage.face_parts.empty()) out["parts"] = cage.face_parts;
+    if (!cage.faces.parts.empty()) out["parts"] = cage.faces.parts;
     return out;
 }
 
@@ -95,7 +95,7 @@ ordered_json write_triangles(const Mesh& mesh, const PointCache* cache, const Fr
     ordered_json out = {{"type", "mesh"}};
     if (cache != nullptr) {
         out["points"] = cache->name;
-        if (!mesh.vertex_points.empty()) out["vertex_points"] = mesh.vertex_points;
+        if (!mesh.deformation.vertex_points.empty()) out["vertex_points"] = mesh.deformation.vertex_points;
     }
     if (cache == nullptr || first_positions(mesh, *cache) != mesh.positions) {
         out["positions"] = write_vectors(mesh.positions);
@@ -106,8 +106,9 @@ ordered_json write_triangles(const Mesh& mesh, const PointCache* cache, const Fr
         for (int i = 0; i < 3; ++i) triangles.emplace_back(triangle[i]);
     }
     out["triangles"] = std::move(triangles);
-    if (!mesh.normal_samples.empty()) {
-        out["normals"] = write_samples_of_points(mesh.normal_sampling, mesh.normal_samples, rate);
+    if (!mesh.deformation.normal_samples.empty()) {
+        out["normals"] =
+            write_samples_of_points(mesh.deformation.normal_sampling, mesh.deformation.normal_samples, rate);
     } else if (!mesh.normals.empty()) {
         out["normals"] = write_vectors(mesh.normals);
     }

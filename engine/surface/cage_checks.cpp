@@ -26,12 +26,12 @@ using EdgeFaces = std::unordered_map<std::uint64_t, int>;
 
 EdgeFaces count_edge_faces(const Cage& cage) {
     EdgeFaces edges;
-    edges.reserve(cage.face_points.size());
+    edges.reserve(cage.faces.points.size());
     std::size_t begin = 0;
-    for (const int size : cage.face_sizes) {
+    for (const int size : cage.faces.sizes) {
         for (int k = 0; k < size; ++k) {
-            const int a = cage.face_points[begin + static_cast<std::size_t>(k)];
-            const int b = cage.face_points[begin + static_cast<std::size_t>((k + 1) % size)];
+            const int a = cage.faces.points[begin + static_cast<std::size_t>(k)];
+            const int b = cage.faces.points[begin + static_cast<std::size_t>((k + 1) % size)];
             ++edges[edge_key(a, b)];
         }
         begin += static_cast<std::size_t>(size);
@@ -59,34 +59,34 @@ class Checker {
     bool is_point(int i) const { return i >= 0 && static_cast<std::size_t>(i) < points_; }
 
     void check_faces() const {
-        if (cage_.face_sizes.empty()) refuse("it has no faces");
-        if (points_ > max_face_points || cage_.face_points.size() > max_face_points) {
+        if (cage_.faces.sizes.empty()) refuse("it has no faces");
+        if (points_ > max_face_points || cage_.faces.points.size() > max_face_points) {
             refuse(fmt::format("it has {} points and {} face corners; at most {} are possible", points_,
-                               cage_.face_points.size(), max_face_points));
+                               cage_.faces.points.size(), max_face_points));
         }
         std::size_t begin = 0;
-        for (std::size_t f = 0; f < cage_.face_sizes.size(); ++f) {
-            const int size = cage_.face_sizes[f];
+        for (std::size_t f = 0; f < cage_.faces.sizes.size(); ++f) {
+            const int size = cage_.faces.sizes[f];
             if (size < 3) refuse(fmt::format("face {} has {} points; a face has at least 3", f, size));
             if (cage_.scheme == Cage::Scheme::loop && size != 3) {
                 refuse(fmt::format("face {} has {} points; Loop subdivision takes triangles only", f, size));
             }
             const std::size_t end = begin + static_cast<std::size_t>(size);
-            if (end > cage_.face_points.size()) break;
+            if (end > cage_.faces.points.size()) break;
             check_face_points(f, begin, end);
             begin = end;
         }
         std::size_t corners = 0;
-        for (const int size : cage_.face_sizes) corners += static_cast<std::size_t>(size);
-        if (corners != cage_.face_points.size()) {
+        for (const int size : cage_.faces.sizes) corners += static_cast<std::size_t>(size);
+        if (corners != cage_.faces.points.size()) {
             refuse(fmt::format("its faces have {} corners, but {} points are given for them", corners,
-                               cage_.face_points.size()));
+                               cage_.faces.points.size()));
         }
     }
 
     void check_face_points(std::size_t face, std::size_t begin, std::size_t end) const {
-        std::vector<int> sorted(cage_.face_points.begin() + static_cast<std::ptrdiff_t>(begin),
-                                cage_.face_points.begin() + static_cast<std::ptrdiff_t>(end));
+        std::vector<int> sorted(cage_.faces.points.begin() + static_cast<std::ptrdiff_t>(begin),
+                                cage_.faces.points.begin() + static_cast<std::ptrdiff_t>(end));
         for (const int point : sorted) {
             if (!is_point(point)) refuse(fmt::format("face {} names point {} of {}", face, point, points_));
         }
@@ -96,67 +96,67 @@ class Checker {
     }
 
     void check_holes_and_parts() const {
-        const auto faces = static_cast<int>(cage_.face_sizes.size());
-        for (const int hole : cage_.holes) {
+        const auto faces = static_cast<int>(cage_.faces.sizes.size());
+        for (const int hole : cage_.faces.holes) {
             if (hole < 0 || hole >= faces) refuse(fmt::format("hole {} is no face; there are {}", hole, faces));
         }
-        if (cage_.face_parts.empty()) return;
-        if (cage_.face_parts.size() != cage_.face_sizes.size()) {
-            refuse(fmt::format("{} faces, but parts for {}", faces, cage_.face_parts.size()));
+        if (cage_.faces.parts.empty()) return;
+        if (cage_.faces.parts.size() != cage_.faces.sizes.size()) {
+            refuse(fmt::format("{} faces, but parts for {}", faces, cage_.faces.parts.size()));
         }
-        for (std::size_t f = 0; f < cage_.face_parts.size(); ++f) {
-            const int part = cage_.face_parts[f];
+        for (std::size_t f = 0; f < cage_.faces.parts.size(); ++f) {
+            const int part = cage_.faces.parts[f];
             // No more parts than faces, so that what is allocated follows from the file's size.
             if (part < 0 || part >= faces) refuse(fmt::format("face {} belongs to part {}", f, part));
         }
     }
 
     void check_creases() const {
-        if (cage_.crease_lengths.size() != cage_.crease_sharpness.size()) {
-            refuse(fmt::format("{} creases, but {} sharpnesses", cage_.crease_lengths.size(),
-                               cage_.crease_sharpness.size()));
+        if (cage_.creases.lengths.size() != cage_.creases.sharpness.size()) {
+            refuse(fmt::format("{} creases, but {} sharpnesses", cage_.creases.lengths.size(),
+                               cage_.creases.sharpness.size()));
         }
         std::size_t total = 0;
-        for (std::size_t c = 0; c < cage_.crease_lengths.size(); ++c) {
-            const int length = cage_.crease_lengths[c];
+        for (std::size_t c = 0; c < cage_.creases.lengths.size(); ++c) {
+            const int length = cage_.creases.lengths[c];
             if (length < 2) refuse(fmt::format("crease {} has {} points; it needs at least 2", c, length));
-            if (!std::isfinite(cage_.crease_sharpness[c])) {
+            if (!std::isfinite(cage_.creases.sharpness[c])) {
                 refuse(fmt::format("crease {} has a sharpness that is not a finite number", c));
             }
             total += static_cast<std::size_t>(length);
         }
-        if (total != cage_.crease_points.size()) {
+        if (total != cage_.creases.points.size()) {
             refuse(fmt::format("its creases have {} points, but {} are given for them", total,
-                               cage_.crease_points.size()));
+                               cage_.creases.points.size()));
         }
-        for (const int point : cage_.crease_points) {
+        for (const int point : cage_.creases.points) {
             if (!is_point(point)) refuse(fmt::format("a crease names point {} of {}", point, points_));
         }
     }
 
     void check_corners() const {
-        if (cage_.corner_points.size() != cage_.corner_sharpness.size()) {
-            refuse(fmt::format("{} corners, but {} sharpnesses", cage_.corner_points.size(),
-                               cage_.corner_sharpness.size()));
+        if (cage_.corners.points.size() != cage_.corners.sharpness.size()) {
+            refuse(fmt::format("{} corners, but {} sharpnesses", cage_.corners.points.size(),
+                               cage_.corners.sharpness.size()));
         }
-        for (std::size_t c = 0; c < cage_.corner_points.size(); ++c) {
-            if (!is_point(cage_.corner_points[c])) {
-                refuse(fmt::format("corner {} names point {} of {}", c, cage_.corner_points[c], points_));
+        for (std::size_t c = 0; c < cage_.corners.points.size(); ++c) {
+            if (!is_point(cage_.corners.points[c])) {
+                refuse(fmt::format("corner {} names point {} of {}", c, cage_.corners.points[c], points_));
             }
-            if (!std::isfinite(cage_.corner_sharpness[c])) {
+            if (!std::isfinite(cage_.corners.sharpness[c])) {
                 refuse(fmt::format("corner {} has a sharpness that is not a finite number", c));
             }
         }
     }
 
     void check_uv() const {
-        if (cage_.face_uv.empty()) return;
-        if (cage_.face_uv.size() != cage_.face_points.size()) {
-            refuse(fmt::format("its faces have {} corners, but texture coordinates for {}", cage_.face_points.size(),
-                               cage_.face_uv.size()));
+        if (cage_.faces.uv.empty()) return;
+        if (cage_.faces.uv.size() != cage_.faces.points.size()) {
+            refuse(fmt::format("its faces have {} corners, but texture coordinates for {}", cage_.faces.points.size(),
+                               cage_.faces.uv.size()));
         }
         if (cage_.uv.size() > max_face_points) refuse("it has too many texture coordinates");
-        for (const int i : cage_.face_uv) {
+        for (const int i : cage_.faces.uv) {
             if (i < 0 || static_cast<std::size_t>(i) >= cage_.uv.size()) {
                 refuse(fmt::format("a face names texture coordinate {} of {}", i, cage_.uv.size()));
             }
@@ -202,11 +202,11 @@ class Checker {
 
 std::size_t measure_crowding(const Cage& cage, std::size_t cage_points) {
     std::vector<std::size_t> faces(cage_points, 0);
-    for (const int point : cage.face_points) ++faces[point];
+    for (const int point : cage.faces.points) ++faces[point];
     std::size_t sum = 0;
     const auto add = [&](std::size_t neighbours) { sum += neighbours > 16 ? neighbours * neighbours : 0; };
     for (const std::size_t count : faces) add(count);
-    for (const int size : cage.face_sizes) add(static_cast<std::size_t>(size));
+    for (const int size : cage.faces.sizes) add(static_cast<std::size_t>(size));
     return sum;
 }
 
@@ -233,8 +233,8 @@ std::vector<std::string> list_warnings(const Cage& cage) {
     }
     std::vector<std::vector<int>> faces;
     std::size_t begin = 0;
-    for (const int size : cage.face_sizes) {
-        const auto first = cage.face_points.begin() + static_cast<std::ptrdiff_t>(begin);
+    for (const int size : cage.faces.sizes) {
+        const auto first = cage.faces.points.begin() + static_cast<std::ptrdiff_t>(begin);
         faces.emplace_back(first, first + size);
         std::sort(faces.back().begin(), faces.back().end());
         begin += static_cast<std::size_t>(size);

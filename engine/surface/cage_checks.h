@@ -34,10 +34,10 @@ std::vector<std::string> list_warnings(const Cage& cage);
 template <class Visit>
 void for_each_crease_edge(const Cage& cage, const Visit& visit) {
     std::size_t begin = 0;
-    for (std::size_t c = 0; c < cage.crease_lengths.size(); ++c) {
-        const auto length = static_cast<std::size_t>(cage.crease_lengths[c]);
+    for (std::size_t c = 0; c < cage.creases.lengths.size(); ++c) {
+        const auto length = static_cast<std::size_t>(cage.creases.lengths[c]);
         for (std::size_t i = begin; i + 1 < begin + length; ++i) {
-            visit(cage.crease_points[i], cage.crease_points[i + 1], cage.crease_sharpness[c]);
+            visit(cage.creases.points[i], cage.creases.points[i + 1], cage.creases.sharpness[c]);
         }
         begin += length;
     }

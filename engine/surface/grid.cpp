@@ -135,11 +135,11 @@ class GridBuilder : private SharedVertices {
 
     void make_parts() {
         const int parts =
-            cage_.face_parts.empty() ? 1 : *std::max_element(cage_.face_parts.begin(), cage_.face_parts.end()) + 1;
+            cage_.faces.parts.empty() ? 1 : *std::max_element(cage_.faces.parts.begin(), cage_.faces.parts.end()) + 1;
         grid_.parts.resize(static_cast<std::size_t>(parts));
         for (int f = 0; f < base_.GetNumFaces(); ++f) {
             if (!is_drawn(f)) continue;
-            const auto part = static_cast<std::size_t>(cage_.face_parts.empty() ? 0 : cage_.face_parts[f]);
+            const auto part = static_cast<std::size_t>(cage_.faces.parts.empty() ? 0 : cage_.faces.parts[f]);
             const int face = ptex_.GetFaceId(f);
             if (is_regular(f)) {
                 add_triangles(grid_.parts[part], face, make_regular_rows(f));

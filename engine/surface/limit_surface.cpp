@@ -94,7 +94,7 @@ LimitSurface::LimitSurface(const Cage& cage, std::size_t cage_points, int level)
                  vertex.normal});
             uv.push_back(vertex.uv);
         }
-        if (!cage.face_uv.empty()) part.uv = state.patches->evaluate_uv(cage.uv, uv);
+        if (!cage.faces.uv.empty()) part.uv = state.patches->evaluate_uv(cage.uv, uv);
     }
     state.patches->finish_samples();
 }
@@ -163,7 +163,7 @@ Mesh LimitSurface::make_mesh(int part, std::span<const glm::dvec3> control) cons
     mesh.positions.assign(positions.begin(), positions.end());
     mesh.uv[0] = state_->part(part).uv;
     mesh.triangles = state_->part(part).corners;
-    mesh.cage_part = part;
+    mesh.subdivision.part = part;
     return mesh;
 }
 
@@ -176,15 +176,16 @@ namespace {
 const PointCache& find_points(const Scene& scene, const Cage& cage) {
     const std::string place = "cage " + printable(cage.name);
     if (cage.points < 0 || static_cast<std::size_t>(cage.points) >= scene.point_caches.size()) {
-        throw InputError(scene.file, place, "it has no points");
+        throw InputError(scene.source.file, place, "it has no points");
     }
     const PointCache& cache = scene.point_caches[cage.points];
-    if (cache.positions.empty()) throw InputError(scene.file, place, "it has no points");
+    if (cache.positions.empty()) throw InputError(scene.source.file, place, "it has no points");
     for (const auto& sample : cache.positions) {
-        if (sample.size() != cache.point_count()) throw InputError(scene.file, place, "its number of points changes");
+        if (sample.size() != cache.point_count())
+            throw InputError(scene.source.file, place, "its number of points changes");
         for (const glm::vec3& p : sample) {
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-                throw InputError(scene.file, place, "one of its points is not finite");
+                throw InputError(scene.source.file, place, "one of its points is not finite");
             }
         }
     }
@@ -200,28 +201,31 @@ void tessellate_cage(Scene& scene, int cage_index) {
     try {
         surface = std::make_shared<const LimitSurface>(cage, cache.point_count(), cage.level);
     } catch (const InputError& error) {
-        throw InputError(scene.file, error.place(), error.reason());
+        throw InputError(scene.source.file, error.place(), error.reason());
     }
     for (const Mesh& mesh : scene.meshes) {
-        if (mesh.cage != cage_index || (mesh.cage_part >= 0 && mesh.cage_part < surface->part_count())) continue;
-        throw InputError(scene.file, "mesh " + printable(mesh.name),
-                         fmt::format("cage {} has no faces for part {}", printable(cage.name), mesh.cage_part));
+        if (mesh.subdivision.cage != cage_index ||
+            (mesh.subdivision.part >= 0 && mesh.subdivision.part < surface->part_count()))
+            continue;
+        throw InputError(scene.source.file, "mesh " + printable(mesh.name),
+                         fmt::format("cage {} has no faces for part {}", printable(cage.name), mesh.subdivision.part));
     }
     for (const std::string& warning : list_warnings(cage)) {
-        if (std::find(scene.warnings.begin(), scene.warnings.end(), warning) == scene.warnings.end()) {
-            scene.warnings.push_back(warning);
+        if (std::find(scene.source.warnings.begin(), scene.source.warnings.end(), warning) ==
+            scene.source.warnings.end()) {
+            scene.source.warnings.push_back(warning);
         }
     }
     const std::vector<glm::dvec3> first(cache.positions.front().begin(), cache.positions.front().end());
     const std::vector<glm::dvec3> control = surface->make_control_points(first);
     for (Mesh& mesh : scene.meshes) {
-        if (mesh.cage != cage_index) continue;
-        Mesh made = surface->make_mesh(mesh.cage_part, control);
+        if (mesh.subdivision.cage != cage_index) continue;
+        Mesh made = surface->make_mesh(mesh.subdivision.part, control);
         mesh.positions = std::move(made.positions);
         mesh.normals = std::move(made.normals);
         mesh.uv[0] = std::move(made.uv[0]);
         mesh.triangles = std::move(made.triangles);
-        mesh.limit.surface = surface;
+        mesh.subdivision.limit.surface = surface;
     }
 }
 

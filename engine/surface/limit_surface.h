@@ -55,8 +55,8 @@ class LimitSurface {
 std::vector<glm::dvec3> cage_points_at(const Scene& scene, const Cage& cage, double seconds);
 
 /// (Re)makes the triangles, normals and first texture coordinates of every mesh that a cage has in the scene, at the
-/// cage's level and its points' first sample, and sets Mesh::limit. Adds what list_warnings (cage_checks.h) says to
-/// the scene's warnings, once.
+/// cage's level and its points' first sample, and sets MeshSubdivision::limit. Adds what list_warnings (cage_checks.h)
+/// says to the scene's warnings, once.
 /// @throws InputError
 void tessellate_cage(Scene& scene, int cage);
 

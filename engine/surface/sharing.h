@@ -56,7 +56,7 @@ class SharedVertices {
     bool is_uv_joined(const Side& a, const Side& b) const;
     int corner(int f, int k) const { return corner_begin_[f] + k; }
     int corner_at(int f, int v) const;
-    int uv_of(int corner) const { return cage_.face_uv.empty() ? 0 : cage_.face_uv[corner]; }
+    int uv_of(int corner) const { return cage_.faces.uv.empty() ? 0 : cage_.faces.uv[corner]; }
     Side find_side(int edge, int f) const;
     LimitLocation edge_location(int f, int k, int m) const;
     LimitLocation side_location(const Side& side, int m) const;

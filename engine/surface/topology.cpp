@@ -96,26 +96,26 @@ std::unique_ptr<Far::TopologyRefiner> make_refiner(const Cage& cage, std::size_t
     catch_opensubdiv_messages();
 
     const CreaseEdges creases = make_crease_edges(cage);
-    std::vector<float> corners(cage.corner_sharpness.size());
-    std::transform(cage.corner_sharpness.begin(), cage.corner_sharpness.end(), corners.begin(), clamp_sharpness);
+    std::vector<float> corners(cage.corners.sharpness.size());
+    std::transform(cage.corners.sharpness.begin(), cage.corners.sharpness.end(), corners.begin(), clamp_sharpness);
 
     Far::TopologyDescriptor descriptor;
     descriptor.numVertices = static_cast<int>(cage_points);
-    descriptor.numFaces = static_cast<int>(cage.face_sizes.size());
-    descriptor.numVertsPerFace = cage.face_sizes.data();
-    descriptor.vertIndicesPerFace = cage.face_points.data();
+    descriptor.numFaces = static_cast<int>(cage.faces.sizes.size());
+    descriptor.numVertsPerFace = cage.faces.sizes.data();
+    descriptor.vertIndicesPerFace = cage.faces.points.data();
     descriptor.numCreases = static_cast<int>(creases.sharpness.size());
     descriptor.creaseVertexIndexPairs = creases.points.data();
     descriptor.creaseWeights = creases.sharpness.data();
     descriptor.numCorners = static_cast<int>(corners.size());
-    descriptor.cornerVertexIndices = cage.corner_points.data();
+    descriptor.cornerVertexIndices = cage.corners.points.data();
     descriptor.cornerWeights = corners.data();
-    descriptor.numHoles = static_cast<int>(cage.holes.size());
-    descriptor.holeIndices = cage.holes.data();
+    descriptor.numHoles = static_cast<int>(cage.faces.holes.size());
+    descriptor.holeIndices = cage.faces.holes.data();
     Far::TopologyDescriptor::FVarChannel uv;
-    if (!cage.face_uv.empty()) {
+    if (!cage.faces.uv.empty()) {
         uv.numValues = static_cast<int>(cage.uv.size());
-        uv.valueIndices = cage.face_uv.data();
+        uv.valueIndices = cage.faces.uv.data();
         descriptor.numFVarChannels = 1;
         descriptor.fvarChannels = &uv;
     }

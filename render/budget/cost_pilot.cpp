@@ -25,7 +25,7 @@ Scene scale_picture(Scene scene, RenderSettings& settings, double scale) {
     const PictureSize size = scale_size({settings.picture.width, settings.picture.height}, scale);
     settings.picture.width = size.width;
     settings.picture.height = size.height;
-    scene.viewing.pixels_per_degree *= scale;
+    scene.film.viewing.pixels_per_degree *= scale;
     return scene;
 }
 
@@ -147,7 +147,7 @@ std::size_t count_keyframes(const Scene& scene, const RenderSettings& settings,
     const bool has_indirect =
         settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
     if (settings.cache.light_step == 0 || settings.light.integrator != Integrator::cache || !has_indirect) return 0;
-    const LightingKeyframes keyframes{frame_range(scene), scene.cuts, settings.cache.light_step, {}};
+    const LightingKeyframes keyframes{frame_range(scene), scene.film.cuts, settings.cache.light_step, {}};
     std::set<std::int64_t> read;
     for (const std::int64_t frame : frames) {
         const KeyframePair pair = find_keyframes(keyframes, frame);

@@ -178,7 +178,7 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, F
 }
 
 SceneBounds bounds_or_unit(const ShadingScene& shading) {
-    const SceneBounds& bounds = shading.bounds;
+    const SceneBounds& bounds = shading.bounds.all;
     if (!(bounds.low.x <= bounds.high.x)) return {glm::vec3(-1.0f), glm::vec3(1.0f)};
     return bounds;
 }

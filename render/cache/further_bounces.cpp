@@ -73,8 +73,8 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     const Image<float> accuracy;
     IndirectContext coarse = make_places_context(context, accuracy);
     coarse.direct = &direct;
-    coarse.multi_bounce = {.bounces = bounces - 1, .noted = true};
-    coarse.bounces_before = 1;
+    coarse.bounces.further = {.bounces = bounces - 1, .noted = true};
+    coarse.bounces.before = 1;
     FurtherBounces known{make_cache(context.lighting.shading)};
     known.accuracy = fill_coarsely(known.cache, coarse, fill, tally);
     if (bounces > 1) {

@@ -28,17 +28,27 @@ constexpr Clearance unlimited_clearance() {
     return all;
 }
 
-/// Indirect irradiance at a point with its gradients (Ward and Heckbert 1992, "Irradiance Gradients").
-struct IrradianceSample {
-    Rgb irradiance{0.0f};                             ///< of reflected light, without light straight from the lights
-    std::array<glm::vec3, 3> rotation_gradient{};     ///< per colour channel: dE = dot(cross(N_i, N), gradient)
-    std::array<glm::vec3, 3> translation_gradient{};  ///< per colour channel, per m, in the tangent plane
-    float harmonic_mean_distance = 0.0f;              ///< m (Yee 2000, eq. 6.5); infinite if no ray hit anything
-    /// m, to the nearest surface met, the point's own left out; infinite if no ray hit anything.
-    float nearest_distance = std::numeric_limits<float>::infinity();
-    Clearance clearance = unlimited_clearance();  ///< nearest hits of the rays next to the tangent plane
+/// Where nothing stands around a point.
+struct FreeSpace {
+    Clearance sectors = unlimited_clearance();  ///< nearest hits of the rays next to the tangent plane
     /// m, from the tangent plane up to the lowest hit of all other rays.
     float headroom = std::numeric_limits<float>::infinity();
+};
+
+/// Change of an irradiance, per colour channel.
+struct IrradianceGradients {
+    std::array<glm::vec3, 3> rotation{};     ///< dE = dot(cross(N_i, N), gradient)
+    std::array<glm::vec3, 3> translation{};  ///< per m, in the tangent plane
+};
+
+/// Indirect irradiance at a point with its gradients (Ward and Heckbert 1992, "Irradiance Gradients").
+struct IrradianceSample {
+    Rgb irradiance{0.0f};  ///< of reflected light, without light straight from the lights
+    IrradianceGradients gradients{};
+    float harmonic_mean_distance = 0.0f;  ///< m (Yee 2000, eq. 6.5); infinite if no ray hit anything
+    /// m, to the nearest surface met, the point's own left out; infinite if no ray hit anything.
+    float nearest_distance = std::numeric_limits<float>::infinity();
+    FreeSpace space{};
     int rays = 0;               ///< that were spent, those below the true surface included
     int ignored_distances = 0;  ///< hits of the point's own surface, left out of the mean
     /// Standard error of the irradiance's luminance over the luminance, estimated from this one gather; 0 if all is

@@ -20,7 +20,7 @@ constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
 /// Records have random numbers of their place (make_place_key): a surface at rest that a camera at rest sees has the
 /// same noise at every time.
 RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
-    const std::uint32_t bounces = static_cast<std::uint32_t>(context.bounces_before);
+    const std::uint32_t bounces = static_cast<std::uint32_t>(context.bounces.before);
     const std::uint32_t seed = (context.settings.seed ^ gather_seed_mask) + bounces * turn_seed_step;
     return make_place_key(seed, surface.hit);
 }
@@ -39,8 +39,8 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     const RandomKey key = choose_key(context, surface);
     return gather_irradiance(context.lighting, task, surface.point, {choose_strata(rays), key}, scratch,
-                             {std::max(0, context.settings.light.path_depth - 2 - context.bounces_before),
-                              context.direct, found, context.multi_bounce});
+                             {std::max(0, context.settings.light.path_depth - 2 - context.bounces.before),
+                              context.direct, found, context.bounces.further});
 }
 
 }  // namespace aleph

@@ -63,8 +63,8 @@ void add_gradients(const HemisphereStrata& strata, const Basis& basis, GatherScr
         const glm::vec3 v = basis.bitangent * std::cos(middle) - basis.tangent * std::sin(middle);
         const glm::vec3 v_edge = basis.bitangent * std::cos(edge) - basis.tangent * std::sin(edge);
         for (int c = 0; c < 3; ++c) {
-            out.rotation_gradient[c] += v * (rotation[c] * pi / static_cast<float>(strata.count()));
-            out.translation_gradient[c] += u * (along[c] * column_width) + v_edge * across[c];
+            out.gradients.rotation[c] += v * (rotation[c] * pi / static_cast<float>(strata.count()));
+            out.gradients.translation[c] += u * (along[c] * column_width) + v_edge * across[c];
         }
     }
 }
@@ -108,9 +108,9 @@ void set_distances(const std::vector<float>& distances, float shortest, Irradian
 /// horizon, above it from all other rows.
 void set_clearance(const HemisphereStrata& strata, const Basis& basis, const GatherScratch& scratch, float shortest,
                    IrradianceSample& out) {
-    out.clearance.fill(infinite);
+    out.space.sectors.fill(infinite);
     // At least two rays per sector: a single one may miss an obstacle.
-    const int sectors = static_cast<int>(out.clearance.size());
+    const int sectors = static_cast<int>(out.space.sectors.size());
     const int rows = std::clamp((2 * sectors - 1 + strata.columns) / strata.columns, 1, strata.rows);
     const int first_low = (strata.rows - rows) * strata.columns;
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
@@ -119,10 +119,10 @@ void set_clearance(const HemisphereStrata& strata, const Basis& basis, const Gat
         if (distance < shortest) continue;
         const glm::vec3 local = basis.to_local(scratch.rays[i].direction);
         if (cell < first_low) {
-            out.headroom = std::min(out.headroom, distance * local.z);
+            out.space.headroom = std::min(out.space.headroom, distance * local.z);
             continue;
         }
-        float& clear = out.clearance[sector_of(local.x, local.y)];
+        float& clear = out.space.sectors[sector_of(local.x, local.y)];
         clear = std::min(clear, distance * std::sqrt(local.x * local.x + local.y * local.y));
     }
 }

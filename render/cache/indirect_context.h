@@ -25,6 +25,12 @@ struct CarriedLight {
                                     RecordUse* used = nullptr) const = 0;
 };
 
+/// Bounces of the light beside the one that is gathered.
+struct BounceContext {
+    MultiBounceLight further{};  ///< of fewer bounces than the light that is gathered
+    int before = 0;              ///< at Lambert layers, between the picture and the surfaces whose light is gathered
+};
+
 /// Inputs of a frame's indirect light.
 struct IndirectContext {
     const LightingContext& lighting;
@@ -43,8 +49,7 @@ struct IndirectContext {
     /// Luminance that the mean of a pixel's samples may err by: records are computed only where they cost less than
     /// rays of samples. Null: everywhere.
     const Image<float>* tolerance = nullptr;
-    MultiBounceLight multi_bounce{};  ///< of fewer bounces than the light that is gathered
-    int bounces_before = 0;  ///< at Lambert layers, between the picture and the surfaces whose light is gathered
+    BounceContext bounces{};
 };
 
 /// The context of a frame for a list of places instead of its pixels.
@@ -58,8 +63,7 @@ inline IndirectContext make_places_context(const IndirectContext& frame, const I
             .max_radius = frame.max_radius,
             .progress = {},
             .direct = frame.direct,
-            .multi_bounce = frame.multi_bounce,
-            .bounces_before = frame.bounces_before};
+            .bounces = frame.bounces};
 }
 
 }  // namespace aleph

@@ -114,7 +114,7 @@ void IrradianceCache::compare_with_neighbours(IrradianceRecord& record) {
 void IrradianceCache::insert(IrradianceRecord record) {
     clamp_to_neighbours(record);
     compare_with_neighbours(record);
-    ray_variances_ += record.ray_variance;
+    ray_variances_ += record.noise.ray_variance;
     irradiances_ += luminance(record.irradiance);
     records_.push_back(record);
     index_.add(record.position, {record.radius}, record.accuracy);
@@ -130,7 +130,7 @@ std::optional<ExpectedRecord> IrradianceCache::expect(const CacheQuery& query, f
         const float weight = 1.0f - glm::length(query.position - record.position) / (reach * record.radius);
         if (weight > 0.0f && glm::dot(query.normal, record.normal) > 0.0f) {
             expected.irradiance += weight * luminance(record.irradiance);
-            expected.ray_variance += weight * record.ray_variance;
+            expected.ray_variance += weight * record.noise.ray_variance;
             growth += weight * record.growth;
             total += weight;
         }
@@ -169,8 +169,8 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
         const float weight = 1.0f - error / accuracy;
         irradiance += value * weight;
         for (int c = 0; c < 3; ++c) {
-            translation[c] += other.translation_gradient[c] * weight;
-            rotation[c] += other.rotation_gradient[c] * weight;
+            translation[c] += other.gradients.translation[c] * weight;
+            rotation[c] += other.gradients.rotation[c] * weight;
         }
         total += weight;
         return true;
@@ -179,8 +179,8 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
     if (!(total > 0.0f)) return smooth;
     smooth.irradiance = irradiance / total;
     for (int c = 0; c < 3; ++c) {
-        smooth.translation_gradient[c] = translation[c] / total;
-        smooth.rotation_gradient[c] = rotation[c] / total;
+        smooth.gradients.translation[c] = translation[c] / total;
+        smooth.gradients.rotation[c] = rotation[c] / total;
     }
     return smooth;
 }
@@ -203,7 +203,7 @@ void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
     for (const IrradianceRecord& record : records_) {
         index_.add(record.position, {record.radius, spread_of(record)}, record.accuracy);
         max_accuracy_ = std::max(max_accuracy_, record.accuracy);
-        ray_variances_ += record.ray_variance;
+        ray_variances_ += record.noise.ray_variance;
         irradiances_ += luminance(record.irradiance);
     }
 }

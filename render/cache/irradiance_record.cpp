@@ -58,21 +58,20 @@ std::optional<IrradianceRecord> make_record(const glm::vec3& position, const glm
     record.accuracy = accuracy;
     record.min_radius = bounds.min;
     record.max_growth = 1.0f / (bounds.min_spread * bounds.min_spread);
-    record.relative_error = std::min(sample.relative_error, 1.0f);  // infinite where there are too few rays to tell
-    record.ray_variance = record.relative_error * record.relative_error * static_cast<float>(sample.rays);
+    record.noise.error = std::min(sample.relative_error, 1.0f);  // infinite where there are too few rays to tell
+    record.noise.ray_variance = record.noise.error * record.noise.error * static_cast<float>(sample.rays);
     record.tangent = make_basis(normal).tangent;
-    record.clearance = sample.clearance;
-    record.headroom = sample.headroom;
+    record.space = sample.space;
     float radius = radius_over_distance * sample.nearest_distance;
-    const float value = luminance(sample.irradiance), slope = steepness(sample.translation_gradient);
+    const float value = luminance(sample.irradiance), slope = steepness(sample.gradients.translation);
     if (slope * radius * accuracy > value) radius = value / (slope * accuracy);
     record.radius = std::clamp(radius, bounds.min, std::max(bounds.min, bounds.max));
     // A surface much nearer than the least radius makes a gradient that says nothing of the light so far away.
     const float kept = std::min(1.0f, contact_radii * radius_over_distance * sample.nearest_distance / record.radius);
     for (int c = 0; c < 3; ++c) {
-        record.translation_gradient[c] =
-            kept * limit_gradient(sample.translation_gradient[c], record.irradiance[c], record.radius * accuracy);
-        record.rotation_gradient[c] = limit_gradient(sample.rotation_gradient[c], record.irradiance[c], 1.0f);
+        record.gradients.translation[c] =
+            kept * limit_gradient(sample.gradients.translation[c], record.irradiance[c], record.radius * accuracy);
+        record.gradients.rotation[c] = limit_gradient(sample.gradients.rotation[c], record.irradiance[c], 1.0f);
     }
     return record;
 }
@@ -82,7 +81,7 @@ float interpolation_error(const IrradianceRecord& record, const glm::vec3& posit
     const glm::vec3 offset = position - record.position;
     const float height = glm::dot(offset, normal + record.normal) * 0.5f;
     if (!(height >= -max_in_front * record.radius && height <= max_behind * record.radius)) return infinite;
-    if (glm::dot(offset, record.normal) > record.headroom + headroom_tolerance * record.radius) return infinite;
+    if (glm::dot(offset, record.normal) > record.space.headroom + headroom_tolerance * record.radius) return infinite;
     constexpr float inverse_root_two = 0.70710678f;
     const float distance2 = glm::dot(offset, offset);
     return std::max({std::sqrt(distance2) / record.radius, distance2 * record.growth,
@@ -93,7 +92,7 @@ bool is_beyond_clearance(const IrradianceRecord& record, const glm::vec3& positi
     const glm::vec3 offset = position - record.position;
     const float x = glm::dot(offset, record.tangent);
     const float y = glm::dot(offset, glm::cross(record.normal, record.tangent));
-    const float clear = record.clearance[sector_of(x, y)];
+    const float clear = record.space.sectors[sector_of(x, y)];
     return x * x + y * y > clear * clear;
 }
 
@@ -101,7 +100,7 @@ Rgb extrapolate(const IrradianceRecord& record, const glm::vec3& position, const
     const glm::vec3 offset = position - record.position, turn = glm::cross(record.normal, normal);
     Rgb value = record.irradiance;
     for (int c = 0; c < 3; ++c) {
-        value[c] += glm::dot(turn, record.rotation_gradient[c]) + glm::dot(offset, record.translation_gradient[c]);
+        value[c] += glm::dot(turn, record.gradients.rotation[c]) + glm::dot(offset, record.gradients.translation[c]);
         value[c] = std::clamp(value[c], 0.0f, 2.0f * record.irradiance[c]);
     }
     return value;

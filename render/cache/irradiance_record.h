@@ -30,6 +30,11 @@ namespace aleph {
 /// then contribute to it.
 inline constexpr double shade_reach = 1.4;
 
+struct GatherNoise {
+    float error = 0.0f;         ///< standard error of the gather's luminance over its value
+    float ray_variance = 0.0f;  ///< of a single gather ray, relative: error^2 times their number
+};
+
 struct IrradianceRecord {
     glm::vec3 position{0.0f};  ///< m, relative to the frame's anchor
     float radius = 0.0f;       ///< R_i, m; positive and finite; neighbour clamping may shrink it later
@@ -37,16 +42,11 @@ struct IrradianceRecord {
     float growth = 0.0f;       ///< 1 / S_i^2, 1/m2; 0: no difference found
     Rgb irradiance{0.0f};
     float min_radius = 0.0f;  ///< m; neighbour clamping stops here
-    std::array<glm::vec3, 3> rotation_gradient{};
-    std::array<glm::vec3, 3> translation_gradient{};
-    glm::vec3 tangent{0.0f};  ///< of make_basis(normal), for the sectors of `clearance`
-    /// m along the tangent plane, by sector_of: farther away, a ray decides.
-    Clearance clearance = unlimited_clearance();
-    /// m above the tangent plane: the record is not used higher up.
-    float headroom = std::numeric_limits<float>::infinity();
-    float relative_error = 0.0f;  ///< standard error of the gather's luminance over its value
-    float ray_variance = 0.0f;    ///< of a single gather ray, relative: relative_error^2 times their number
-    float accuracy = 1.0f;        ///< alpha of the pixel that it was computed for
+    IrradianceGradients gradients{};
+    glm::vec3 tangent{0.0f};  ///< of make_basis(normal), for the sectors of `space`
+    FreeSpace space{};        ///< beyond its sectors a ray decides; above its headroom the record is not used
+    GatherNoise noise{};
+    float accuracy = 1.0f;                                      ///< alpha of the pixel that it was computed for
     float max_growth = std::numeric_limits<float>::infinity();  ///< 1/m2: `growth` stops here
 };
 
@@ -77,7 +77,7 @@ Rgb extrapolate(const IrradianceRecord& record, const glm::vec3& position, const
 
 /// Standard error of the difference of two records, relative to their values.
 inline float combined_noise(const IrradianceRecord& a, const IrradianceRecord& b) {
-    return std::sqrt(a.relative_error * a.relative_error + b.relative_error * b.relative_error);
+    return std::sqrt(a.noise.error * a.noise.error + b.noise.error * b.noise.error);
 }
 
 /// By how much two records that are near each other are found to be wrong: growth, 1/m2, for both. Each is moved to the

@@ -158,8 +158,8 @@ class LightTransport {
             thread_local GatherScratch scratch;
             RayTask task(context_.lighting.rays);
             const GatherOptions options{
-                .depth = std::max(0, context_.settings.light.path_depth - 2 - context_.bounces_before),
-                .multi_bounce = context_.multi_bounce};
+                .depth = std::max(0, context_.settings.light.path_depth - 2 - context_.bounces.before),
+                .multi_bounce = context_.bounces.further};
             for (std::size_t i = begin; i < end; ++i) {
                 added[i].direct =
                     gather_irradiance(context_.lighting, task, lit[i]->place, {{}, lit[i]->key}, scratch, options)
@@ -202,9 +202,9 @@ class LightTransport {
         const auto lit = make_record(record.position, record.normal, record.accuracy, sample, bounds);
         if (!lit) return;
         record.irradiance = lit->irradiance;
-        record.rotation_gradient = lit->rotation_gradient;
-        record.translation_gradient = lit->translation_gradient;
-        record.relative_error = lit->relative_error;
+        record.gradients.rotation = lit->gradients.rotation;
+        record.gradients.translation = lit->gradients.translation;
+        record.noise.error = lit->noise.error;
     }
 
     const IndirectContext& context_;

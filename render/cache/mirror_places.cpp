@@ -25,8 +25,9 @@ float largest(const Rgb& c) {
 
 /// The surface with narrow lobes as mirrors.
 ViewedSurface narrow_lobes(ViewedSurface surface) {
-    if (surface.material.alpha <= narrow_alpha && surface.material.stretch == 0.0f) surface.material.alpha = 0.0f;
-    if (surface.material.coat_alpha <= narrow_alpha) surface.material.coat_alpha = 0.0f;
+    if (surface.material.gloss.alpha <= narrow_alpha && surface.material.gloss.stretch == 0.0f)
+        surface.material.gloss.alpha = 0.0f;
+    if (surface.material.coat.alpha <= narrow_alpha) surface.material.coat.alpha = 0.0f;
     return surface;
 }
 
@@ -64,12 +65,12 @@ std::optional<Arrival> follow_mirrors(const IndirectContext& context, const Pixe
     Media media;
     for (int turn = 0; turn < turns; ++turn) {
         ViewedSurface mirror = narrow_lobes(end.surface);
-        if (mirror.material.volume) mirror.material.ior_ratio = media.ratio_at(mirror);
+        if (mirror.material.glass.volume) mirror.material.glass.ior_ratio = media.ratio_at(mirror);
         const LitSurface lit(mirror);
         const ScatterSample sample = choose_turn(lit);
         end.weight *= largest(sample.weight);
         if (!(end.weight >= least_weight)) return std::nullopt;
-        if (sample.passes && mirror.material.volume) media.pass(mirror);
+        if (sample.passes && mirror.material.glass.volume) media.pass(mirror);
         end.direction = sample.direction;
         ++task.counts.specular;
         end.hit = task.tracer.intersect({lit.ray_origin(end.direction), end.direction});

@@ -37,7 +37,7 @@ void refuse_beside_budget(const SceneOptions& options, const std::string& cache)
 
 RenderSettings settings_for_error(const Scene& scene, const SceneOptions& options, double error) {
     RenderSettings settings;
-    apply_settings(settings, scene.settings, options.scene);
+    apply_settings(settings, scene.source.settings, options.scene);
     SettingMap given = options.settings;
     Scene numbers;
     set_scene_numbers(numbers, given, "--set");  // prepare_scene has given them to the scene

@@ -76,14 +76,14 @@ void read_shot(Scene& shot, const ChannelImage& first) {
         const double* const given = std::get_if<double>(&found->second);
         if (given != nullptr && *given > 0.0 && *given <= 1e18) value = *given;
     };
-    number("whiteLuminance", shot.viewing.display_white);
-    number("pixelsPerDegree", shot.viewing.pixels_per_degree);
-    number("displayPersistence", shot.viewing.persistence);
+    number("whiteLuminance", shot.film.viewing.display_white);
+    number("pixelsPerDegree", shot.film.viewing.pixels_per_degree);
+    number("displayPersistence", shot.film.viewing.persistence);
     const auto rate = first.metadata.find("framesPerSecond");
     if (rate == first.metadata.end()) return;
     const auto* const fraction = std::get_if<std::array<int, 2>>(&rate->second);
     if (fraction != nullptr && (*fraction)[0] > 0 && (*fraction)[1] > 0)
-        shot.frame_rate = {(*fraction)[0], (*fraction)[1]};
+        shot.film.frame_rate = {(*fraction)[0], (*fraction)[1]};
 }
 
 struct PreparedImages {
@@ -102,16 +102,16 @@ PreparedImages prepare_images(const MapsOptions& options) {
     PreparedScene& prepared = images.prepared;
     for (const auto& [frame, path] : images.files) prepared.read.push_back(path);
     Scene& shot = prepared.scene;
-    shot.file = pattern;
-    shot.exposure = 1.0;
+    shot.source.file = pattern;
+    shot.film.exposure = 1.0;
     const ChannelImage first = read_image(images.files.begin()->second);
     read_shot(shot, first);
     images.with_motion = read_picture_frame(images.files.begin()->second, options.layers).motion.has_value();
-    if (!options.common.fps.empty()) shot.frame_rate = parse_fps(options.common.fps);
+    if (!options.common.fps.empty()) shot.film.frame_rate = parse_fps(options.common.fps);
     SettingMap given = options.common.settings;
     set_scene_numbers(shot, given, "--set");
-    if (options.exposure) shot.exposure = *options.exposure;
-    if (!(*shot.exposure > 0.0 && *shot.exposure <= 1e18)) {
+    if (options.exposure) shot.film.exposure = *options.exposure;
+    if (!(*shot.film.exposure > 0.0 && *shot.film.exposure <= 1e18)) {
         throw InputError("", "--exposure", "expected a number above 0");
     }
     apply_settings(prepared.settings, given, "");
@@ -122,7 +122,7 @@ PreparedImages prepare_images(const MapsOptions& options) {
     }
     if (!options.cuts.empty()) {
         try {
-            for (const int frame : parse_frame_list(options.cuts)) shot.cuts.push_back(frame);
+            for (const int frame : parse_frame_list(options.cuts)) shot.film.cuts.push_back(frame);
         } catch (const InputError& e) {
             throw InputError("", "--cuts", e.reason());
         }
@@ -139,7 +139,8 @@ PreparedImages prepare_images(const MapsOptions& options) {
 /// Every frame has the other one that its motion needs.
 void check_frames(const PreparedImages& images) {
     if (images.with_motion) return;
-    for (const int frame : images.prepared.frames) find_other_frame(images.files, images.prepared.scene.cuts, frame);
+    for (const int frame : images.prepared.frames)
+        find_other_frame(images.files, images.prepared.scene.film.cuts, frame);
 }
 
 /// Pixels of the pictures that were no numbers.
@@ -173,8 +174,9 @@ void write_image_maps(const MapsOptions& options) {
         replaced.add(maps.statistics);
         return maps;
     };
-    write_frames({prepared.scene, prepared.settings, *prepared.scene.exposure, prepared.frames, prepared.name, make},
-                 options.common, maps_request());
+    write_frames(
+        {prepared.scene, prepared.settings, *prepared.scene.film.exposure, prepared.frames, prepared.name, make},
+        options.common, maps_request());
     if (!options.common.quiet) replaced.warn();
 }
 

@@ -71,8 +71,7 @@ Progress::~Progress() {
 void Progress::update(double done, const std::string& what) {
     if (look_.style == ProgressStyle::none) return;
     const std::lock_guard lock(mutex_);
-    done_ = std::clamp(done, 0.0, total_);
-    what_ = what;
+    state_ = {std::clamp(done, 0.0, total_), what};
     pending_ = true;
     const double now = clock_();
     const bool bar = look_.style == ProgressStyle::bar;
@@ -84,19 +83,19 @@ void Progress::update(double done, const std::string& what) {
 
 std::string Progress::times() const {
     const double elapsed = clock_() - start_;
-    const double remaining = done_ > 0.0 ? elapsed * (total_ - done_) / done_ : -1.0;
+    const double remaining = state_.done > 0.0 ? elapsed * (total_ - state_.done) / state_.done : -1.0;
     return fmt::format("({}|{})", format_duration(elapsed), format_duration(remaining));
 }
 
 void Progress::show() {
     shown_ = true;
     pending_ = false;
-    const double share = done_ / total_;
+    const double share = state_.done / total_;
     if (look_.style == ProgressStyle::lines) {
-        write(fmt::format("{} {:3.0f}% {} {}\n", title_, 100.0 * share, times(), what_), out_);
+        write(fmt::format("{} {:3.0f}% {} {}\n", title_, 100.0 * share, times(), state_.what), out_);
         return;
     }
-    const std::string tail = fmt::format(" {:3.0f}% {} {}", 100.0 * share, times(), what_);
+    const std::string tail = fmt::format(" {:3.0f}% {} {}", 100.0 * share, times(), state_.what);
     const int room = look_.columns - static_cast<int>(title_.size() + tail.size()) - 5;
     const int width = std::clamp(room, 0, 40), filled = static_cast<int>(share * width);
     std::string line = title_ + " ";

@@ -55,9 +55,13 @@ class Progress {
     const std::function<double()> clock_;
     const double start_;
     std::mutex mutex_;
-    double done_ = 0.0, last_shown_, interval_ = 0.25;
-    bool shown_ = false, pending_ = false;
-    std::string what_;
+    struct State {
+        double done = 0.0;
+        std::string what{};
+    };
+    State state_;
+    double last_shown_, interval_ = 0.25;
+    bool shown_ = false, pending_ = false;  ///< a state was shown; the present one is not yet
 };
 
 }  // namespace aleph

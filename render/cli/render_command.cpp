@@ -11,6 +11,33 @@ namespace aleph {
 
 namespace {
 
+constexpr const char* render_footer =
+    "--error is the largest error, in differences that a viewer just sees; without any of --error, --accuracy, "
+    "--gather, --spp, --sampling, --light-samples and --integrator it is 1. It chooses accuracy, gather rays, "
+    "bounces and samples; options given beside it override them. Afterwards the program prints what share of the "
+    "pixels it expects to err by more; --aovs has the error of every pixel and its causes.\n"
+    "--budget measures a part of up to three frames first. The error it chooses is printed and stored in the "
+    "statistics (--stats): --error with that number makes the same bytes again. The time is an estimate.\n"
+    "--verify measures what the estimate says: blocks of 16 pixels, the same ones whenever the same frames are "
+    "rendered, against path traced references, as a viewer sees the frames around them. -q does not silence it.\n"
+    "--accuracy is the error that irradiance caching may make where the viewer is strictest. Elsewhere the Aleph "
+    "map "
+    "allows more, which saves time; with --guide none the accuracy is the same everywhere.\n"
+    "Without --error indirect light is computed at lighting keyframes, every --light-step frames, at both sides of "
+    "a cut and at the last frame; frames between two of them interpolate. A frame rendered alone takes two of them "
+    "and their middle, a sequence two more for each step. --error computes few records for every frame instead, "
+    "and --integrator path none; for a --cache file give --light-step 10 beside --error.\n"
+    "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"
+    "Examples:\n"
+    "  aleph render scenes/pool/scene.json --frames 20 -o frame.exr                  no visible error\n"
+    "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png          a quick look\n"
+    "  aleph render scenes/pool/scene.json --budget 600 -o out/                      the whole shot in ten "
+    "minutes\n"
+    "  aleph render scenes/pool/scene.json --error 1 --verify 60 -o out/             and how much is really seen\n"
+    "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
+    "  aleph render scenes/pool/scene.json --frames 20 --guide none --spp 16 -o unguided.exr  the baseline\n"
+    "  aleph render scenes/pool/scene.json --frames 20 --accuracy 0 --gather 4096 --spp 1 -o dense.exr";
+
 /// @param budget  text of --budget
 /// @param verify  seconds of --verify, or 0
 void render_within(const std::string& budget, const SceneOptions& options, const FrameRequest& request,
@@ -61,32 +88,7 @@ void add_render_command(CLI::App& app, Command& command) {
             "keep the indirect light of lighting keyframes (--light-step) in this file: it is read if it exists, and "
             "written after the last frame; a file of another scene, other settings or another build is refused")
         ->type_name("FILE");
-    render->footer(
-        "--error is the largest error, in differences that a viewer just sees; without any of --error, --accuracy, "
-        "--gather, --spp, --sampling, --light-samples and --integrator it is 1. It chooses accuracy, gather rays, "
-        "bounces and samples; options given beside it override them. Afterwards the program prints what share of the "
-        "pixels it expects to err by more; --aovs has the error of every pixel and its causes.\n"
-        "--budget measures a part of up to three frames first. The error it chooses is printed and stored in the "
-        "statistics (--stats): --error with that number makes the same bytes again. The time is an estimate.\n"
-        "--verify measures what the estimate says: blocks of 16 pixels, the same ones whenever the same frames are "
-        "rendered, against path traced references, as a viewer sees the frames around them. -q does not silence it.\n"
-        "--accuracy is the error that irradiance caching may make where the viewer is strictest. Elsewhere the Aleph "
-        "map "
-        "allows more, which saves time; with --guide none the accuracy is the same everywhere.\n"
-        "Without --error indirect light is computed at lighting keyframes, every --light-step frames, at both sides of "
-        "a cut and at the last frame; frames between two of them interpolate. A frame rendered alone takes two of them "
-        "and their middle, a sequence two more for each step. --error computes few records for every frame instead, "
-        "and --integrator path none; for a --cache file give --light-step 10 beside --error.\n"
-        "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"
-        "Examples:\n"
-        "  aleph render scenes/pool/scene.json --frames 20 -o frame.exr                  no visible error\n"
-        "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png          a quick look\n"
-        "  aleph render scenes/pool/scene.json --budget 600 -o out/                      the whole shot in ten "
-        "minutes\n"
-        "  aleph render scenes/pool/scene.json --error 1 --verify 60 -o out/             and how much is really seen\n"
-        "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
-        "  aleph render scenes/pool/scene.json --frames 20 --guide none --spp 16 -o unguided.exr  the baseline\n"
-        "  aleph render scenes/pool/scene.json --frames 20 --accuracy 0 --gather 4096 --spp 1 -o dense.exr");
+    render->footer(render_footer);
     render->callback([options, aovs, cache, budget, verify, &command] {
         command = [options, aovs, cache, budget, verify] {
             const FrameRequest request{.frame = true, .maps = *aovs, .progress = {}};

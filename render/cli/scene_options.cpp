@@ -222,14 +222,14 @@ PreparedScene prepare_scene(const SceneOptions& options) {
         prepared.read = read.paths();
     }
     Scene& scene = prepared.scene;
-    if (!options.fps.empty()) scene.frame_rate = parse_fps(options.fps);
+    if (!options.fps.empty()) scene.film.frame_rate = parse_fps(options.fps);
     SettingMap given = options.settings;
-    if (options.keeps_to_error && !chooses_work(scene.settings) && !chooses_work(given)) given["error"] = 1.0;
-    apply_settings(prepared.settings, scene.settings, options.scene);
+    if (options.keeps_to_error && !chooses_work(scene.source.settings) && !chooses_work(given)) given["error"] = 1.0;
+    apply_settings(prepared.settings, scene.source.settings, options.scene);
     set_scene_numbers(scene, given, "--set");
     apply_settings(prepared.settings, given, "");
     if (!options.quiet) {
-        for (const std::string& warning : scene.warnings) {
+        for (const std::string& warning : scene.source.warnings) {
             std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
         }
     }

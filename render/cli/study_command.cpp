@@ -129,10 +129,10 @@ void override_study(const StudyCommandOptions& options, Study& study) {
     for (const std::string& set : options.sets) parse_setting(set, study.settings);
     if (options.passes > 0) study.reference.passes = options.passes;
     if (options.spp > 0) study.reference.spp = options.spp;
-    if (options.repeats > 0) study.repeats = options.repeats;
+    if (options.repeats > 0) study.runs.repeats = options.repeats;
     if (options.seeds > 0) {
-        study.seeds.clear();
-        for (int seed = 0; seed < options.seeds; ++seed) study.seeds.push_back(static_cast<std::uint32_t>(seed));
+        study.runs.seeds.clear();
+        for (int seed = 0; seed < options.seeds; ++seed) study.runs.seeds.push_back(static_cast<std::uint32_t>(seed));
     }
     for (const std::string& judge : options.judges) study.judges.push_back(parse_judge(judge));
     if (options.viewers.empty()) return;
@@ -151,7 +151,7 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     for (const std::string& variant : options.extras.errors) check_variant_name(prepared, variant);
     if (!options.quiet) {
         for (const PreparedStudyScene& scene : prepared.scenes) {
-            for (const std::string& warning : scene.scene.warnings)
+            for (const std::string& warning : scene.scene.source.warnings)
                 std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
         }
     }

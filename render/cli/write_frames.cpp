@@ -220,7 +220,7 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
     FrameJob job{
         sequence.scene(), prepared.settings, sequence.exposure(), prepared.frames, prepared.name, make, budget};
     if (judged) {
-        judged->exposure = sequence.exposure();
+        judged->film.exposure = sequence.exposure();
         job.verify = [&](std::optional<double> estimated) {
             return verify_frames({std::move(*judged), prepared.settings, options.camera, prepared.frames, verify},
                                  pictures, estimated, progress_look(options.quiet));

@@ -19,7 +19,7 @@ int points_per_light(const LightSet& lights) {
 
 Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind) {
     const SurfaceMaterial& material = surface.material;
-    if (kind == EstimateKind::flat) return material.emission + (material.diffuse + material.f0);
+    if (kind == EstimateKind::flat) return material.emission + (material.diffuse + material.gloss.f0);
     return material.emission + estimate_direct_light(context, task, surface, points_per_light(context.lights));
 }
 

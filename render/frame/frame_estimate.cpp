@@ -71,7 +71,7 @@ SampleScene open_scene(const Shot& shot, std::int64_t frame, double at, const Fr
     // The plan knows the lights at the shutter's centre alone: at other times lamps are seen and cast shadows.
     for (const Effect effect : {Effect::direct_light, Effect::area_shadows})
         if (!shot.settings.effects.forbid.contains(effect)) skipped.remove(effect);
-    shutter.pose(at / shot.scene.frame_rate.per_second(), shot.camera(frame), shot.settings.picture.width,
+    shutter.pose(at / shot.scene.film.frame_rate.per_second(), shot.camera(frame), shot.settings.picture.width,
                  shot.settings.picture.height);
     shutter.prepare();
     shutter.leave_out(skipped);

@@ -50,7 +50,7 @@ OtherFrame FrameMotion::pose_other(const FrameWork& work, const PosedView& here)
         if (work.other != OtherFrame::none) other_.pose(other_frame_number(work.frame, work.other));
         return work.other;
     }
-    const bool begins_shot = std::ranges::find(shot_.scene.cuts, work.frame) != shot_.scene.cuts.end();
+    const bool begins_shot = std::ranges::find(shot_.scene.film.cuts, work.frame) != shot_.scene.film.cuts.end();
     if (begins_shot || !has_same_elements(before_edit_->pose, here.pose)) return OtherFrame::none;
     from_edit_ = true;
     return OtherFrame::previous;

@@ -57,6 +57,20 @@ struct FrameRequest {
     FrameProgress progress;  ///< may be empty
 };
 
+/// What each pixel may err by.
+struct ErrorLimits {
+    Image<float> alpha;            ///< ambient accuracy
+    Image<float> threshold;        ///< cd/m2, of an error that lasts
+    Image<float> threshold_noise;  ///< cd/m2, standard deviation of noise of single pixels (NoiseVisibility)
+};
+
+/// Properties of the surfaces seen at the pixel centres.
+struct SurfaceMaps {
+    Image<Rgb> albedo;        ///< base of what is reflected; 0 for background. Of a scene only
+    Image<float> depth;       ///< planar, m; 1e30 for background
+    Image<glm::vec3> normal;  ///< world, towards the viewer; 0 for background
+};
+
 /// Maps of motion and perception are computed for the irradiance cache with a guide, and wherever `maps` are requested.
 struct FrameOutput {
     ShadedFrame shaded;  ///< filled if `frame`
@@ -67,13 +81,9 @@ struct FrameOutput {
     bool motion_from_picture = false;  ///< as another program wrote it, not computed
     Image<float> velocity;             ///< deg/s
     PerceptionMaps perception;
-    Image<float> alpha;            ///< ambient accuracy
-    Image<float> threshold;        ///< cd/m2, of an error that lasts
-    Image<float> threshold_noise;  ///< cd/m2, standard deviation of noise of single pixels (NoiseVisibility)
-    Image<Rgb> albedo;                ///< base of what is reflected; 0 for background. Filled if `maps` of a scene
-    Image<Rgb> effects;               ///< make_effect_picture. Filled if `maps`
-    Image<float> depth;               ///< planar, m; 1e30 for background. Filled if `maps`
-    Image<glm::vec3> normal;          ///< world, towards the viewer; 0 for background. Filled if `maps`
+    ErrorLimits limits;
+    SurfaceMaps surface;  ///< filled if `maps`
+    Image<Rgb> effects;   ///< make_effect_picture. Filled if `maps`
     FrameStatistics statistics;
 };
 

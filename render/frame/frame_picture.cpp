@@ -18,9 +18,9 @@ constexpr float background_depth = 1e30f;
 
 void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, FrameOutput& out) {
     const CameraView& view = out.view;
-    out.depth = Image<float>(view.width, view.height, background_depth);
-    out.normal = Image<glm::vec3>(view.width, view.height, glm::vec3(0.0f));
-    out.albedo = Image<Rgb>(view.width, view.height, Rgb(0.0f));
+    out.surface.depth = Image<float>(view.width, view.height, background_depth);
+    out.surface.normal = Image<glm::vec3>(view.width, view.height, glm::vec3(0.0f));
+    out.surface.albedo = Image<Rgb>(view.width, view.height, Rgb(0.0f));
     const glm::vec3 origin(view.position - shading.anchor);
     const glm::vec3 forward(-view.axes[2]);
     parallel_rows(view.height, 16, [&](int begin, int end) {
@@ -28,11 +28,11 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
             for (int x = 0; x < view.width; ++x) {
                 if (centers.hits(x, y).instance == no_index) continue;
                 const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
-                out.depth(x, y) = glm::dot(surface.point.position - origin, forward);
-                out.normal(x, y) = surface.point.normal;
+                out.surface.depth(x, y) = glm::dot(surface.point.position - origin, forward);
+                out.surface.normal(x, y) = surface.point.normal;
                 const SurfaceMaterial& material = surface.material;
-                out.albedo(x, y) =
-                    glm::min(material.diffuse + material.f0 + material.glass * material.glass_tint, Rgb(1.0f));
+                out.surface.albedo(x, y) = glm::min(
+                    material.diffuse + material.gloss.f0 + material.glass.share * material.glass.tint, Rgb(1.0f));
             }
         }
     });
@@ -41,10 +41,10 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
 /// Empty where nothing is known of what a viewer sees.
 Image<Outline> find_visible_outlines(const Shot& shot, const PreparedFrame& frame) {
     const FrameOutput& out = frame.out;
-    if (out.threshold.empty()) return {};
+    if (out.limits.threshold.empty()) return {};
     Image<Outline> outlines = find_outlines(out.view, frame.centers.hits, out.motion);
     const double asked = frame.plan.settings.error, error = asked > 0.0 ? asked : 1.0;
-    mark_contrasts(outlines, out.estimate, out.threshold, error / shot.scene.viewing.display_white);
+    mark_contrasts(outlines, out.estimate, out.limits.threshold, error / shot.scene.film.viewing.display_white);
     return outlines;
 }
 
@@ -77,13 +77,10 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
                     SampleOptions options, const FrameProgress& progress) {
     FrameOutput& out = prepared.out;
     const Image<Outline> outlines = find_visible_outlines(s.shot, prepared);
-    const VisibleLimits limits{out.threshold,
-                               out.threshold_noise,
-                               out.perception.aleph,
-                               out.alpha,
-                               outlines,
-                               s.shot.scene.viewing};
-    if (!out.threshold.empty()) options.limits = &limits;
+    const VisibleLimits limits{
+        out.limits.threshold,     out.limits.threshold_noise, out.perception.aleph, out.limits.alpha, outlines,
+        s.shot.scene.film.viewing};
+    if (!out.limits.threshold.empty()) options.limits = &limits;
     std::optional<KeyframeRisk> risk;
     if (carried != nullptr) risk = find_risk(s, frame);
     if (risk) options.risk = &*risk;
@@ -91,7 +88,7 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     const IndirectContext context{.lighting = lighting,
                                   .view = out.view,
                                   .settings = prepared.plan.settings,
-                                  .accuracy = out.alpha,
+                                  .accuracy = out.limits.alpha,
                                   .frame = s.shot.noise_key(frame),
                                   .max_radius = scene_radius(lighting.shading),
                                   .progress = progress,

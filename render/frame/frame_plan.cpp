@@ -65,7 +65,7 @@ ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const Frame
     shutter.open = interval.has_value();
     if (!interval) return shutter;
     const int camera = shot_.camera(work.frame);
-    const double rate = shot_.scene.frame_rate.per_second();
+    const double rate = shot_.scene.film.frame_rate.per_second();
     const double open_at = interval->open / rate, close_at = interval->close / rate;
     shutter.changes = !shot_.steady.is_steady(camera, open_at, close_at);
     if (shutter.changes && !facts.sees_all && shot_.steady.is_world_steady(open_at, close_at)) {
@@ -115,17 +115,17 @@ EffectsPlan FramePlanner::make_plan(const FramePlan& plan, const std::optional<V
                          .has_other = plan.has_other,
                          .moves = plan.moves,
                          .keyframes = plan.keyframes,
-                         .luminance_scale = shot_.exposure * shot_.scene.viewing.display_white},
+                         .luminance_scale = shot_.exposure * shot_.scene.film.viewing.display_white},
                         visible);
 }
 
 void FramePlanner::finish(const Image<Hit>& hits, const FrameOutput& out, FramePlan& plan) const {
-    if (out.threshold.empty()) return;
+    if (out.limits.threshold.empty()) return;
     StageClock clock;
-    VisibleFrame visible = find_least_thresholds(hits, out.threshold);
+    VisibleFrame visible = find_least_thresholds(hits, out.limits.threshold);
     for (const Rgb& pixel : out.estimate.pixels)
         visible.brightest = std::max(visible.brightest, double{luminance(pixel)});
-    visible.brightest *= shot_.scene.viewing.display_white;
+    visible.brightest *= shot_.scene.film.viewing.display_white;
     plan.effects = make_plan(plan, visible);
     plan.settings.light.bounces = shot_.settings.light.bounces;
     if (plan.skips(Effect::indirect_diffuse)) plan.settings.light.bounces = 0;

@@ -24,18 +24,19 @@ bool follows_motion(Guide guide) {
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings,
                           const NoiseVisibility& noise, bool maps, StageClock& clock) {
     StageSeconds& seconds = out.statistics.seconds;
-    out.velocity = compute_image_velocity(out.motion, shot.viewing, shot.frame_rate);
+    out.velocity = compute_image_velocity(out.motion, shot.film.viewing, shot.film.frame_rate);
     clock.add_to(seconds.motion);
-    out.perception = compute_perception(out.estimate, out.velocity, shot.viewing, shot.frame_rate, settings.perception,
-                                        {.retinal_velocity = true, .conspicuity = maps, .bands = false});
+    out.perception =
+        compute_perception(out.estimate, out.velocity, shot.film.viewing, shot.film.frame_rate, settings.perception,
+                           {.retinal_velocity = true, .conspicuity = maps, .bands = false});
     out.statistics.estimate.saliency_fallback = out.perception.fallback;
     Image<float>& adaptation = out.perception.adaptation;
-    if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
-    out.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
-    out.threshold_noise = compute_noise_threshold(
-        noise, out.estimate, shot.viewing.display_white, adaptation, out.perception.retinal_velocity,
+    if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.film.viewing);
+    out.limits.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
+    out.limits.threshold_noise = compute_noise_threshold(
+        noise, out.estimate, shot.film.viewing.display_white, adaptation, out.perception.retinal_velocity,
         follows_motion(settings.perception.guide) ? out.velocity : Image<float>());
-    out.alpha = compute_accuracy_map(out.perception.aleph, settings);
+    out.limits.alpha = compute_accuracy_map(out.perception.aleph, settings);
     clock.add_to(seconds.perception);
 }
 

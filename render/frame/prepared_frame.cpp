@@ -20,7 +20,7 @@ void perceive(Preparation& kept, const FrameScene& here, const FrameWork& work, 
         nodes = kept.estimate_light.find_nodes(work.frame, here, frame.centers, counts);
     const EstimateNodes* indirect = nodes ? &*nodes : nullptr;
     out.estimate = estimate_scene(shot, here, frame.centers, indirect, counts);
-    note_estimate(out, sanitize_estimate(out.estimate), shot.scene.viewing);
+    note_estimate(out, sanitize_estimate(out.estimate), shot.scene.film.viewing);
     clock.add_to(out.statistics.seconds.estimate);
     kept.motion.compute(work, here, kept.estimate_light, clock, frame);
     blur_frame_estimate({shot, work.frame, plan, here, kept.shutter}, frame.centers, indirect, out.estimate, counts);
@@ -71,8 +71,8 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
         perceive(kept, here, work, clock, frame);
     } else {
         out.perception.aleph = Image<float>(shot.settings.picture.width, shot.settings.picture.height, 1.0f);
-        out.alpha = Image<float>(shot.settings.picture.width, shot.settings.picture.height,
-                                 static_cast<float>(shot.settings.cache.accuracy));
+        out.limits.alpha = Image<float>(shot.settings.picture.width, shot.settings.picture.height,
+                                        static_cast<float>(shot.settings.cache.accuracy));
     }
     kept.planner.finish(frame.centers.hits, out, frame.plan);
     return frame;

@@ -34,7 +34,7 @@ struct Preparation {
         const bool lasts = work.held || shot.keeps_noise(work.frame);
         std::optional<NoiseVisibility>& known = lasts ? lasting_noise_ : fresh_noise_;
         if (!known)
-            known.emplace(shot.scene.viewing, shot.scene.frame_rate,
+            known.emplace(shot.scene.film.viewing, shot.scene.film.frame_rate,
                           lasts ? NoiseOverTime::lasts : NoiseOverTime::fresh);
         return *known;
     }

@@ -40,7 +40,7 @@ double find_full_exposure(const Scene& scene, RenderSettings settings, const std
 double find_exposure(const Shot& shot, FrameScene& scene) {
     const MeasuredSize size(shot.settings.picture);
     const std::int64_t first = shot.range.first;
-    scene.pose(shot.scene.frame_rate.seconds_of(first), shot.camera(first), size.columns, size.rows);
+    scene.pose(shot.scene.film.frame_rate.seconds_of(first), shot.camera(first), size.columns, size.rows);
     scene.prepare();
     RayCounts counts;
     const SampleHits centers = cast_centers(scene.rays(), scene.posed().view, &counts.primary);
@@ -55,12 +55,12 @@ Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::strin
     validate(scene);
     const std::vector<CameraShot> shots = list_camera_shots(scene, camera);
     if (!settings.effects.forbid.empty()) {
-        if (!scene.exposure) scene.exposure = find_full_exposure(scene, settings, camera);
+        if (!scene.film.exposure) scene.film.exposure = find_full_exposure(scene, settings, camera);
         remove_forbidden(settings.effects.forbid, scene);
     }
     state_ = std::make_unique<SequenceState>(std::move(scene), without_forbidden(settings), shots);
     Shot& shot = state_->shot;
-    shot.exposure = shot.scene.exposure ? *shot.scene.exposure : find_exposure(shot, state_->here);
+    shot.exposure = shot.scene.film.exposure ? *shot.scene.film.exposure : find_exposure(shot, state_->here);
 }
 
 Sequence::~Sequence() = default;
@@ -111,7 +111,7 @@ void Sequence::edit(const std::function<void(Scene&)>& change) {
     validate(scene);
     const std::vector<CameraShot> shots = list_camera_shots(scene, camera_);
     auto made = std::make_unique<SequenceState>(std::move(scene), old.shot.settings, shots);
-    made->shot.exposure = made->shot.scene.exposure.value_or(old.shot.exposure);
+    made->shot.exposure = made->shot.scene.film.exposure.value_or(old.shot.exposure);
     std::optional<PosedView> before = old.preparation.motion.end_edited();
     if (old.rendered) before = old.here.posed();
     if (before) made->preparation.motion.begin_edited(std::move(*before));
@@ -149,7 +149,7 @@ PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::
     for (const RenderSettings& chosen : settings) {
         prepared.plan.settings = chosen;
         prepared.plan.settings.light.bounces = bounces;
-        if (s.shot.needs_perception()) out.alpha = compute_accuracy_map(out.perception.aleph, chosen);
+        if (s.shot.needs_perception()) out.limits.alpha = compute_accuracy_map(out.perception.aleph, chosen);
         out.statistics.counts = {};
         SampleOptions options = find_sample_options(s, times.frame, prepared.plan);
         options.part = &part;

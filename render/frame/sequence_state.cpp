@@ -26,7 +26,7 @@ KeyframeSource make_keyframe_source(SequenceState& s) {
         const auto view = std::make_shared<KeyView>();
         view->frame = frame;
         s.keyframe.copy_to(*view);
-        view->accuracy = std::move(prepared.out.alpha);
+        view->accuracy = std::move(prepared.out.limits.alpha);
         view->rays = prepared.out.statistics.counts.rays;
         return view;
     };
@@ -53,7 +53,7 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
       preparation(shot, shot_light, here, keyframe) {
     if (!shot.reads_keyframes()) return;
     const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
-    shot_light.emplace(LightingKeyframes{shot.range, shot.scene.cuts, shot.settings.cache.light_step, find_breaks},
+    shot_light.emplace(LightingKeyframes{shot.range, shot.scene.film.cuts, shot.settings.cache.light_step, find_breaks},
                        shot.settings, !is_world_animated(shot.scene), !shot.can_change(), make_keyframe_source(*this));
 }
 

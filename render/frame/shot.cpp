@@ -11,10 +11,10 @@ namespace {
 
 /// A change of cameras begins a shot.
 Scene add_camera_cuts(Scene scene, const std::vector<CameraShot>& shots) {
-    for (std::size_t i = 1; i < shots.size(); ++i) scene.cuts.push_back(shots[i].first);
-    std::ranges::sort(scene.cuts);
-    const auto repeated = std::ranges::unique(scene.cuts);
-    scene.cuts.erase(repeated.begin(), repeated.end());
+    for (std::size_t i = 1; i < shots.size(); ++i) scene.film.cuts.push_back(shots[i].first);
+    std::ranges::sort(scene.film.cuts);
+    const auto repeated = std::ranges::unique(scene.film.cuts);
+    scene.film.cuts.erase(repeated.begin(), repeated.end());
     return scene;
 }
 
@@ -33,7 +33,7 @@ Scene refine_cages(Scene scene, const std::vector<CameraShot>& shots, const Rend
 }
 
 bool is_cut(const Scene& scene, std::int64_t frame) {
-    return std::ranges::find(scene.cuts, frame) != scene.cuts.end();
+    return std::ranges::find(scene.film.cuts, frame) != scene.film.cuts.end();
 }
 
 /// @param camera  index into ScenePose::cameras
@@ -49,7 +49,7 @@ glm::dvec2 read_shutter(const Scene& scene, int camera) {
 Lens find_lens(const Scene& scene, const CameraValues& camera) {
     if (!(camera.aperture > 0.0)) return {};
     if (!(camera.focus_distance > 0.0)) {
-        throw InputError(scene.file, "camera of node " + printable(scene.nodes[camera.node].name),
+        throw InputError(scene.source.file, "camera of node " + printable(scene.nodes[camera.node].name),
                          "with an aperture, its focus distance has to be above 0");
     }
     return {camera.aperture, camera.focus_distance};
@@ -74,7 +74,7 @@ std::optional<ShutterInterval> Shot::open_shutter(std::int64_t frame) const {
 }
 
 double Shot::seconds(std::int64_t frame) const {
-    return can_change() ? find_shutter_center(scene, shutter(frame), frame) : scene.frame_rate.seconds_of(frame);
+    return can_change() ? find_shutter_center(scene, shutter(frame), frame) : scene.film.frame_rate.seconds_of(frame);
 }
 
 OtherFrame Shot::other_frame(std::int64_t frame) const {

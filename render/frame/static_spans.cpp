@@ -17,7 +17,7 @@ TimeSpan find_time_span(const Scene& scene, const glm::dvec2& relative, std::int
     const double center = find_shutter_center(scene, relative, frame);
     const std::optional<ShutterInterval> shutter = find_shutter(scene, relative, frame);
     if (!shutter) return {center, center};
-    const double per_second = scene.frame_rate.per_second();
+    const double per_second = scene.film.frame_rate.per_second();
     return {std::min(center, shutter->open / per_second), std::max(center, shutter->close / per_second)};
 }
 
@@ -30,7 +30,7 @@ StaticSpans::StaticSpans(const Scene& scene, const PosePlan& plan, const std::ve
 /// Returns whether nothing changes from one frame to another, and no cut lies between them.
 bool StaticSpans::is_static(std::int64_t first, std::int64_t last) const {
     const auto lies_between = [&](std::int64_t cut) { return first < cut && cut <= last; };
-    if (std::ranges::any_of(scene_.cuts, lies_between)) return false;
+    if (std::ranges::any_of(scene_.film.cuts, lies_between)) return false;
     if (spans_.is_always_steady()) return true;
     const TimeSpan a = find_time_span(scene_, shutter_(first), first), b = find_time_span(scene_, shutter_(last), last);
     return spans_.is_steady(camera_at(shots_, first), std::min(a.from, b.from), std::max(a.to, b.to));
@@ -51,7 +51,7 @@ std::int64_t StaticSpans::search_first(std::int64_t frame, std::int64_t end, std
 }
 
 std::int64_t StaticSpans::find_first(std::int64_t frame) {
-    if (spans_.is_always_steady() && scene_.cuts.empty()) return range_.first;
+    if (spans_.is_always_steady() && scene_.film.cuts.empty()) return range_.first;
     if (frame < range_.first) return frame;
     // The frame with which this one has its motion; the last frame of a range has it with the one before it.
     const bool is_last = frame == range_.last && range_.last > range_.first;

@@ -97,7 +97,7 @@ struct ImageSequence::State {
                             first_read));
         }
         if (motion_in_files) made.motion = std::move(picture.motion);
-        const auto exposure = static_cast<float>(shot.exposure.value_or(1.0));
+        const auto exposure = static_cast<float>(shot.film.exposure.value_or(1.0));
         for (Rgb& pixel : made.estimate.pixels) pixel *= exposure;
         made.sanitized = sanitize_estimate(made.estimate);
         if (!motion_in_files) made.census = make_census_pyramid(made.estimate);
@@ -105,9 +105,9 @@ struct ImageSequence::State {
     }
 
     MotionField find_motion(std::int64_t frame, const LoadedFrame& now) {
-        if (now.motion && !is_cut(shot.cuts, frame + 1)) return *now.motion;
+        if (now.motion && !is_cut(shot.film.cuts, frame + 1)) return *now.motion;
         if (now.motion) return compute_image_motion(make_census_pyramid(now.estimate), {}, OtherFrame::none);
-        const OtherFrame which = find_other_frame(files, shot.cuts, frame);
+        const OtherFrame which = find_other_frame(files, shot.film.cuts, frame);
         const std::int64_t other_number = other_frame_number(frame, which);
         std::erase_if(loaded, [&](const auto& entry) { return entry.first != frame && entry.first != other_number; });
         const LoadedFrame* const other = which == OtherFrame::none ? nullptr : &load(other_number);
@@ -137,12 +137,12 @@ FrameOutput ImageSequence::compute_maps(std::int64_t frame) {
     if (!s.files.contains(frame)) refuse_missing(s.files, frame);
     const LoadedFrame& now = s.load(frame);
     out.estimate = now.estimate;
-    out.depth = now.depth;
-    note_estimate(out, now.sanitized, s.shot.viewing);
+    out.surface.depth = now.depth;
+    note_estimate(out, now.sanitized, s.shot.film.viewing);
     clock.add_to(stats.seconds.estimate);
     out.motion = s.find_motion(frame, now);
     out.motion_from_picture = now.motion.has_value();
-    if (!s.noise) s.noise.emplace(s.shot.viewing, s.shot.frame_rate, NoiseOverTime::fresh);
+    if (!s.noise) s.noise.emplace(s.shot.film.viewing, s.shot.film.frame_rate, NoiseOverTime::fresh);
     compute_frame_vision(out, s.shot, s.settings, *s.noise, true, clock);
     stats.peak_memory_mib = peak_memory_mib();
     total.add_to(stats.seconds.total);

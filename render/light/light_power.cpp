@@ -86,9 +86,9 @@ LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& light
         add_light(bounds, nearby ? light.position : -light.direction, nearby, 0.0f, luminance(light.intensity));
     }
     if (lights.has_environment) {
-        const double mean = shading.environment_map != nullptr ? shading.environment_map->mean_luminance : 1.0;
+        const double mean = shading.environment.map != nullptr ? shading.environment.map->mean_luminance : 1.0;
         add_light(bounds, glm::vec3(0.0f), false, 1.0f,
-                  static_cast<float>(std::numbers::pi * mean * luminance(shading.environment)));
+                  static_cast<float>(std::numbers::pi * mean * luminance(shading.environment.radiance)));
     }
     while (bounds.strength.size() % LightBounds::step != 0) add_light(bounds, glm::vec3(0.0f), false, 0.0f, 0.0f);
     return bounds;
@@ -99,13 +99,13 @@ std::vector<LightNode> make_light_nodes(const ShadingScene& shading, const Light
     for (const Emitter& emitter : lights.emitters) nodes.push_back(make_node(emitter));
     for (const PunctualLight& light : lights.punctual) nodes.push_back(make_node(light));
     if (lights.has_environment) {
-        const double mean = shading.environment_map != nullptr ? shading.environment_map->mean_luminance : 0.25;
+        const double mean = shading.environment.map != nullptr ? shading.environment.map->mean_luminance : 0.25;
         LightNode node;
         node.nearby = false;
         node.radius = 1.0f;
         // All light of a picture may come from where the surface faces; of a constant environment, a quarter arrives.
-        node.strength =
-            finite_strength(static_cast<float>(4.0 * std::numbers::pi * mean * luminance(shading.environment)));
+        node.strength = finite_strength(
+            static_cast<float>(4.0 * std::numbers::pi * mean * luminance(shading.environment.radiance)));
         node.most = node.strength;
         nodes.push_back(node);
     }

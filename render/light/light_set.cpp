@@ -23,10 +23,12 @@ Emitter make_emitter(const ShadingScene& shading, int index) {
     Emitter emitter;
     emitter.instance = index;
     emitter.double_sided = material.double_sided;
-    emitter.textured = material.material != nullptr && material.material->emission_texture.image != no_index;
-    emitter.has_alpha = material.material != nullptr && material.material->alpha_mode != Material::AlphaMode::opaque;
+    emitter.textured =
+        material.material != nullptr && material.material->textures[TextureSlot::emission].image != no_index;
+    emitter.has_alpha = material.material != nullptr && material.material->opacity.mode != Opacity::Mode::opaque;
     emitter.radiance = emitter.brightest = material.values.emission;
-    if (const int texture = shading.textures->materials[instance.material].emission.texture; texture != no_index) {
+    if (const int texture = shading.textures->materials[instance.material][TextureSlot::emission].texture;
+        texture != no_index) {
         emitter.brightest *= glm::max(shading.textures->textures[texture].largest, 1.0f);
     }
     const Mesh& mesh = *instance.mesh;
@@ -88,8 +90,8 @@ LightSet make_light_set(const ShadingScene& shading) {
         lights.emitters.push_back(std::move(emitter));
     }
     for (std::size_t i = 0; i < shading.pose->lights.size(); ++i) add_punctual(shading, i, lights);
-    lights.has_environment =
-        shading.environment != Rgb(0.0f) && (shading.environment_map == nullptr || !shading.environment_map->black);
+    lights.has_environment = shading.environment.radiance != Rgb(0.0f) &&
+                             (shading.environment.map == nullptr || !shading.environment.map->black);
     finish(shading, lights);
     return lights;
 }

@@ -91,17 +91,13 @@ struct PairTree {
 };
 
 void set_node(LightGroup& group, std::size_t i, const LightNode& node) {
-    group.x[i] = node.center.x;
-    group.y[i] = node.center.y;
-    group.z[i] = node.center.z;
+    group.center.set(i, node.center);
     group.radius[i] = node.radius;
     group.nearby[i] = node.nearby ? 1.0f : 0.0f;
     group.directed[i] = node.directed ? 1.0f : 0.0f;
-    group.axis_x[i] = node.axis.x;
-    group.axis_y[i] = node.axis.y;
-    group.axis_z[i] = node.axis.z;
-    group.cos_cone[i] = node.cos_cone;
-    group.sin_cone[i] = std::sqrt(std::max(0.0f, 1.0f - node.cos_cone * node.cos_cone));
+    group.cone.axis.set(i, node.axis);
+    group.cone.cosine[i] = node.cos_cone;
+    group.cone.sine[i] = std::sqrt(std::max(0.0f, 1.0f - node.cos_cone * node.cos_cone));
     group.cos_emission[i] = node.cos_emission;
     group.by_cosine[i] = node.by_cosine ? 1.0f : 0.0f;
     group.strength[i] = node.strength;

@@ -41,8 +41,18 @@ struct LightReaches {
 struct LightGroup {
     static constexpr int size = 8;
     using Values = std::array<float, size>;
-    Values x{}, y{}, z{}, radius{}, nearby{};
-    Values directed{}, axis_x{}, axis_y{}, axis_z{}, cos_cone{}, sin_cone{}, cos_emission{}, by_cosine{};
+    struct Vectors {
+        Values x{}, y{}, z{};
+        void set(std::size_t i, const glm::vec3& v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
+    };
+    struct Cones {
+        Vectors axis{};
+        Values cosine{}, sine{};
+    };
+    Vectors center{};
+    Values radius{}, nearby{}, directed{};
+    Cones cone{};
+    Values cos_emission{}, by_cosine{};
     Values strength{}, most{};
     std::array<int, size> children{};  ///< see LightTree
     int used = 0;

@@ -55,7 +55,8 @@ LightReaches reach_of(const LightGroup& group, const glm::vec3& position, const 
     LightReaches reaches;
     for (std::size_t i = 0; i < LightGroup::size; ++i) {
         const float near = group.nearby[i], radius = group.radius[i];
-        const float x = group.x[i] - near * from.x, y = group.y[i] - near * from.y, z = group.z[i] - near * from.z;
+        const float x = group.center.x[i] - near * from.x, y = group.center.y[i] - near * from.y,
+                    z = group.center.z[i] - near * from.z;
         const float distance2 = x * x + y * y + z * z, radius2 = radius * radius;
         const float distance = std::sqrt(distance2), inverse = 1.0f / distance;
         const float sine = radius * inverse > 1.0f ? 1.0f : radius * inverse;
@@ -64,9 +65,10 @@ LightReaches reach_of(const LightGroup& group, const glm::vec3& position, const 
         const float at_surface = (x * facing.x + y * facing.y + z * facing.z) * inverse;
         const float arriving = with_margin(subtract({at_surface, sine_of(at_surface)}, size).cosine);
         // And the cosine at the lights, of those that face the surface most.
-        const float from_axis = -(x * group.axis_x[i] + y * group.axis_y[i] + z * group.axis_z[i]) * inverse;
+        const float from_axis =
+            -(x * group.cone.axis.x[i] + y * group.cone.axis.y[i] + z * group.cone.axis.z[i]) * inverse;
         const Angle at_light = subtract({from_axis, sine_of(from_axis)}, size);
-        const float outside = subtract(at_light, {group.cos_cone[i], group.sin_cone[i]}).cosine;
+        const float outside = subtract(at_light, {group.cone.cosine[i], group.cone.sine[i]}).cosine;
         const float falloff = group.by_cosine[i] > 0.0f ? with_margin(outside) : 1.0f;
         const float leaving = outside < group.cos_emission[i] - margin ? 0.0f : falloff;
         const float outside_share = (behind > 0.0f ? 1.0f : arriving) * (group.directed[i] > 0.0f ? leaving : 1.0f);

@@ -155,9 +155,9 @@ LightSample sample_punctual(const PunctualLight& light, const glm::vec3& positio
 LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, const glm::vec2& u) {
     LightSample sample;
     sample.distance = std::numeric_limits<float>::infinity();
-    if (shading.environment_map != nullptr) {
-        const EnvironmentSample picture = sample_environment(*shading.environment_map, u);
-        sample.direction = shading.environment_rotation * picture.direction;
+    if (shading.environment.map != nullptr) {
+        const EnvironmentSample picture = sample_environment(*shading.environment.map, u);
+        sample.direction = shading.environment.rotation * picture.direction;
         sample.pdf = picture.pdf;
     } else {
         const glm::vec3 local = sample_cosine_hemisphere(u);
@@ -171,8 +171,8 @@ LightSample sample_surroundings(const ShadingScene& shading, const Receiver& rec
 }  // namespace
 
 float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction) {
-    if (shading.environment_map != nullptr) {
-        return pdf_environment(*shading.environment_map, direction * shading.environment_rotation);
+    if (shading.environment.map != nullptr) {
+        return pdf_environment(*shading.environment.map, direction * shading.environment.rotation);
     }
     return pdf_cosine_hemisphere(glm::dot(receiver.normal, direction));
 }

@@ -82,17 +82,17 @@ void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene)
     add(file, "conspicuity.orientation", maps.conspicuity_orientation);
     add(file, "conspicuity.motion", maps.conspicuity_motion);
     add(file, "aleph.Y", maps.aleph);
-    add(file, "alpha.acc", output.alpha);
-    add(file, "threshold.Y", output.threshold);
-    add(file, "threshold.noise", output.threshold_noise);
+    add(file, "alpha.acc", output.limits.alpha);
+    add(file, "threshold.Y", output.limits.threshold);
+    add(file, "threshold.noise", output.limits.threshold_noise);
     add_color(file, "estimate.", output.estimate);
-    add(file, "Z", output.depth);
+    add(file, "Z", output.surface.depth);
     for (int c = 0; c < 3; ++c) {
-        add(file, std::string("N.") + "XYZ"[c], pick(output.normal, [c](const glm::vec3& n) { return n[c]; }));
+        add(file, std::string("N.") + "XYZ"[c], pick(output.surface.normal, [c](const glm::vec3& n) { return n[c]; }));
     }
     add(file, "objectId.X", pick(output.hits, [](const Hit& hit) { return hit.instance; }));
     add_cryptomatte(file, output.hits, scene);
-    if (!output.albedo.empty()) add_color(file, "albedo.", output.albedo);
+    if (!output.surface.albedo.empty()) add_color(file, "albedo.", output.surface.albedo);
     if (!output.effects.empty()) add_color(file, "effects.", output.effects);
     add(file, "samples.Y", output.shaded.samples);
     add(file, "error.Y", output.shaded.errors.total);
@@ -165,12 +165,12 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
     if (maps) add_maps(file, output, scene);
     add_descriptions(file);
     file.metadata["software"] = "aleph " ALEPH_VERSION;
-    file.metadata["framesPerSecond"] = std::array<int, 2>{static_cast<int>(scene.frame_rate.numerator),
-                                                          static_cast<int>(scene.frame_rate.denominator)};
+    file.metadata["framesPerSecond"] = std::array<int, 2>{static_cast<int>(scene.film.frame_rate.numerator),
+                                                          static_cast<int>(scene.film.frame_rate.denominator)};
     file.metadata["frame"] = static_cast<double>(output.statistics.frame);
-    file.metadata["whiteLuminance"] = scene.viewing.display_white;
-    file.metadata["pixelsPerDegree"] = scene.viewing.pixels_per_degree;
-    file.metadata["displayPersistence"] = scene.viewing.persistence;
+    file.metadata["whiteLuminance"] = scene.film.viewing.display_white;
+    file.metadata["pixelsPerDegree"] = scene.film.viewing.pixels_per_degree;
+    file.metadata["displayPersistence"] = scene.film.viewing.persistence;
     file.metadata["exposureFactor"] = exposure;
     if (output.view.width > 0) {  // pictures that were not rendered here have no camera and no samples
         const Image<float>& samples = output.shaded.samples;

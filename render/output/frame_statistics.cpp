@@ -153,7 +153,7 @@ std::string format_statistics(std::string_view frames, const Scene& scene, const
                               const std::optional<VerifiedStatistics>& verified) {
     Json json;
     json["schema_version"] = 2;
-    json["scene"] = scene.file;
+    json["scene"] = scene.source.file;
     json["frames"] = Json::array();
     for (const Setting& setting : setting_table()) json["settings"][setting.key] = setting_json(setting, settings);
     json["exposure"] = exposure;

@@ -19,8 +19,8 @@ void write_map_preview(const std::filesystem::path& path, const FrameOutput& out
     add("speed, deg/s", output.velocity, {0.1, 100.0, true});
     add("saliency", output.perception.saliency, {0.0, 1.0, false});
     add("Aleph map", output.perception.aleph, {1.0, highest_elevation, true});
-    add("threshold, cd/m2", output.threshold, {0.1, 100.0, true});
-    add("accuracy", output.alpha, {0.01, 1.0, true});
+    add("threshold, cd/m2", output.limits.threshold, {0.1, 100.0, true});
+    add("accuracy", output.limits.alpha, {0.01, 1.0, true});
     write_sheet(path, panels, columns, output.estimate.width);
 }
 

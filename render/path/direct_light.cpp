@@ -82,8 +82,8 @@ struct FixedPattern {
 
 /// A narrow lobe would show single points of the fixed pattern as sparkles.
 ViewedSurface widen_lobes(ViewedSurface surface) {
-    surface.material.alpha = std::max(surface.material.alpha, min_estimate_alpha);
-    surface.material.coat_alpha = std::max(surface.material.coat_alpha, min_estimate_alpha);
+    surface.material.gloss.alpha = std::max(surface.material.gloss.alpha, min_estimate_alpha);
+    surface.material.coat.alpha = std::max(surface.material.coat.alpha, min_estimate_alpha);
     return surface;
 }
 
@@ -187,7 +187,7 @@ float bound_reflection(const LitSurface& lit) {
         const float most_d = 1.0f / (std::numbers::pi_v<float> * widths.x * widths.y);
         const float alpha2 = std::min(widths.x, widths.y) * std::min(widths.x, widths.y), cosine = lit.cos_view;
         const float most_g = 0.5f / (cosine + std::sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine));
-        bound += std::max(largest(material.f0), material.f90) * most_d * most_g;
+        bound += std::max(largest(material.gloss.f0), material.gloss.f90) * most_d * most_g;
     }
     return bound;
 }

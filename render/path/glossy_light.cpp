@@ -98,20 +98,20 @@ LobeStandIn find_stand_in(const LitSurface& lit, Lobe lobe) {
             if (!(std::min(material.widths().x, material.widths().y) >= narrowest)) break;
             const AlbedoParts parts = find_parts(alpha, lit.view.z);
             const Rgb albedo = glossy_albedo(material, lit.view.z);
-            const float more = std::max(material.f90 - luminance(material.f0), 0.0f);
+            const float more = std::max(material.gloss.f90 - luminance(material.gloss.f0), 0.0f);
             const float grazing = more * parts.grazing / std::max(luminance(albedo), 1e-6f);
             return {albedo * lit.below_sheen, lobe_deviation(alpha, lit.view.z, grazing)};
         }
         case Lobe::coat: {
-            if (!(material.coat_alpha >= narrowest)) break;
-            const AlbedoParts parts = find_parts(material.coat_alpha, lit.coat_view.z);
+            if (!(material.coat.alpha >= narrowest)) break;
+            const AlbedoParts parts = find_parts(material.coat.alpha, lit.coat_view.z);
             return {Rgb((1.0f - lit.below_coat) * (parts.straight + parts.grazing)),
-                    lobe_deviation(material.coat_alpha, lit.coat_view.z, 0.0f)};
+                    lobe_deviation(material.coat.alpha, lit.coat_view.z, 0.0f)};
         }
         case Lobe::sheen:
-            return {
-                material.sheen * (sheen_albedo(material.sheen_alpha, lit.cos_view) * lit.sheen_scale * lit.below_coat),
-                lobe_deviation(1.0f, lit.cos_view, 1.0f)};
+            return {material.sheen.color *
+                        (sheen_albedo(material.sheen.alpha, lit.cos_view) * lit.sheen_scale * lit.below_coat),
+                    lobe_deviation(1.0f, lit.cos_view, 1.0f)};
         case Lobe::diffuse:
         case Lobe::glass:
             break;
@@ -123,7 +123,7 @@ LobeStandIn find_stand_in(const LitSurface& lit, Lobe lobe) {
 
 Rgb glossy_albedo(const SurfaceMaterial& material, float cos_view) {
     const AlbedoParts parts = find_parts(mean_alpha(material), cos_view);
-    return material.f0 * parts.straight + Rgb(material.f90 * parts.grazing);
+    return material.gloss.f0 * parts.straight + Rgb(material.gloss.f90 * parts.grazing);
 }
 
 SampledLobes choose_sampled_lobes(const LitSurface& lit, const Rgb& irradiance, float tolerance) {

@@ -96,7 +96,7 @@ class Path {
             const bool known = add_known(surface);
             if (!survive()) return;
             --state_.left.depth;
-            if (surface.material.volume) surface.material.ior_ratio = state_.media.ratio_at(surface);
+            if (surface.material.glass.volume) surface.material.glass.ior_ratio = state_.media.ratio_at(surface);
             const LitSurface lit(surface);
             const LobeShares shares = share_lobes(lit, known ? LobeSet::specular : LobeSet::all);
             add_direct(lit, shares);
@@ -122,7 +122,7 @@ class Path {
             --state_.left.bounces;
             state_.turned = true;
         }
-        if (sample.passes && lit.material.volume) state_.media.pass({lit.point, lit.material, glm::vec3(0.0f)});
+        if (sample.passes && lit.material.glass.volume) state_.media.pass({lit.point, lit.material, glm::vec3(0.0f)});
         const Ray ray{lit.ray_origin(sample.direction), sample.direction};
         count_ray(task_.counts, sample);
         return meet(ray, next);

@@ -22,15 +22,27 @@ enum class LightPart : std::uint8_t {
 };
 inline constexpr int light_part_count = 3;
 
+/// Where the first surface of a sample is.
+struct SampledPlace {
+    int instance = no_index;                  ///< no_index: the background
+    glm::vec3 position{0.0f};                 ///< m
+    glm::vec3 geometric{0.0f}, normal{0.0f};  ///< unit, its true normal and its shading normal
+    float footprint = 0.0f;                   ///< m, of a pixel there
+
+    bool is_surface() const { return instance != no_index; }
+    /// Returns whether another sample sees the same face: this object, about parallel to it and not a step behind or
+    /// before it.
+    bool has_face(const SampledPlace& other) const;
+    /// Returns whether another sample sees the same face, with about the same irradiance.
+    bool has_surface(const SampledPlace& other) const;
+};
+
 /// Light of one sample, by part.
 struct SampleLight {
     std::array<Rgb, light_part_count> parts{Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
     Rgb indirect{0.0f};             ///< what the surface reflects of its indirect irradiance; within LightPart::surface
     std::optional<Rgb> irradiance;  ///< indirect, that was looked up for it
-    int instance = no_index;        ///< of the first surface; no_index: the background
-    glm::vec3 position{0.0f};       ///< m, on that surface
-    glm::vec3 geometric{0.0f}, normal{0.0f};  ///< unit, its true normal and its shading normal
-    float footprint = 0.0f;                   ///< m, of a pixel there
+    SampledPlace place{};
 
     Rgb& operator[](LightPart part) { return parts[static_cast<std::size_t>(part)]; }
     Rgb total() const { return parts[0] + parts[1] + parts[2]; }
@@ -63,7 +75,7 @@ class PixelSamples {
     /// Share of the valid samples that hit a surface.
     float coverage() const { return valid_ == 0 ? 0.0f : static_cast<float>(hits_) / static_cast<float>(valid_); }
     /// Variance of a sample's luminance, as if samples were independent; from 2 valid samples or more.
-    double sample_variance() const { return valid_ < 2 ? 0.0 : squares_ / (valid_ - 1); }
+    double sample_variance() const { return valid_ < 2 ? 0.0 : luminance_.squares / (valid_ - 1); }
     /// Variance of the mean luminance, as if samples were independent.
     double variance() const { return valid_ < 2 ? 0.0 : sample_variance() / valid_; }
     const Error& error() const { return error_; }
@@ -75,22 +87,32 @@ class PixelSamples {
     bool has_edge() const { return edge_; }
 
   private:
+    /// By part of the light; sums over the valid samples.
+    using Luminances = std::array<double, light_part_count>;
+    /// Mean, and squared differences from it (Welford 1962).
+    struct Spread {
+        double mean = 0.0, squares = 0.0;
+    };
+    struct FoundIrradiance {
+        Rgb sum{0.0f};
+        int count = 0;
+    };
+    struct FirstHalf {
+        Luminances luminances{};  ///< of the samples before the present half
+        int valid = 0;
+    };
+
     void end_sample();
-    bool is_on_first_face(const SampleLight& light) const;
-    bool is_first_surface(const SampleLight& light) const;
 
     glm::dvec3 radiance_{0.0};
     Rgb indirect_{0.0f};
     int taken_ = 0, valid_ = 0, hits_ = 0;
-    double mean_ = 0.0, squares_ = 0.0;  ///< of luminance: mean, squared differences from it (Welford 1962)
-    std::array<double, light_part_count> luminances_{};
-    std::array<double, light_part_count> first_half_{};  ///< `luminances_` of the samples before the present half
-    int first_valid_ = 0;
+    Spread luminance_;
+    Luminances luminances_{};
+    FirstHalf first_half_;
     Error error_;
-    int instance_ = no_index;  ///< of the first sample
-    glm::vec3 position_{0.0f}, geometric_{0.0f}, normal_{0.0f};
-    Rgb irradiance_{0.0f};  ///< sum
-    int irradiances_ = 0;
+    SampledPlace first_;  ///< of the first sample
+    FoundIrradiance irradiance_;
     bool edge_ = false;
 };
 

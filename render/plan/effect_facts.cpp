@@ -36,32 +36,32 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
         facts.glossy = true;
         facts.least_width = std::min(facts.least_width, std::max(least * least, min_ggx_alpha));
     };
-    const float metallic = values.metallic * largest_texel(set, textures.metallic_roughness).z;
-    const float dielectric = values.specular *
-                             (values.transmission < 1.0f || textures.transmission.texture != no_index ? 1.0f : 0.0f) *
-                             (values.metallic < 1.0f || textures.metallic_roughness.texture != no_index ? 1.0f : 0.0f);
-    const bool stretched = values.anisotropy > 0.0f;
+    const float metallic = values.gloss.metallic * largest_texel(set, textures[TextureSlot::metallic_roughness]).z;
+    const float dielectric =
+        values.gloss.specular *
+        (values.glass.transmission < 1.0f || textures[TextureSlot::transmission].texture != no_index ? 1.0f : 0.0f) *
+        (values.gloss.metallic < 1.0f || textures[TextureSlot::metallic_roughness].texture != no_index ? 1.0f : 0.0f);
+    const bool stretched = values.layers.anisotropy > 0.0f;
     if (metallic > 0.0f || dielectric > 0.0f) {
-        const float least = values.roughness * smallest_green(set, textures.metallic_roughness);
-        const float most = values.roughness * largest_texel(set, textures.metallic_roughness).y;
+        const float least = values.gloss.roughness * smallest_green(set, textures[TextureSlot::metallic_roughness]);
+        const float most = values.gloss.roughness * largest_texel(set, textures[TextureSlot::metallic_roughness]).y;
         add_lobe(std::max(metallic, dielectric), least, stretched ? 1.0f : most);
     }
-    if (values.clearcoat > 0.0f) {
-        const float least = values.clearcoat_roughness * smallest_green(set, textures.clearcoat_roughness);
-        add_lobe(values.clearcoat, least,
-                 values.clearcoat_roughness * largest_texel(set, textures.clearcoat_roughness).y);
+    if (values.layers.clearcoat > 0.0f) {
+        const float least =
+            values.layers.clearcoat_roughness * smallest_green(set, textures[TextureSlot::clearcoat_roughness]);
+        add_lobe(values.layers.clearcoat, least,
+                 values.layers.clearcoat_roughness * largest_texel(set, textures[TextureSlot::clearcoat_roughness]).y);
     }
-    if (values.sheen_color != Rgb(0.0f)) add_lobe(largest_channel(values.sheen_color), 1.0f, 1.0f);
-    facts.glass = values.transmission > 0.0f && values.metallic < 1.0f;
+    if (values.layers.sheen_color != Rgb(0.0f)) add_lobe(largest_channel(values.layers.sheen_color), 1.0f, 1.0f);
+    facts.glass = values.glass.transmission > 0.0f && values.gloss.metallic < 1.0f;
 }
 
 /// True for any texture but normal maps.
 bool has_texture(const MaterialTextures& textures) {
-    const auto uses = {&textures.base_color,  &textures.metallic_roughness, &textures.emission,
-                       &textures.specular,    &textures.specular_color,     &textures.transmission,
-                       &textures.thickness,   &textures.clearcoat,          &textures.clearcoat_roughness,
-                       &textures.sheen_color, &textures.sheen_roughness,    &textures.anisotropy};
-    return std::ranges::any_of(uses, [](const TextureUse* use) { return use->texture != no_index; });
+    return std::ranges::any_of(material_textures, [&](const MaterialTexture& texture) {
+        return !is_normal_map(texture.slot) && textures[texture.slot].texture != no_index;
+    });
 }
 
 /// @param color  largest vertex colour
@@ -70,19 +70,22 @@ MaterialFacts find_material_facts(const Material* material, const MaterialValues
     MaterialFacts facts;
     facts.textured = has_texture(textures);
     facts.maps_normals = textures.maps_normals;
-    const float base = largest_channel(values.base_color * largest_texel(set, textures.base_color)) * color;
+    const float base =
+        largest_channel(values.base_color * largest_texel(set, textures[TextureSlot::base_color])) * color;
     if (material != nullptr) {
-        facts.alpha = material->alpha_mode != Material::AlphaMode::opaque;
+        facts.alpha = material->opacity.mode != Opacity::Mode::opaque;
         facts.unlit = material->unlit;
         if (facts.unlit) {
             facts.radiance = base;
             return facts;
         }
-        facts.radiance =
-            largest_channel(values.emission * glm::max(largest_texel(set, textures.emission), glm::vec3(0.0f)));
+        facts.radiance = largest_channel(
+            values.emission * glm::max(largest_texel(set, textures[TextureSlot::emission]), glm::vec3(0.0f)));
     }
-    const bool pure_metal = values.metallic >= 1.0f && textures.metallic_roughness.texture == no_index;
-    const bool pure_glass = values.transmission >= 1.0f && textures.transmission.texture == no_index;
+    const bool pure_metal =
+        values.gloss.metallic >= 1.0f && textures[TextureSlot::metallic_roughness].texture == no_index;
+    const bool pure_glass =
+        values.glass.transmission >= 1.0f && textures[TextureSlot::transmission].texture == no_index;
     if (!pure_metal && !pure_glass) facts.diffuse = base;
     add_layers(values, textures, set, facts);
     return facts;
@@ -153,7 +156,7 @@ void add_lights(const Scene& scene, const ShotFacts& shot, const ScenePose& pose
                                 static_cast<int>(i), light.position, 0.0, light.direction,
                                 largest_channel(light.intensity), light.range});
     }
-    const float radiance = scene.environment ? largest_channel(pose.environment) * shot.environment : 0.0f;
+    const float radiance = scene.environment.radiance ? largest_channel(pose.environment) * shot.environment : 0.0f;
     if (radiance > 0.0f) {
         facts.lights.push_back(
             {LightFacts::Kind::surroundings, no_index, 0, glm::dvec3(0.0), 0.0, glm::dvec3(0.0), radiance});

@@ -153,8 +153,8 @@ Finding find_environment(Planning& frame) {
 }
 
 void remove_environment(Scene& scene) {
-    scene.environment.reset();
-    scene.environment_image = no_index;
+    scene.environment.radiance.reset();
+    scene.environment.image = no_index;
 }
 
 bool is_lit(const MaterialFacts& material, const FrameFacts& facts) {

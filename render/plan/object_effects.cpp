@@ -48,7 +48,7 @@ Finding find_emission(Planning& frame) {
 }
 
 void remove_emission(Scene& scene) {
-    for (Material& material : scene.materials) material.emission = glm::dvec3(0.0);
+    for (Material& material : scene.materials) material.glow.color = glm::dvec3(0.0);
 }
 
 Finding find_textures(Planning& frame) {
@@ -64,10 +64,8 @@ Finding find_normal_maps(Planning& frame) {
 template <bool normal_maps>
 void remove_textures(Scene& scene) {
     for (Material& material : scene.materials) {
-        for (const auto& [key, member] : material_textures) {
-            const bool maps_normals =
-                member == &Material::normal_texture || member == &Material::clearcoat_normal_texture;
-            if (maps_normals == normal_maps) material.*member = {};
+        for (const auto& [key, slot] : material_textures) {
+            if (is_normal_map(slot) == normal_maps) material.textures[slot] = {};
         }
     }
 }
@@ -78,14 +76,14 @@ Finding find_alpha(Planning& frame) {
 }
 
 void make_opaque(Scene& scene) {
-    for (Material& material : scene.materials) material.alpha_mode = Material::AlphaMode::opaque;
+    for (Material& material : scene.materials) material.opacity.mode = Opacity::Mode::opaque;
 }
 
 Finding find_subdivision(Planning& frame) {
     const Scene& scene = frame.in.scene;
     int most = no_index;  // level of the cages
     for (const ObjectFacts& object : frame.in.facts.objects) {
-        const int cage = scene.meshes[object.mesh].cage;
+        const int cage = scene.meshes[object.mesh].subdivision.cage;
         if (cage != no_index) most = std::max(most, scene.cages[cage].level);
     }
     if (most == no_index) return skip("there is no subdivision cage");
@@ -105,14 +103,14 @@ Finding find_deformation(Planning& frame) {
 /// Point caches hold their first sample from then on. Skinned meshes stand as they were modelled.
 void stop_deformation(Scene& scene) {
     for (Mesh& mesh : scene.meshes) {
-        mesh.targets.clear();
-        mesh.target_weights.clear();
-        mesh.skin = no_index;
-        mesh.joint_weights.clear();
-        mesh.joints_per_vertex = 0;
-        if (mesh.normal_samples.size() > 1) {
-            mesh.normal_samples.resize(1);
-            mesh.normal_sampling = {};
+        mesh.deformation.targets.clear();
+        mesh.deformation.target_weights.clear();
+        mesh.deformation.skin = no_index;
+        mesh.deformation.joint_weights.clear();
+        mesh.deformation.joints_per_vertex = 0;
+        if (mesh.deformation.normal_samples.size() > 1) {
+            mesh.deformation.normal_samples.resize(1);
+            mesh.deformation.normal_sampling = {};
         }
     }
     for (PointCache& cache : scene.point_caches) {

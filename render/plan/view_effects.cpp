@@ -41,7 +41,7 @@ Finding find_blur(const Planning& frame, double size, const BlurMoments& blur, c
     const double radiance = bound_blur(blur, frame.in.settings.picture.filter) * largest_contrast(frame);
     finding.cheaper = {.decision = Decision::skip,
                        .reason = fmt::format("{} by {:.2g} pixels", what, size),
-                       .bound = frame.bound_of(radiance, frame.in.scene.environment_image != no_index)};
+                       .bound = frame.bound_of(radiance, frame.in.scene.environment.image != no_index)};
     return finding;
 }
 

@@ -45,12 +45,12 @@ void set_scene_numbers(Scene& scene, SettingMap& settings, const std::string& so
         apply(*number);
         settings.erase(found);
     };
-    take("exposure", [&](double v) { scene.exposure = v; });
-    take("viewing.pixels_per_degree", [&](double v) { scene.viewing.pixels_per_degree = v; });
-    take("viewing.display_white", [&](double v) { scene.viewing.display_white = v; });
+    take("exposure", [&](double v) { scene.film.exposure = v; });
+    take("viewing.pixels_per_degree", [&](double v) { scene.film.viewing.pixels_per_degree = v; });
+    take("viewing.display_white", [&](double v) { scene.film.viewing.display_white = v; });
     take("viewing.persistence", [&](double v) {
         if (v > 1.0) throw InputError(source, "viewing.persistence", "expected a number above 0, at most 1");
-        scene.viewing.persistence = v;
+        scene.film.viewing.persistence = v;
     });
     refuse_unknown_settings(settings, source);
 }

@@ -29,7 +29,7 @@ class CacheIntegrator final : public LightIntegrator {
         if (cached_) context_.direct = &direct_;
         if (context_.settings.error > 0.0 && !input.sampling_tolerance.empty())
             context_.tolerance = &input.sampling_tolerance;
-        context_.multi_bounce = make_multi_bounce_light(context_.settings, nullptr);
+        context_.bounces.further = make_multi_bounce_light(context_.settings, nullptr);
         if (input.options.record_maps) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
     }
 
@@ -80,7 +80,7 @@ class CacheIntegrator final : public LightIntegrator {
 
   private:
     /// Paths of samples while the shutter is open do not use it: it holds for the shutter's centre.
-    bool needs_further() const { return context_.multi_bounce.bounces > 0 && (cached_ || !blurred_); }
+    bool needs_further() const { return context_.bounces.further.bounces > 0 && (cached_ || !blurred_); }
 
     /// Finds light of further bounces, for gathers and for paths of samples.
     void solve_further(const SampleHits& first) {
@@ -91,8 +91,8 @@ class CacheIntegrator final : public LightIntegrator {
         add_seen_surfaces(all, first, seen, input_.out.counts.rays);
         further_bounces_ = solve_further_bounces(context_, seen, input_.out.counts);
         if (!further_bounces_) return;
-        context_.multi_bounce = make_multi_bounce_light(context_.settings, &*further_bounces_);
-        known_.fewer = &further_.emplace(context_.multi_bounce);
+        context_.bounces.further = make_multi_bounce_light(context_.settings, &*further_bounces_);
+        known_.fewer = &further_.emplace(context_.bounces.further);
     }
 
     const IntegratorInput input_;

@@ -168,11 +168,11 @@ Rgb share_left(const PixelSurface& surface) {
 }
 
 void begin_light(const PixelSurface& surface, SampleLight& light) {
-    light.instance = surface.hit.instance;
-    light.position = surface.point.position;
-    light.footprint = surface.footprint;
-    light.geometric = surface.point.geometric;
-    light.normal = surface.point.normal;
+    light.place = {.instance = surface.hit.instance,
+                   .position = surface.point.position,
+                   .geometric = surface.point.geometric,
+                   .normal = surface.point.normal,
+                   .footprint = surface.footprint};
 }
 
 void shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,

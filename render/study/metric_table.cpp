@@ -66,7 +66,7 @@ bool needs_two_seeds(std::string_view metric) {
 
 std::vector<Metric> list_metrics(const Study& study) {
     std::vector<Metric> all = make_all(study);
-    const bool one_seed = study.seeds.size() < 2;
+    const bool one_seed = study.runs.seeds.size() < 2;
     if (one_seed) std::erase_if(all, [](const Metric& metric) { return needs_two_seeds(metric.name); });
     if (study.metrics.empty()) return all;
     std::vector<std::string> known;

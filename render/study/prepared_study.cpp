@@ -87,7 +87,7 @@ PreparedStudy prepare_study(Study study) {
 
 SceneWithSettings with_settings_of(const PreparedStudyScene& scene, const Study& study, const SettingMap& more) {
     SceneWithSettings out{scene.scene, {}};
-    apply_settings(out.settings, scene.scene.settings, scene.scene.file);
+    apply_settings(out.settings, scene.scene.source.settings, scene.scene.source.file);
     SettingMap settings = more;
     settings.insert(study.settings.begin(), study.settings.end());
     set_scene_numbers(out.scene, settings, "study");

@@ -23,9 +23,9 @@ constexpr double frames_per_pass = 4.0;
 void add_bands(const FrameOutput& output, const Scene& scene, const RenderSettings& settings, JudgingFrame& frame) {
     PerceptionSettings perception = settings.perception;
     if (output.perception.saliency.empty()) perception.guide = Guide::full;  // nothing moves, or all is alike
-    PerceptionMaps maps = compute_perception(output.estimate, output.velocity, scene.viewing, scene.frame_rate,
-                                             perception, {.bands = true});
-    frame.frequencies = band_frequencies(perception.bands, scene.viewing.pixels_per_degree);
+    PerceptionMaps maps = compute_perception(output.estimate, output.velocity, scene.film.viewing,
+                                             scene.film.frame_rate, perception, {.bands = true});
+    frame.frequencies = band_frequencies(perception.bands, scene.film.viewing.pixels_per_degree);
     for (std::size_t i = 0; i < maps.responses.size(); ++i) {
         frame.maps.channels.push_back({fmt::format("band.{}", i), std::move(maps.responses[i])});
         frame.maps.channels.push_back({fmt::format("elevation.{}", i), std::move(maps.elevations[i])});
@@ -46,8 +46,8 @@ class StudyRunner {
         for (const PreparedStudyScene& scene : prepared_.scenes) truths_.push_back(prepare_truths(scene));
         std::vector<std::vector<std::vector<MeasuredRun>>> runs(
             prepared_.variants.size(), std::vector<std::vector<MeasuredRun>>(prepared_.scenes.size()));
-        for (int repeat = 0; repeat < study_.repeats; ++repeat) {
-            for (const std::uint32_t seed : study_.seeds) {
+        for (int repeat = 0; repeat < study_.runs.repeats; ++repeat) {
+            for (const std::uint32_t seed : study_.runs.seeds) {
                 for (std::size_t v = 0; v < runs.size(); ++v) {
                     for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
                         runs[v][s].push_back(find_or_make(v, s, seed, repeat));
@@ -60,7 +60,7 @@ class StudyRunner {
                 std::ranges::move(summarize_runs(prepared_.scenes[s].name, runs[v][s]),
                                   std::back_inserter(result.frames));
             average_frames(result);
-            if (study_.seeds.size() > 1)
+            if (study_.runs.seeds.size() > 1)
                 add_seed_metrics(results_.frames, pictures_of(runs[v], 0), pictures_of(runs[v], 1), result);
             results_.variants.push_back(std::move(result));
         }
@@ -79,7 +79,7 @@ class StudyRunner {
     }
 
     std::size_t runs_of_scene() const {
-        return prepared_.variants.size() * study_.seeds.size() * static_cast<std::size_t>(study_.repeats);
+        return prepared_.variants.size() * study_.runs.seeds.size() * static_cast<std::size_t>(study_.runs.repeats);
     }
 
     void show(double more, const std::string& what) const {
@@ -97,7 +97,7 @@ class StudyRunner {
             request.maps = true;
             for (std::size_t i = 0; i < scene.frames.size(); ++i) {
                 FrameOutput output = sequence.render(scene.frames[i], request);
-                truths[i].thresholds.push_back(output.threshold);
+                truths[i].thresholds.push_back(output.limits.threshold);
                 if (truths[i].thresholds.size() > 1) continue;
                 JudgingFrame& frame = results_.frames.emplace_back();
                 frame.scene = scene.name;
@@ -168,8 +168,8 @@ class StudyRunner {
         }
         std::size_t first = 0;
         for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();
-        const std::vector<VisibleShares> shares = measure_visible(
-            std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
+        const std::vector<VisibleShares> shares =
+            measure_visible(std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
                 ChannelImage picture = read_image(run.pictures[i]);
                 ChannelImage reference = expose_like(picture, truths_[s][i].reference);
                 return std::pair(std::move(picture), std::move(reference));

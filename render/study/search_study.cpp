@@ -81,8 +81,8 @@ class Search {
         std::vector<StudyVariant> left = prepared_.candidates;
         for (std::size_t r = 0; r + 1 < rounds.size(); ++r) {
             PreparedStudy study = study_of(prepared_, scene, rounds[r], left);
-            study.study.repeats = 1;
-            study.study.seeds.resize(1);
+            study.study.runs.repeats = 1;
+            study.study.runs.seeds.resize(1);
             const StudyResults results = run_round(study, r, rounds[r]);
             results_.made += results.made;
             results_.found += results.found;

@@ -60,19 +60,24 @@ struct StudySearch {
     int rounds = 3;                   ///< the last is as the study asks
 };
 
+/// Renderings of each variant.
+struct StudyRuns {
+    int repeats = 1;                         ///< with equal random numbers, for the uncertainty of times
+    std::vector<std::uint32_t> seeds = {0};  ///< with different ones, for that of errors
+};
+
 struct Study {
     std::string title, description;
     std::vector<StudyScene> scenes;  ///< at least one
     SettingMap settings;             ///< of every variant and of the reference, over those of the scene
     StudyReference reference;
-    std::vector<StudyAxis> sweep;            ///< every combination is a variant
-    std::vector<StudyVariant> variants;      ///< and these are
-    std::optional<StudySearch> search;       ///< adds the best fixed settings
-    std::vector<std::string> metrics;        ///< metric_table.h; empty: the usual ones
-    std::vector<StudyViewer> viewers;        ///< at least one; the first judges where one threshold is meant
-    std::vector<StudyJudge> judges;          ///< beside the thresholds of the viewers
-    int repeats = 1;                         ///< renderings with equal random numbers, for the uncertainty of times
-    std::vector<std::uint32_t> seeds = {0};  ///< renderings with different ones, for that of errors
+    std::vector<StudyAxis> sweep;        ///< every combination is a variant
+    std::vector<StudyVariant> variants;  ///< and these are
+    std::optional<StudySearch> search;   ///< adds the best fixed settings
+    std::vector<std::string> metrics;    ///< metric_table.h; empty: the usual ones
+    std::vector<StudyViewer> viewers;    ///< at least one; the first judges where one threshold is meant
+    std::vector<StudyJudge> judges;      ///< beside the thresholds of the viewers
+    StudyRuns runs;
 };
 
 /// The variants of the sweep, each named by its settings ("error=1,guide=none"), then the named ones. The last axis

@@ -144,8 +144,8 @@ Study parse_study(std::string_view text, const std::filesystem::path& path) {
     study.search = read_search(root);
     study.metrics = read_texts(root, "metrics");
     if (study.viewers.empty()) study.viewers.push_back(default_viewer());
-    if (const auto repeats = root.find_integer("repeats", 1, 1000)) study.repeats = static_cast<int>(*repeats);
-    if (const auto seeds = root.find("seeds")) study.seeds = seeds->json().get<std::vector<std::uint32_t>>();
+    if (const auto repeats = root.find_integer("repeats", 1, 1000)) study.runs.repeats = static_cast<int>(*repeats);
+    if (const auto seeds = root.find("seeds")) study.runs.seeds = seeds->json().get<std::vector<std::uint32_t>>();
     return study;
 }
 

@@ -154,7 +154,7 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
               {"host", host_json(context.threads)},
               {"build", {{"version", ALEPH_VERSION}, {"program", program_build()}, {"compiler", __VERSION__}}},
               {"settings", settings_json(study.settings)}};
-    for (const PreparedStudyScene& scene : prepared.scenes) json["scenes"].push_back(scene.scene.file);
+    for (const PreparedStudyScene& scene : prepared.scenes) json["scenes"].push_back(scene.scene.source.file);
     const RenderSettings base = with_settings_of(prepared.scenes.front(), study, {}).settings;
     json["width"] = base.picture.width;
     json["height"] = base.picture.height;
@@ -165,8 +165,8 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
                          {"note", describe_reference(prepared, results)}};
     for (const StudyViewer& viewer : study.viewers)
         json["viewers"].push_back({{"name", viewer.name}, {"settings", settings_json(viewer.settings)}});
-    json["repeats"] = study.repeats;
-    json["seeds"] = study.seeds;
+    json["repeats"] = study.runs.repeats;
+    json["seeds"] = study.runs.seeds;
     json["axes"] = axes_json(study.sweep);
     if (study.search) {
         json["search"] = search_json(prepared, results);

@@ -66,9 +66,9 @@ std::string make_viewer_test(std::string_view page, const PreparedStudy& prepare
               {"date", context.date},
               {"width", settings.picture.width},
               {"height", settings.picture.height},
-              {"frames_per_second", scene.frame_rate.per_second()},
-              {"pixels_per_degree", scene.viewing.pixels_per_degree},
-              {"display_white", scene.viewing.display_white},
+              {"frames_per_second", scene.film.frame_rate.per_second()},
+              {"pixels_per_degree", scene.film.viewing.pixels_per_degree},
+              {"display_white", scene.film.viewing.display_white},
               {"level", describe_level(axis)},
               {"reference", {{"frames", Json::array()}}},
               {"tests", Json::array()}};

@@ -11,17 +11,17 @@ namespace aleph {
 namespace {
 
 float grazing_loss(const SurfaceMaterial& material) {
-    return std::max(material.f90, material.f90_max);
+    return std::max(material.gloss.f90, material.gloss.f90_max);
 }
 
 }  // namespace
 
 float diffuse_transmission(const SurfaceMaterial& material, float cosine) {
-    return 1.0f - (material.f0_max + (grazing_loss(material) - material.f0_max) * schlick_power(cosine));
+    return 1.0f - (material.gloss.f0_max + (grazing_loss(material) - material.gloss.f0_max) * schlick_power(cosine));
 }
 
 float mean_diffuse_transmission(const SurfaceMaterial& material) {
-    return 1.0f - (material.f0_max + (grazing_loss(material) - material.f0_max) / 21.0f);
+    return 1.0f - (material.gloss.f0_max + (grazing_loss(material) - material.gloss.f0_max) / 21.0f);
 }
 
 Rgb evaluate_diffuse(const SurfaceMaterial& material, float cos_view, float cos_light) {
@@ -35,7 +35,7 @@ Rgb diffuse_radiance(const SurfaceMaterial& material, float cos_view, const Rgb&
 }
 
 Rgb glossy_reflectance(const SurfaceMaterial& material, float cosine) {
-    return material.f0 + (Rgb(material.f90) - material.f0) * schlick_power(cosine);
+    return material.gloss.f0 + (Rgb(material.gloss.f90) - material.gloss.f0) * schlick_power(cosine);
 }
 
 Rgb evaluate_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {

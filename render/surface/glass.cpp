@@ -10,8 +10,8 @@ namespace aleph {
 namespace {
 
 float reflectance(const SurfaceMaterial& material, float cosine) {
-    const float full = dielectric_reflectance(cosine, material.ior_ratio);
-    return full < 1.0f ? std::min(1.0f, full * material.glass_specular) : 1.0f;
+    const float full = dielectric_reflectance(cosine, material.glass.ior_ratio);
+    return full < 1.0f ? std::min(1.0f, full * material.glass.specular) : 1.0f;
 }
 
 /// The direction behind the surface that refraction by the half vector leads to; 0 at total reflection.
@@ -27,7 +27,7 @@ glm::vec3 flip(const glm::vec3& v) {
 }
 
 GlassValue evaluate_refracted(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
-    const float ratio = material.ior_ratio;
+    const float ratio = material.glass.ior_ratio;
     glm::vec3 h = view + light * ratio;
     const float length = glm::length(h);
     if (!(length > 0.0f)) return {};
@@ -38,9 +38,9 @@ GlassValue evaluate_refracted(const SurfaceMaterial& material, const glm::vec3& 
     const float passed = 1.0f - reflectance(material, vh);
     const float denominator = vh + ratio * lh;
     const float jacobian = ratio * ratio * -lh / (denominator * denominator);
-    const float common = ggx_d(widths, h) * vh / view.z * jacobian * passed * material.glass;
-    const GlassValue value{material.glass_tint * (common * smith_g2(widths, view, flip(light))),
-                           common / material.glass * smith_g1(widths, view)};
+    const float common = ggx_d(widths, h) * vh / view.z * jacobian * passed * material.glass.share;
+    const GlassValue value{material.glass.tint * (common * smith_g2(widths, view, flip(light))),
+                           common / material.glass.share * smith_g1(widths, view)};
     return std::isfinite(value.pdf) ? value : GlassValue{};
 }
 
@@ -49,7 +49,7 @@ GlassValue evaluate_refracted(const SurfaceMaterial& material, const glm::vec3& 
 GlassValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
     if (!(view.z > 0.0f) || light.z == 0.0f || material.is_glass_smooth()) return {};
     const bool passes = light.z < 0.0f;
-    if (passes && material.volume) return evaluate_refracted(material, view, light);
+    if (passes && material.glass.volume) return evaluate_refracted(material, view, light);
     const glm::vec3 mirrored = passes ? flip(light) : light;
     // The angle to h from the length of the sum: the same for both directions, also where they are not exactly unit.
     const glm::vec3 sum = view + mirrored;
@@ -58,7 +58,7 @@ GlassValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view
     const float reflected = reflectance(material, 0.5f * length);
     const float share = passes ? 1.0f - reflected : reflected;
     const float d = share * ggx_d(widths, sum / length) / (4.0f * view.z);
-    return {(passes ? material.glass_tint : Rgb(1.0f)) * (d * material.glass * smith_g2(widths, view, mirrored)),
+    return {(passes ? material.glass.tint : Rgb(1.0f)) * (d * material.glass.share * smith_g2(widths, view, mirrored)),
             d * smith_g1(widths, view)};
 }
 
@@ -69,15 +69,15 @@ GlassSample sample_glass(const SurfaceMaterial& material, const glm::vec3& view,
     const glm::vec3 reflected = 2.0f * vh * h - view;
     if (side < reflectance(material, vh)) {
         if (!(reflected.z > 0.0f)) return {};
-        return {reflected, smooth ? Rgb(material.glass) : Rgb(0.0f)};
+        return {reflected, smooth ? Rgb(material.glass.share) : Rgb(0.0f)};
     }
-    const glm::vec3 passed = material.volume ? refract(view, h, material.ior_ratio) : flip(reflected);
+    const glm::vec3 passed = material.glass.volume ? refract(view, h, material.glass.ior_ratio) : flip(reflected);
     if (!(passed.z < 0.0f)) return {};
-    return {passed, smooth ? material.glass_tint * material.glass : Rgb(0.0f)};
+    return {passed, smooth ? material.glass.tint * material.glass.share : Rgb(0.0f)};
 }
 
 Rgb evaluate_sheet(const SurfaceMaterial& material, float cos_view) {
-    return material.glass_tint * (material.glass * (1.0f - reflectance(material, cos_view)));
+    return material.glass.tint * (material.glass.share * (1.0f - reflectance(material, cos_view)));
 }
 
 }  // namespace aleph

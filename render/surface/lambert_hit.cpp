@@ -56,7 +56,7 @@ LambertHit make_lambert_hit(const ShadingScene& shading, const Ray& ray, const H
         met.albedo *=
             Rgb(mesh.colors[t.x] * (1.0f - hit.u - hit.v) + mesh.colors[t.y] * hit.u + mesh.colors[t.z] * hit.v);
     }
-    const TextureUse& use = shading.textures->materials[instance.material].base_color;
+    const TextureUse& use = shading.textures->materials[instance.material][TextureSlot::base_color];
     if (use.texture != no_index) {
         const float footprint_area = cone_footprint_area(std::abs(cosine), hit.distance, solid_angle);
         met.albedo *= look_up_albedo(shading, use, mesh, hit, footprint_area, area);

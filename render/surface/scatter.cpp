@@ -17,7 +17,7 @@ constexpr float coat_f0 = 0.04f;  // KHR_materials_clearcoat: index of refractio
 
 /// By the angle of the view, as the light below it: with that of the half vector a rough coat would add light.
 float coat_reflectance(const LitSurface& lit) {
-    return lit.material.coat * (coat_f0 + (1.0f - coat_f0) * schlick_power(lit.coat_view.z));
+    return lit.material.coat.strength * (coat_f0 + (1.0f - coat_f0) * schlick_power(lit.coat_view.z));
 }
 
 float largest(const Rgb& c) {
@@ -25,8 +25,8 @@ float largest(const Rgb& c) {
 }
 
 Basis make_shading_basis(const SurfacePoint& point, const SurfaceMaterial& material) {
-    if (material.stretch > 0.0f) {
-        const glm::vec3 flat = material.tangent - point.normal * glm::dot(point.normal, material.tangent);
+    if (material.gloss.stretch > 0.0f) {
+        const glm::vec3 flat = material.gloss.tangent - point.normal * glm::dot(point.normal, material.gloss.tangent);
         const float length = glm::length(flat);
         if (length > 1e-6f) {
             const glm::vec3 tangent = flat / length;
@@ -46,7 +46,7 @@ LobeValue evaluate_coat(const LitSurface& lit, const glm::vec3& direction) {
     const SurfaceMaterial& material = lit.material;
     const glm::vec3 light = lit.coat_basis.to_local(direction);
     if (material.is_coat_mirror() || !(light.z > 0.0f && lit.coat_view.z > 0.0f)) return {};
-    const glm::vec2 widths(material.coat_alpha);
+    const glm::vec2 widths(material.coat.alpha);
     const glm::vec3 h = glm::normalize(lit.coat_view + light);
     const float value =
         ggx_d(widths, h) * smith_g2(widths, lit.coat_view, light) / (4.0f * lit.coat_view.z) * coat_reflectance(lit);
@@ -71,8 +71,8 @@ LobeValue evaluate_lobe(const LitSurface& lit, Lobe lobe, const glm::vec3& direc
         case Lobe::coat:
             return evaluate_coat(lit, direction);
         case Lobe::sheen:
-            return {material.sheen * (evaluate_sheen(material.sheen_alpha, lit.view, light) * light.z *
-                                      lit.sheen_scale * lit.below_coat),
+            return {material.sheen.color * (evaluate_sheen(material.sheen.alpha, lit.view, light) * light.z *
+                                            lit.sheen_scale * lit.below_coat),
                     1.0f / (2.0f * std::numbers::pi_v<float>)};
         case Lobe::glass:
             break;
@@ -104,7 +104,7 @@ std::optional<glm::vec3> sample_coat(const LitSurface& lit, const glm::vec2& u) 
     const SurfaceMaterial& material = lit.material;
     const glm::vec3 h = material.is_coat_mirror()
                             ? glm::vec3(0.0f, 0.0f, 1.0f)
-                            : sample_visible_normal(glm::vec2(material.coat_alpha), lit.coat_view, u);
+                            : sample_visible_normal(glm::vec2(material.coat.alpha), lit.coat_view, u);
     const glm::vec3 reflected = 2.0f * glm::dot(lit.coat_view, h) * h - lit.coat_view;
     if (!(reflected.z > 0.0f)) return std::nullopt;
     return lit.basis.to_local(lit.coat_basis.to_world(reflected));
@@ -128,17 +128,17 @@ LitSurface::LitSurface(const ViewedSurface& surface)
       coat_basis(basis),
       coat_view(view) {
     if (material.has_coat()) {
-        if (material.coat_normal != glm::vec3(0.0f)) {
-            coat_basis = make_basis(material.coat_normal);
+        if (material.coat.normal != glm::vec3(0.0f)) {
+            coat_basis = make_basis(material.coat.normal);
             coat_view = coat_basis.to_local(surface.view);
         }
         if (coat_view.z > 0.0f) below_coat = 1.0f - coat_reflectance(*this);
     }
     below_sheen = below_coat;
     if (material.has_sheen()) {
-        const float albedo = sheen_albedo(material.sheen_alpha, cos_view);
+        const float albedo = sheen_albedo(material.sheen.alpha, cos_view);
         sheen_scale = 1.0f / std::max(albedo, 1.0f);
-        below_sheen *= 1.0f - largest(material.sheen) * albedo * sheen_scale;
+        below_sheen *= 1.0f - largest(material.sheen.color) * albedo * sheen_scale;
     }
 }
 
@@ -154,11 +154,11 @@ LobeShares share_lobes(const LitSurface& lit, LobeSet set) {
         // A reflectance of 0 straight on is above 0 at the microfacets of a rough surface.
         constexpr float rough = 1e-3f;
         set_share(Lobe::gloss, luminance(glossy_reflectance(material, lit.cos_view)) * lit.below_sheen +
-                                   (material.is_mirror() ? 0.0f : rough * material.f90));
+                                   (material.is_mirror() ? 0.0f : rough * material.gloss.f90));
     }
     if (material.has_coat()) set_share(Lobe::coat, 1.0f - lit.below_coat);
     if (material.has_sheen()) set_share(Lobe::sheen, std::max(lit.below_coat - lit.below_sheen, 1e-4f));
-    if (material.has_glass()) set_share(Lobe::glass, material.glass * lit.below_sheen);
+    if (material.has_glass()) set_share(Lobe::glass, material.glass.share * lit.below_sheen);
     float total = 0.0f;
     for (const float share : shares) total += share;
     if (!(total > 0.0f) || !std::isfinite(total)) return {};

@@ -52,7 +52,7 @@ bool can_emit(const Material& material) {
     const auto is_on = [](const auto& track, const auto& zero) {
         return is_animated(track) || !(key_value(track, 0) == zero);
     };
-    return !material.unlit && is_on(material.emission, glm::dvec3(0.0)) && is_on(material.emission_strength, 0.0);
+    return !material.unlit && is_on(material.glow.color, glm::dvec3(0.0)) && is_on(material.glow.strength, 0.0);
 }
 
 /// @param i  of the default material: one more than the scene's last
@@ -62,11 +62,12 @@ ShadingMaterial make_material(const ShadingScene& shading, int i) {
         const MaterialValues& values = shading.pose->materials[i];
         const Material& material = shading.scene->materials[i];
         made = {values, &material, material.double_sided, values.emission != Rgb(0.0f) && !material.unlit,
-                values.clearcoat > 0.0f || values.sheen_color != Rgb(0.0f) || values.anisotropy > 0.0f};
+                values.layers.clearcoat > 0.0f || values.layers.sheen_color != Rgb(0.0f) ||
+                    values.layers.anisotropy > 0.0f};
     }
     const bool unlit = made.material != nullptr && made.material->unlit;
-    made.plain_lambert = made.values.specular == 0.0f && made.values.metallic == 0.0f &&
-                         made.values.transmission == 0.0f && !made.layered && !unlit &&
+    made.plain_lambert = made.values.gloss.specular == 0.0f && made.values.gloss.metallic == 0.0f &&
+                         made.values.glass.transmission == 0.0f && !made.layered && !unlit &&
                          !shading.textures->materials[i].maps_normals;
     return made;
 }
@@ -74,10 +75,10 @@ ShadingMaterial make_material(const ShadingScene& shading, int i) {
 /// Sets what the pose says of the whole scene's light.
 void set_surroundings(ShadingScene& shading) {
     const ScenePose& pose = *shading.pose;
-    shading.environment = pose.environment;
-    shading.environment_rotation = glm::mat3(pose.environment_rotation);
+    shading.environment.radiance = pose.environment;
+    shading.environment.rotation = glm::mat3(pose.environment_rotation);
     shading.has_thin_glass = std::ranges::any_of(pose.materials, [](const MaterialValues& values) {
-        return values.transmission > 0.0f && values.thickness == 0.0f;
+        return values.glass.transmission > 0.0f && values.glass.thickness == 0.0f;
     });
 }
 
@@ -112,7 +113,7 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
     shading.pose = &pose;
     shading.textures = &textures;
     shading.anchor = rays.anchor();
-    if (!textures.environment.empty()) shading.environment_map = &textures.environment;
+    if (!textures.environment.empty()) shading.environment.map = &textures.environment;
     set_surroundings(shading);
     std::vector<bool> can_shine;
     for (int i = 0; i < std::ssize(scene.materials); ++i) {
@@ -126,7 +127,7 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
         shading.instances.push_back(make_instance(shading, rays, i));
         const PosedInstance& instance = shading.instances.back();
         if (can_shine[instance.material]) shading.emitting.push_back(i);
-        add(shading.bounds, instance);
+        add(shading.bounds.all, instance);
     }
     return shading;
 }
@@ -137,29 +138,29 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const Ray
         shading = make_shading_scene(*shading.scene, pose, rays, *shading.textures);
         return;
     }
-    if (!shading.still_bounds) {
+    if (!shading.bounds.still) {
         SceneBounds still;
         std::vector<bool> changes(shading.instances.size());
         for (const int i : plan.instances) changes[i] = true;
         for (std::size_t i = 0; i < changes.size(); ++i) {
             if (!changes[i]) add(still, shading.instances[i]);
         }
-        shading.still_bounds = still;
+        shading.bounds.still = still;
     }
     set_surroundings(shading);
     for (const int i : plan.materials) shading.materials[i] = make_material(shading, i);
-    shading.bounds = *shading.still_bounds;
+    shading.bounds.all = *shading.bounds.still;
     for (const int i : plan.instances) {
         PosedInstance& instance = shading.instances[i];
         instance = make_instance(shading, rays, i);
-        add(shading.bounds, instance);
+        add(shading.bounds.all, instance);
     }
 }
 
 Rgb environment_radiance(const ShadingScene& shading, const glm::vec3& direction) {
-    if (shading.environment_map == nullptr) return shading.environment;
+    if (shading.environment.map == nullptr) return shading.environment.radiance;
     // Transposed: its inverse, since it is a rotation.
-    return shading.environment * look_up(*shading.environment_map, direction * shading.environment_rotation);
+    return shading.environment.radiance * look_up(*shading.environment.map, direction * shading.environment.rotation);
 }
 
 namespace {

@@ -54,6 +54,18 @@ struct SceneBounds {
     glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
 };
 
+/// Bounds of the visible instances.
+struct VisibleBounds {
+    SceneBounds all;
+    std::optional<SceneBounds> still;  ///< of those that updates do not change; set by the first update
+};
+
+struct ShadingEnvironment {
+    Rgb radiance{0.0f};                   ///< all around, or factor on `map`
+    const EnvironmentMap* map = nullptr;  ///< null: none
+    glm::mat3 rotation{1.0f};             ///< of `map`, to the world
+};
+
 struct ShadingScene {
     const Scene* scene = nullptr;
     const ScenePose* pose = nullptr;
@@ -61,21 +73,17 @@ struct ShadingScene {
     glm::dvec3 anchor{0.0};
     std::vector<PosedInstance> instances;  ///< as ScenePose::instances
     std::vector<ShadingMaterial> materials;
-    Rgb environment{0.0f};                            ///< radiance all around, or factor on environment_map
-    const EnvironmentMap* environment_map = nullptr;  ///< null: none
-    glm::mat3 environment_rotation{1.0f};             ///< of environment_map, to the world
-    bool has_thin_glass = false;                      ///< some material may pass light straight: shadows depend on it
-    std::vector<int> emitting;                        ///< instances whose material emits at some time
-    SceneBounds bounds;                               ///< of the visible instances
-    EffectSet skipped;                                ///< left out of shading
-    bool points_unshadowed = false;                   ///< nothing stands before lights without area
+    ShadingEnvironment environment;
+    bool has_thin_glass = false;  ///< some material may pass light straight: shadows depend on it
+    std::vector<int> emitting;    ///< instances whose material emits at some time
+    VisibleBounds bounds;
+    EffectSet skipped;               ///< left out of shading
+    bool points_unshadowed = false;  ///< nothing stands before lights without area
 
     /// @param pdf  LightSample::pdf
     bool needs_shadow_ray(float pdf) const {
         return pdf > 0.0f ? !skipped.contains(Effect::area_shadows) : !points_unshadowed;
     }
-
-    std::optional<SceneBounds> still_bounds;  ///< of visible instances that updates do not change; set by the first one
 };
 
 /// Keeps pointers to scene, pose and textures, which must outlive it.

@@ -72,60 +72,65 @@ glm::vec3 map_normal(const Lookup& look_up, const TextureUse& use, float scale, 
 
 void add_layers(const MaterialValues& values, const MaterialTextures& textures, const Lookup& look_up,
                 SurfaceMaterial& surface) {
-    if (values.clearcoat > 0.0f) {
-        float roughness = values.clearcoat_roughness;
-        surface.coat = values.clearcoat;
-        if (is_used(textures.clearcoat)) surface.coat *= look_up(textures.clearcoat).x;
-        if (is_used(textures.clearcoat_roughness)) roughness *= look_up(textures.clearcoat_roughness).y;
-        surface.coat_alpha = roughness * roughness;
+    if (values.layers.clearcoat > 0.0f) {
+        float roughness = values.layers.clearcoat_roughness;
+        surface.coat.strength = values.layers.clearcoat;
+        if (is_used(textures[TextureSlot::clearcoat]))
+            surface.coat.strength *= look_up(textures[TextureSlot::clearcoat]).x;
+        if (is_used(textures[TextureSlot::clearcoat_roughness]))
+            roughness *= look_up(textures[TextureSlot::clearcoat_roughness]).y;
+        surface.coat.alpha = roughness * roughness;
     }
-    if (values.sheen_color != Rgb(0.0f)) {
-        float roughness = values.sheen_roughness;
-        surface.sheen = values.sheen_color;
-        if (is_used(textures.sheen_color)) surface.sheen *= Rgb(look_up(textures.sheen_color));
-        if (is_used(textures.sheen_roughness)) roughness *= look_up(textures.sheen_roughness).w;
-        surface.sheen_alpha = std::max(min_sheen_alpha, roughness * roughness);
+    if (values.layers.sheen_color != Rgb(0.0f)) {
+        float roughness = values.layers.sheen_roughness;
+        surface.sheen.color = values.layers.sheen_color;
+        if (is_used(textures[TextureSlot::sheen_color]))
+            surface.sheen.color *= Rgb(look_up(textures[TextureSlot::sheen_color]));
+        if (is_used(textures[TextureSlot::sheen_roughness]))
+            roughness *= look_up(textures[TextureSlot::sheen_roughness]).w;
+        surface.sheen.alpha = std::max(min_sheen_alpha, roughness * roughness);
     }
-    if (values.anisotropy > 0.0f) {
-        float strength = values.anisotropy, angle = values.anisotropy_rotation;
-        if (is_used(textures.anisotropy)) {
-            const glm::vec4 texel = look_up(textures.anisotropy);
+    if (values.layers.anisotropy > 0.0f) {
+        float strength = values.layers.anisotropy, angle = values.layers.anisotropy_rotation;
+        if (is_used(textures[TextureSlot::anisotropy])) {
+            const glm::vec4 texel = look_up(textures[TextureSlot::anisotropy]);
             angle += std::atan2(2.0f * texel.y - 1.0f, 2.0f * texel.x - 1.0f);
             strength *= texel.z;
         }
         const SurfacePoint& point = look_up.point;
         const TangentFrame frame =
-            find_tangents(point, textures.anisotropy, point.front ? point.normal : -point.normal);
+            find_tangents(point, textures[TextureSlot::anisotropy], point.front ? point.normal : -point.normal);
         if (frame.tangent != glm::vec3(0.0f)) {
-            surface.stretch = strength * strength;
-            surface.tangent = frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle);
+            surface.gloss.stretch = strength * strength;
+            surface.gloss.tangent = frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle);
         }
     }
 }
 
 /// Beer-Lambert coefficients, 1/m: white becomes the colour over the distance.
 Rgb find_attenuation(const MaterialValues& values) {
-    if (!(values.attenuation_distance > 0.0f)) return Rgb(0.0f);
+    if (!(values.glass.attenuation_distance > 0.0f)) return Rgb(0.0f);
     Rgb attenuation;
     for (int c = 0; c < 3; ++c) {
-        attenuation[c] = -std::log(std::max(values.attenuation_color[c], 1e-6f)) / values.attenuation_distance;
+        attenuation[c] =
+            -std::log(std::max(values.glass.attenuation_color[c], 1e-6f)) / values.glass.attenuation_distance;
     }
     return attenuation;
 }
 
 /// Sets what glass does to rays that pass it.
 void add_refraction(const MaterialValues& values, float thickness, bool front, SurfaceMaterial& surface) {
-    surface.ior = values.ior;
-    surface.volume = thickness > 0.0f;
-    surface.ior_ratio = values.ior;
-    if (!surface.volume) return;
-    if (!front && values.ior > 0.0f) surface.ior_ratio = 1.0f / values.ior;
-    surface.attenuation = find_attenuation(values);
+    surface.glass.ior = values.gloss.ior;
+    surface.glass.volume = thickness > 0.0f;
+    surface.glass.ior_ratio = values.gloss.ior;
+    if (!surface.glass.volume) return;
+    if (!front && values.gloss.ior > 0.0f) surface.glass.ior_ratio = 1.0f / values.gloss.ior;
+    surface.glass.attenuation = find_attenuation(values);
 }
 
 void remove_gloss(SurfaceMaterial& material) {
-    material.f0 = Rgb(0.0f);
-    material.f90 = 0.0f;
+    material.gloss.f0 = Rgb(0.0f);
+    material.gloss.f90 = 0.0f;
 }
 
 /// Light that a lobe would have reflected is lost: the Lambert layer does not get it.
@@ -133,17 +138,17 @@ void remove_lobes(const EffectSet& skipped, SurfaceMaterial& material) {
     const bool glossy = skipped.contains(Effect::glossy_reflection),
                mirror = skipped.contains(Effect::mirror_reflection);
     if (material.is_mirror() ? mirror : glossy) remove_gloss(material);
-    if (material.is_coat_mirror() ? mirror : glossy) material.coat = 0.0f;
-    if (glossy) material.sheen = Rgb(0.0f);
-    if (skipped.contains(Effect::refraction)) material.glass = 0.0f;
+    if (material.is_coat_mirror() ? mirror : glossy) material.coat.strength = 0.0f;
+    if (glossy) material.sheen.color = Rgb(0.0f);
+    if (skipped.contains(Effect::refraction)) material.glass.share = 0.0f;
 }
 
 }  // namespace
 
 void remove_specular(SurfaceMaterial& material) {
     remove_gloss(material);
-    material.coat = material.glass = 0.0f;
-    material.sheen = Rgb(0.0f);
+    material.coat.strength = material.glass.share = 0.0f;
+    material.sheen.color = Rgb(0.0f);
 }
 
 glm::vec3 keep_visible(const glm::vec3& normal, const glm::vec3& fallback, const glm::vec3& geometric,
@@ -175,9 +180,9 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
     const ShadingMaterial& entry = shading.materials[point.material];
     const MaterialValues& values = entry.values;
     Rgb base = values.base_color * Rgb(point.color);
-    float metallic = values.metallic, roughness = values.roughness, specular = values.specular;
-    float transmission = values.transmission, thickness = values.thickness;
-    Rgb emission = values.emission, specular_color = values.specular_color;
+    float metallic = values.gloss.metallic, roughness = values.gloss.roughness, specular = values.gloss.specular;
+    float transmission = values.glass.transmission, thickness = values.glass.thickness;
+    Rgb emission = values.emission, specular_color = values.gloss.specular_color;
     const MaterialTextures& textures = shading.textures->materials[point.material];
     const auto finish = [&](const Lookup& look_up) {
         SurfaceMaterial surface;
@@ -185,19 +190,19 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
             surface.emission = base;
             return surface;
         }
-        const float ior_reflectance = (values.ior - 1.0f) / (values.ior + 1.0f);
+        const float ior_reflectance = (values.gloss.ior - 1.0f) / (values.gloss.ior + 1.0f);
         const Rgb dielectric_f0 = glm::min(ior_reflectance * ior_reflectance * specular_color, Rgb(1.0f)) * specular;
         const float dielectric = 1.0f - metallic, opaque = dielectric * (1.0f - transmission);
         surface.diffuse = base * opaque;
-        surface.f0 = dielectric_f0 * opaque + base * metallic;
-        surface.f90 = specular * opaque + metallic;
-        surface.f0_max = std::max({dielectric_f0.x, dielectric_f0.y, dielectric_f0.z});
-        surface.f90_max = specular * dielectric + metallic;
-        surface.alpha = roughness * roughness;
+        surface.gloss.f0 = dielectric_f0 * opaque + base * metallic;
+        surface.gloss.f90 = specular * opaque + metallic;
+        surface.gloss.f0_max = std::max({dielectric_f0.x, dielectric_f0.y, dielectric_f0.z});
+        surface.gloss.f90_max = specular * dielectric + metallic;
+        surface.gloss.alpha = roughness * roughness;
         if (transmission > 0.0f) {
-            surface.glass = dielectric * transmission;
-            surface.glass_tint = base;
-            surface.glass_specular = specular;
+            surface.glass.share = dielectric * transmission;
+            surface.glass.tint = base;
+            surface.glass.specular = specular;
             add_refraction(values, thickness, point.front, surface);
         }
         if (entry.layered) add_layers(values, textures, look_up, surface);
@@ -207,28 +212,31 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
     };
     if (!textures.any) return finish(Lookup(shading, point));
     const Lookup look_up(shading, point, footprint);
-    if (is_used(textures.base_color)) base *= Rgb(look_up(textures.base_color));
-    if (is_used(textures.metallic_roughness)) {
-        const glm::vec4 t = look_up(textures.metallic_roughness);
+    if (is_used(textures[TextureSlot::base_color])) base *= Rgb(look_up(textures[TextureSlot::base_color]));
+    if (is_used(textures[TextureSlot::metallic_roughness])) {
+        const glm::vec4 t = look_up(textures[TextureSlot::metallic_roughness]);
         roughness *= t.y;
         metallic *= t.z;
     }
-    if (entry.emits && is_used(textures.emission)) emission *= Rgb(look_up(textures.emission));
-    if (is_used(textures.specular)) specular *= look_up(textures.specular).w;
-    if (is_used(textures.specular_color)) specular_color *= Rgb(look_up(textures.specular_color));
-    if (is_used(textures.transmission)) transmission *= look_up(textures.transmission).x;
-    if (is_used(textures.thickness)) thickness *= look_up(textures.thickness).y;
+    if (entry.emits && is_used(textures[TextureSlot::emission]))
+        emission *= Rgb(look_up(textures[TextureSlot::emission]));
+    if (is_used(textures[TextureSlot::specular])) specular *= look_up(textures[TextureSlot::specular]).w;
+    if (is_used(textures[TextureSlot::specular_color]))
+        specular_color *= Rgb(look_up(textures[TextureSlot::specular_color]));
+    if (is_used(textures[TextureSlot::transmission])) transmission *= look_up(textures[TextureSlot::transmission]).x;
+    if (is_used(textures[TextureSlot::thickness])) thickness *= look_up(textures[TextureSlot::thickness]).y;
     return finish(look_up);
 }
 
 float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint) {
     const ShadingMaterial& entry = shading.materials[point.material];
-    if (entry.material == nullptr || entry.material->alpha_mode == Material::AlphaMode::opaque) return 1.0f;
+    if (entry.material == nullptr || entry.material->opacity.mode == Opacity::Mode::opaque) return 1.0f;
     const MaterialTextures& textures = shading.textures->materials[point.material];
     float alpha = entry.values.alpha * point.color.w;
-    if (textures.any && is_used(textures.base_color)) alpha *= Lookup(shading, point, footprint)(textures.base_color).w;
-    if (entry.material->alpha_mode == Material::AlphaMode::blend) return std::clamp(alpha, 0.0f, 1.0f);
-    return alpha < static_cast<float>(entry.material->alpha_cutoff) ? 0.0f : 1.0f;
+    if (textures.any && is_used(textures[TextureSlot::base_color]))
+        alpha *= Lookup(shading, point, footprint)(textures[TextureSlot::base_color]).w;
+    if (entry.material->opacity.mode == Opacity::Mode::blend) return std::clamp(alpha, 0.0f, 1.0f);
+    return alpha < static_cast<float>(entry.material->opacity.cutoff) ? 0.0f : 1.0f;
 }
 
 ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& point, const glm::vec3& view,
@@ -243,13 +251,15 @@ ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& poin
     const SurfacePoint unmapped = surface.point;
     const Lookup look_up(shading, unmapped, footprint);
     if (surface.material.has_coat()) {
-        surface.material.coat_normal = is_used(textures.clearcoat_normal)
-                                           ? map_normal(look_up, textures.clearcoat_normal,
-                                                        static_cast<float>(material->clearcoat_normal_scale), view)
-                                           : unmapped.normal;
+        surface.material.coat.normal =
+            is_used(textures[TextureSlot::clearcoat_normal])
+                ? map_normal(look_up, textures[TextureSlot::clearcoat_normal],
+                             static_cast<float>(material->textures.clearcoat_normal_scale), view)
+                : unmapped.normal;
     }
-    if (is_used(textures.normal)) {
-        surface.point.normal = map_normal(look_up, textures.normal, static_cast<float>(material->normal_scale), view);
+    if (is_used(textures[TextureSlot::normal])) {
+        surface.point.normal = map_normal(look_up, textures[TextureSlot::normal],
+                                          static_cast<float>(material->textures.normal_scale), view);
     }
     return surface;
 }

@@ -13,47 +13,68 @@
 
 namespace aleph {
 
-/// The layers, from below: Lambert and glass side by side, the glossy layer, sheen, coat.
-struct SurfaceMaterial {
-    Rgb diffuse{0.0f};  ///< albedo of the Lambert layer
-    Rgb f0{0.0f};       ///< reflectance of the glossy layer at normal incidence
-    float f90 = 0.0f;   ///< reflectance of the glossy layer at grazing incidence
+/// The glossy layer.
+struct GlossyLayer {
+    Rgb f0{0.0f};      ///< reflectance at normal incidence
+    float f90 = 0.0f;  ///< reflectance at grazing incidence
     /// Largest channel of the dielectric f0, and the reflectance at grazing incidence where it exceeds f90: light that
     /// does not reach the Lambert layer.
     float f0_max = 0.0f, f90_max = 0.0f;
-    float alpha = 1.0f;           ///< GGX width: roughness squared
-    float stretch = 0.0f;         ///< anisotropy: widens the lobe along `tangent` from alpha towards 1
-    glm::vec3 tangent{0.0f};      ///< world, unit, if stretch > 0
-    Rgb emission{0.0f};           ///< radiance that leaves the visible side
-    float glass = 0.0f;           ///< share of the surface that is a clear dielectric interface
-    Rgb glass_tint{1.0f};         ///< of the light that passes it
-    float glass_specular = 1.0f;  ///< factor on its reflectance (KHR_materials_specular)
+    float alpha = 1.0f;       ///< GGX width: roughness squared
+    float stretch = 0.0f;     ///< anisotropy: widens the lobe along `tangent` from alpha towards 1
+    glm::vec3 tangent{0.0f};  ///< world, unit, if stretch > 0
+};
+
+/// The part of the surface that is a clear dielectric interface, with the microfacets of the glossy layer.
+struct GlassLayer {
+    float share = 0.0f;     ///< of the surface
+    Rgb tint{1.0f};         ///< of the light that passes it
+    float specular = 1.0f;  ///< factor on its reflectance (KHR_materials_specular)
     float ior = 1.5f;
     bool volume = false;     ///< light that passes refracts, into what the mesh encloses; else the surface is a sheet
     float ior_ratio = 1.5f;  ///< index of refraction of the far side over that of the viewer's side
     Rgb attenuation{0.0f};   ///< of the volume, 1/m
-    Rgb sheen{0.0f};         ///< colour of the sheen layer
-    float sheen_alpha = 1.0f;
-    float coat = 0.0f;            ///< strength of the clear coat
-    float coat_alpha = 0.0f;      ///< its GGX width
-    glm::vec3 coat_normal{0.0f};  ///< world, unit; 0: as the surface's shading normal
+};
+
+struct SheenLayer {
+    Rgb color{0.0f};
+    float alpha = 1.0f;  ///< its width
+};
+
+/// The clear coat.
+struct CoatLayer {
+    float strength = 0.0f;
+    float alpha = 0.0f;      ///< GGX width
+    glm::vec3 normal{0.0f};  ///< world, unit; 0: as the surface's shading normal
+};
+
+/// The layers, from below: Lambert and glass side by side, the glossy layer, sheen, coat.
+struct SurfaceMaterial {
+    Rgb diffuse{0.0f};   ///< albedo of the Lambert layer
+    Rgb emission{0.0f};  ///< radiance that leaves the visible side
+    GlossyLayer gloss{};
+    GlassLayer glass{};
+    SheenLayer sheen{};
+    CoatLayer coat{};
 
     bool has_diffuse() const { return diffuse != Rgb(0.0f); }
-    bool has_glossy() const { return f90 > 0.0f || f0 != Rgb(0.0f); }
-    bool has_coat() const { return coat > 0.0f; }
-    bool has_sheen() const { return sheen != Rgb(0.0f); }
-    bool has_glass() const { return glass > 0.0f; }
+    bool has_glossy() const { return gloss.f90 > 0.0f || gloss.f0 != Rgb(0.0f); }
+    bool has_coat() const { return coat.strength > 0.0f; }
+    bool has_sheen() const { return sheen.color != Rgb(0.0f); }
+    bool has_glass() const { return glass.share > 0.0f; }
     /// Returns whether anything but the Lambert layer scatters light.
     bool has_specular() const { return has_glossy() || has_glass() || has_coat() || has_sheen(); }
     /// Returns whether the glossy layer is smooth to single precision, along the tangent too.
-    bool is_mirror() const { return alpha + (1.0f - alpha) * stretch < min_ggx_alpha; }
-    bool is_coat_mirror() const { return coat_alpha < min_ggx_alpha; }
+    bool is_mirror() const { return stretched_width() < min_ggx_alpha; }
+    bool is_coat_mirror() const { return coat.alpha < min_ggx_alpha; }
     /// Glass without microfacets: smooth, or between equal media, where nothing turns.
-    bool is_glass_smooth() const { return is_mirror() || ior_ratio == 1.0f; }
+    bool is_glass_smooth() const { return is_mirror() || glass.ior_ratio == 1.0f; }
     /// Returns whether light passes it without a turn: a smooth sheet.
-    bool passes_straight() const { return has_glass() && !volume && is_glass_smooth(); }
+    bool passes_straight() const { return has_glass() && !glass.volume && is_glass_smooth(); }
     /// GGX widths along the tangent and across it (KHR_materials_anisotropy), unless it is a mirror.
-    glm::vec2 widths() const { return {alpha + (1.0f - alpha) * stretch, std::max(alpha, min_ggx_alpha)}; }
+    glm::vec2 widths() const { return {stretched_width(), std::max(gloss.alpha, min_ggx_alpha)}; }
+    /// Along the tangent.
+    float stretched_width() const { return gloss.alpha + (1.0f - gloss.alpha) * gloss.stretch; }
 };
 
 /// A surface point as it is shaded.

@@ -39,11 +39,9 @@ struct TextureUse {
     glm::vec2 offset{0.0f};
 };
 
-struct MaterialTextures {
-    TextureUse base_color, metallic_roughness, emission, specular, specular_color, transmission, thickness;
-    TextureUse normal, clearcoat, clearcoat_roughness, clearcoat_normal, sheen_color, sheen_roughness, anisotropy;
+struct MaterialTextures : TextureSlots<TextureUse> {
     bool any = false;           ///< one of them is used
-    bool maps_normals = false;  ///< normal or clearcoat_normal is used
+    bool maps_normals = false;  ///< a normal map is used
 };
 
 /// All textures of a scene. Made once (make_texture_set); look-ups only read it.

@@ -163,31 +163,16 @@ TextureSet make_texture_set(const Scene& scene) {
         MaterialTextures& textures = set.materials.emplace_back();
         if (shown[m] == 0) continue;
         const Material& material = scene.materials[m];
-        const auto take = [&](TextureUse MaterialTextures::*to, const TextureRef& reference, TextureSpace space) {
-            textures.*to = use(reference, space);
-            textures.any = textures.any || (textures.*to).texture != no_index;
-        };
-        using M = MaterialTextures;
-        constexpr TextureSpace linear = TextureSpace::linear, srgb = TextureSpace::srgb;
-        take(&M::base_color, material.base_color_texture, srgb);
-        take(&M::metallic_roughness, material.metallic_roughness_texture, linear);
-        take(&M::emission, material.emission_texture, srgb);
-        take(&M::specular, material.specular_texture, linear);
-        take(&M::specular_color, material.specular_color_texture, srgb);
-        take(&M::transmission, material.transmission_texture, linear);
-        take(&M::thickness, material.thickness_texture, linear);
-        take(&M::normal, material.normal_texture, linear);
-        take(&M::clearcoat, material.clearcoat_texture, linear);
-        take(&M::clearcoat_roughness, material.clearcoat_roughness_texture, linear);
-        take(&M::clearcoat_normal, material.clearcoat_normal_texture, linear);
-        take(&M::sheen_color, material.sheen_color_texture, srgb);
-        take(&M::sheen_roughness, material.sheen_roughness_texture, linear);
-        take(&M::anisotropy, material.anisotropy_texture, linear);
-        textures.maps_normals = textures.normal.texture != no_index || textures.clearcoat_normal.texture != no_index;
+        for (const auto& [key, slot] : material_textures) {
+            textures[slot] = use(material.textures[slot], is_color(slot) ? TextureSpace::srgb : TextureSpace::linear);
+            if (textures[slot].texture == no_index) continue;
+            textures.any = true;
+            textures.maps_normals = textures.maps_normals || is_normal_map(slot);
+        }
     }
     set.materials.emplace_back();
-    if (scene.environment && scene.environment_image != no_index) {
-        set.environment = make_environment_map(scene.images[scene.environment_image]);
+    if (scene.environment.radiance && scene.environment.image != no_index) {
+        set.environment = make_environment_map(scene.images[scene.environment.image]);
     }
     parallel_for(set.textures.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

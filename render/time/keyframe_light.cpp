@@ -60,7 +60,7 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
     }
     const std::optional<FurtherBounces> further_bounces = solve_further_bounces(contexts.front(), seen, tally.counts);
     for (std::size_t v = 0; v < contexts.size(); ++v) {
-        contexts[v].multi_bounce =
+        contexts[v].bounces.further =
             make_multi_bounce_light(input.settings, further_bounces ? &*further_bounces : nullptr);
         fill_cache(cache, contexts[v], first_samples[v], tally, contexts[v].seen == nullptr ? 1 : finest_tiles);
         // Other views were cast in another pose, where mirrors may show other things.

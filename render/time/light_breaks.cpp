@@ -37,7 +37,7 @@ LightBreaks::Sources LightBreaks::look(double seconds) {
         }
     }
     if (plan_.environment) {
-        pose_environment(scene_, seconds, posed);
+        pose_environment(scene_.environment, seconds, posed);
         sources.add(posed.environment);
     }
     return sources;
@@ -81,11 +81,11 @@ const std::vector<std::int64_t>& LightBreaks::find(std::int64_t first, std::int6
 
 bool LightBreaks::changes(double open, double close) {
     constexpr int looks = 9;
-    const Sources first = look(open / scene_.frame_rate.per_second());
+    const Sources first = look(open / scene_.film.frame_rate.per_second());
     std::vector<float> largest = first.values, smallest = first.values;
     for (int i = 1; i < looks; ++i) {
         const double at = open + (close - open) * i / (looks - 1);
-        const Sources now = look(at / scene_.frame_rate.per_second());
+        const Sources now = look(at / scene_.film.frame_rate.per_second());
         if (now.there != first.there || now.values.size() != first.values.size()) return true;
         raise_to(largest, now.values);
         for (std::size_t k = 0; k < smallest.size(); ++k) smallest[k] = std::min(smallest[k], now.values[k]);

@@ -16,7 +16,7 @@ std::optional<ShutterInterval> find_shutter(const Scene& scene, const glm::dvec2
     if (relative == glm::dvec2(0.0)) return std::nullopt;
     const double now = static_cast<double>(frame);
     ShutterInterval shutter{now + relative.x, now + relative.y};
-    for (const std::int64_t cut : scene.cuts) {
+    for (const std::int64_t cut : scene.film.cuts) {
         const double at = static_cast<double>(cut);
         if (cut <= frame) {
             shutter.open = std::max(shutter.open, at);
@@ -37,7 +37,7 @@ double find_shutter_center(const Scene& scene, const glm::dvec2& shutter, std::i
     if (left && !(left->open <= now + offset && now + offset < left->close)) {
         offset = 0.5 * (left->open + left->close) - now;
     }
-    return scene.frame_rate.seconds_of(frame) + offset / scene.frame_rate.per_second();
+    return scene.film.frame_rate.seconds_of(frame) + offset / scene.film.frame_rate.per_second();
 }
 
 double place_in_shutter(const ShutterInterval& shutter, int index, int pixel_class, double shift) {

@@ -13,7 +13,7 @@ struct ShutterInterval {
     double open = 0.0, close = 0.0;
 };
 
-/// The shutter of a camera at a frame, cut off where another shot begins (Scene::cuts).
+/// The shutter of a camera at a frame, cut off where another shot begins (Film::cuts).
 /// @param shutter  of the camera: open and close, frames relative to the frame
 /// @return nothing if the shutter opens for no time at the frame itself
 std::optional<ShutterInterval> find_shutter(const Scene& scene, const glm::dvec2& shutter, std::int64_t frame);

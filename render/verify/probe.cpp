@@ -70,7 +70,7 @@ ProbeResult Prober::measure(std::size_t number) {
     ProbeResult result{.place = place_probe(number, frames_, width_, height_)};
     ProbeWindow window = find_probe_window(result.place, reference_);
     const Scene& scene = reference_.scene();
-    const ViewingSettings viewing{scene.viewing, scene.frame_rate};
+    const ViewingSettings viewing{scene.film.viewing, scene.film.frame_rate};
     const int most_samples = most_in_window / static_cast<int>(window.frames.size());
     Pairs pairs;
     for (int round = 0;; ++round) {

@@ -43,7 +43,8 @@ void mark(PicturePart& part, int x, int y, int reach) {
 PicturePart block_part(const PictureArea& block, int width, int height) {
     PicturePart part(width, height, std::uint8_t{0});
     for (int y = std::max(0, block.y - margin); y < std::min(height, block.y + block.height + margin); ++y) {
-        for (int x = std::max(0, block.x - margin); x < std::min(width, block.x + block.width + margin); ++x) part(x, y) = 1;
+        for (int x = std::max(0, block.x - margin); x < std::min(width, block.x + block.width + margin); ++x)
+            part(x, y) = 1;
     }
     return part;
 }
@@ -105,7 +106,7 @@ ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence) {
     const Scene& scene = sequence.scene();
     std::size_t own = 0;
     for (const std::int64_t frame :
-         list_window(place.frame, filter_reach(scene.frame_rate), sequence.range(), scene.cuts)) {
+         list_window(place.frame, filter_reach(scene.film.frame_rate), sequence.range(), scene.film.cuts)) {
         if (frame == place.frame) own = window.frames.size();
         window.frames.push_back({frame, read_maps(sequence.find_motion(frame)), {}, {}});
     }

@@ -102,7 +102,7 @@ std::vector<int> add_bindings(Scene& scene) {
         scene.materials.back().base_color = tints[i] * 1.6;
         // Worn leather: a weak highlight that does not hide the colour.
         add_gloss(scene, 0.5);
-        scene.materials.back().specular = 0.5;
+        scene.materials.back().gloss.specular = 0.5;
     }
     return bindings;
 }

@@ -35,7 +35,8 @@ void add_antique_window(Scene& scene, const AntiqueMaterials& materials) {
     // shoulder that is as bright as the sky.
     const int view = add_emitter(scene, "garden", glm::dvec3(1.0), 0.5);
     for (std::size_t i = 0; i < scene.images.size(); ++i)
-        if (scene.images[i].name == "garden") scene.materials.back().emission_texture.image = static_cast<int>(i);
+        if (scene.images[i].name == "garden")
+            scene.materials.back().textures[TextureSlot::emission].image = static_cast<int>(i);
     const int sky = add_emitter(scene, "daylight", {0.92, 0.96, 1.0}, 13.0);
     const int white = add_lambert(scene, "window_paint", {222, 216, 202});
     const int curtain = add_lambert(scene, "curtain", {128, 34, 40});

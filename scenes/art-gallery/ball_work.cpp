@@ -90,7 +90,7 @@ void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
         add_gloss(scene, 0.3);
         const int index = balls.add_shape(name, sphere(drops[i].radius), material, glm::dvec3(0.0));
         const auto path = simulate_drop(drops[i], gallery_seconds);
-        node_at(scene, index).translation = cubic_track(path);
+        node_at(scene, index).transform.translation = cubic_track(path);
         if (rolls) {
             const double height = drops[i].position.y - drops[i].radius;
             work.add_shape(name + "_plinth", box({0.34, height, 0.34}), materials.plinth,

@@ -80,7 +80,7 @@ void add_couch(Scene& scene, const GalleryMaterials& materials) {
     scene.materials.back().base_color = glm::dvec3(0.95, 0.5, 0.07);
     const double tile = 6.0;  // repeats of the weave per metre
     for (const int material : {cloth, pillow_cloth})
-        scene.materials[material].base_color_texture.uv_scale = glm::dvec2(tile);
+        scene.materials[material].textures[TextureSlot::base_color].uv_scale = glm::dvec2(tile);
 
     const int couch = add_node(scene, "couch", no_index, {1.2, 0.0, 3.05}, turn({0.0, 1.0, 0.0}, 180.0));
     const int base = add_cage(scene, "couch_base", make_cushion({2.0, 0.2, 0.84}, 0.03, {0.0, 0.0, 0.0}), cloth);

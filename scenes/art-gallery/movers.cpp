@@ -122,7 +122,7 @@ void add_rider(Scene& scene, int table, int i, int white, const GalleryMaterials
         times.push_back(gallery_seconds * k / 12.0);
         places.emplace_back(0.0, (k + i) % 2 == 0 ? 0.32 : 1.1, 0.8);
     }
-    node_at(scene, lift).translation = eased_track(times, places);
+    node_at(scene, lift).transform.translation = eased_track(times, places);
     Group{scene, rider}.add_rod(fmt::format("rider_rod_{}", i), {0.0, kinetic_floor, 0.8}, {0.0, kinetic_roof, 0.8},
                                 0.01, materials.steel, 12);
     Group{scene, rider}.add_shape(fmt::format("rider_socket_{}", i), make_socket(), materials.steel,
@@ -209,7 +209,7 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
             for (glm::dvec2& point : shape.profile) point = to_millionth(glm::dvec3(point * size, 0.0));
             const int paddle =
                 Group{scene, node}.add_shape(name, shape, paint, {x, y, 0.0}, turn({0.0, 0.0, 1.0}, tilt));
-            node_at(scene, paddle).scale = glm::dvec3(1.0, 1.0, 0.72);
+            node_at(scene, paddle).transform.scale = glm::dvec3(1.0, 1.0, 0.72);
         };
         add_paddle(fmt::format("mobile_paddle_{}", i), left_end, -0.07, arm.size, arm.color, 62.0 + 6.0 * i);
         if (i == 3) add_paddle("mobile_paddle_4", right_end, 0.03, 0.15, {240, 240, 236}, 70.0);

@@ -104,7 +104,7 @@ void add_knot(Scene& scene, const Group& sculptures, const GalleryMaterials& mat
     const int mesh = add_cage(scene, "knot", knot, bronze);
     const int node = add_mesh_node(scene, "knot", sculptures, mesh, place + glm::dvec3(0.0, height + 0.72, 0.0));
     AxisRotation spin{.angle = even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * 1.25)};
-    scene.nodes[node].axis_rotation = spin;
+    scene.nodes[node].transform.axis_rotation = spin;
 }
 
 }  // namespace

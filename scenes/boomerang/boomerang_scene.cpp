@@ -107,7 +107,7 @@ void add_boomerang(Scene& scene) {
         keys.push_back({to_millionth(t), velocity, place(t), velocity});
     }
     const int flight = add_node(scene, "flight");
-    scene.nodes.back().translation = cubic_track(keys);
+    scene.nodes.back().transform.translation = cubic_track(keys);
     const int bank = add_node(scene, "bank", flight);
     turn_about(
         scene, bank, {0.0, 0.0, 1.0},
@@ -133,7 +133,7 @@ void add_camera(Scene& scene) {
         return track;
     };
     const int dolly = add_node(scene, "camera_dolly");
-    scene.nodes.back().translation = hold_and_go(glm::dvec3(-0.12, 1.5, 3.2), glm::dvec3(0.1, 1.47, 3.14));
+    scene.nodes.back().transform.translation = hold_and_go(glm::dvec3(-0.12, 1.5, 3.2), glm::dvec3(0.1, 1.47, 3.14));
     const int pan = add_node(scene, "camera_pan", dolly);
     turn_about(scene, pan, {0.0, 1.0, 0.0}, in_radians(hold_and_go(1.4, -1.2)));
     add_node(scene, "camera", pan, glm::dvec3(0.0), turn({1.0, 0.0, 0.0}, -4.5));

@@ -13,7 +13,7 @@ namespace aleph {
 namespace {
 
 Material make_lambert(const std::string& name) {
-    return {.name = name, .metallic = 0.0, .specular = 0.0};
+    return {.name = name, .gloss = {.metallic = 0.0, .specular = 0.0}};
 }
 
 int add_material(Scene& scene, const Material& material) {
@@ -60,8 +60,8 @@ int add_lambert(Scene& scene, const std::string& name, const glm::dvec3& srgb) {
 int add_textured(Scene& scene, const std::string& name, const std::string& image) {
     Material material = make_lambert(name);
     for (std::size_t i = 0; i < scene.images.size(); ++i)
-        if (scene.images[i].name == image) material.base_color_texture.image = static_cast<int>(i);
-    ALEPH_CHECK(material.base_color_texture.image != no_index, image);
+        if (scene.images[i].name == image) material.textures[TextureSlot::base_color].image = static_cast<int>(i);
+    ALEPH_CHECK(material.textures[TextureSlot::base_color].image != no_index, image);
     return add_material(scene, material);
 }
 
@@ -69,14 +69,14 @@ int add_emitter(Scene& scene, const std::string& name, const glm::dvec3& color, 
     Material material = make_lambert(name);
     // Black: reflected light would be invisible beside the emission, and the cache would spend records on it.
     material.base_color = glm::dvec3(0.0);
-    material.emission = color;
-    material.emission_strength = radiance;
+    material.glow.color = color;
+    material.glow.strength = radiance;
     return add_material(scene, material);
 }
 
 void add_gloss(Scene& scene, double roughness) {
-    scene.materials.back().specular = 1.0;
-    scene.materials.back().roughness = roughness;
+    scene.materials.back().gloss.specular = 1.0;
+    scene.materials.back().gloss.roughness = roughness;
 }
 
 }  // namespace aleph

@@ -11,7 +11,8 @@ namespace aleph {
 inline int add_node(Scene& scene, const std::string& name, int parent = no_index,
                     const glm::dvec3& translation = glm::dvec3(0.0),
                     const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
-    scene.nodes.push_back({.name = name, .parent = parent, .translation = translation, .rotation = rotation});
+    scene.nodes.push_back(
+        {.name = name, .parent = parent, .transform = {.translation = translation, .rotation = rotation}});
     return static_cast<int>(scene.nodes.size()) - 1;
 }
 
@@ -21,7 +22,7 @@ inline Node& node_at(Scene& scene, int index) {
 
 /// Rotates a node about an axis. @param angle  radians
 inline void turn_about(Scene& scene, int node, const glm::dvec3& axis, const Track<double>& angle) {
-    node_at(scene, node).axis_rotation = AxisRotation{axis, angle};
+    node_at(scene, node).transform.axis_rotation = AxisRotation{axis, angle};
 }
 
 inline Shape quad(double width, double height, const glm::dvec2& uv_scale = glm::dvec2(1.0)) {

@@ -21,21 +21,21 @@ double rounded(double value, double steps_per_metre) {
 }
 
 void add_face(Cage& cage, const std::vector<int>& points, const std::vector<glm::dvec2>& uv) {
-    cage.face_sizes.push_back(static_cast<int>(points.size()));
-    for (const int point : points) cage.face_points.push_back(point);
+    cage.faces.sizes.push_back(static_cast<int>(points.size()));
+    for (const int point : points) cage.faces.points.push_back(point);
     for (const glm::dvec2& at : uv) {
         const glm::vec2 value(rounded(at.x, 1e3), rounded(at.y, 1e3));
         // Adjacent faces share texture coordinates, so that these are smooth across edges.
         const auto found = std::find(cage.uv.begin(), cage.uv.end(), value);
-        cage.face_uv.push_back(static_cast<int>(found - cage.uv.begin()));
+        cage.faces.uv.push_back(static_cast<int>(found - cage.uv.begin()));
         if (found == cage.uv.end()) cage.uv.push_back(value);
     }
 }
 
 void add_crease(Cage& cage, const std::vector<int>& chain) {
-    cage.crease_lengths.push_back(static_cast<int>(chain.size()));
-    cage.crease_points.insert(cage.crease_points.end(), chain.begin(), chain.end());
-    cage.crease_sharpness.push_back(10.0f);
+    cage.creases.lengths.push_back(static_cast<int>(chain.size()));
+    cage.creases.points.insert(cage.creases.points.end(), chain.begin(), chain.end());
+    cage.creases.sharpness.push_back(10.0f);
 }
 
 /// To the left of a direction in the plane.
@@ -70,9 +70,9 @@ int add_cage(Scene& scene, const std::string& name, const CageShape& shape, int 
     Mesh mesh;
     mesh.name = name;
     mesh.material = material;
-    mesh.cage = static_cast<int>(scene.cages.size()) - 1;
+    mesh.subdivision.cage = static_cast<int>(scene.cages.size()) - 1;
     scene.meshes.push_back(mesh);
-    tessellate_cage(scene, mesh.cage);
+    tessellate_cage(scene, mesh.subdivision.cage);
     return static_cast<int>(scene.meshes.size()) - 1;
 }
 

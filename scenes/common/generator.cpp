@@ -12,10 +12,10 @@ namespace aleph {
 Scene begin_scene(const std::string& name, int last_frame, double exposure, const std::string& folder,
                   const std::vector<DrawnTexture>& textures) {
     Scene scene;
-    scene.name = name;
-    scene.range = FrameRange{0, last_frame};
-    scene.camera = "camera";
-    scene.exposure = exposure;
+    scene.source.name = name;
+    scene.film.range = FrameRange{0, last_frame};
+    scene.film.camera = "camera";
+    scene.film.exposure = exposure;
     add_images(scene, folder, textures);
     return scene;
 }

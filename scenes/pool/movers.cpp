@@ -34,13 +34,14 @@ void add_balls(Scene& scene, const PoolSettings& settings, const PoolRun& run) {
         add_gloss(scene, 0.15);
         const int index = balls.add_shape(name, sphere(settings.radius), material, glm::dvec3(0.0));
         Node& node = scene.nodes[index];
-        node.translation.sampling.period = node.rotation.sampling.period = 1.0 / run.samples_per_second;
-        node.translation.values.clear();
-        node.rotation.values.clear();
+        node.transform.translation.sampling.period = node.transform.rotation.sampling.period =
+            1.0 / run.samples_per_second;
+        node.transform.translation.values.clear();
+        node.transform.rotation.values.clear();
         for (std::size_t k = 0; k < count; ++k) {
             const PoolBall& ball = run.samples[k < wait ? 0 : k - wait][i];
-            node.translation.values.push_back(to_millionth(ball.position));
-            node.rotation.values.push_back(to_millionth(ball.orientation));
+            node.transform.translation.values.push_back(to_millionth(ball.position));
+            node.transform.rotation.values.push_back(to_millionth(ball.orientation));
         }
     }
 }
@@ -70,9 +71,9 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
 
     Node& node = scene.nodes[cue];
     const double rate = 60.0;
-    node.translation.sampling.period = node.rotation.sampling.period = 1.0 / rate;
-    node.translation.values.clear();
-    node.rotation.values.clear();
+    node.transform.translation.sampling.period = node.transform.rotation.sampling.period = 1.0 / rate;
+    node.transform.translation.values.clear();
+    node.transform.rotation.values.clear();
     for (int i = 0; i <= static_cast<int>(last_frame / 30.0 * rate + 0.5); ++i) {
         const double t = i / rate;
         // Accelerates, hits the ball at strike_time, and follows through by 11 cm.
@@ -81,8 +82,8 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
         glm::dvec3 tip = contact + back * (swing + (through + withdrawn) * smooth(0.3, 1.1, t));
         const double sunk = smooth(0.87, 1.35, t);
         tip.y = glm::mix(tip.y, butt_radius, sunk);
-        node.translation.values.push_back(to_millionth(tip));
-        node.rotation.values.push_back(to_millionth(slerp_short(aim, level, sunk)));
+        node.transform.translation.values.push_back(to_millionth(tip));
+        node.transform.rotation.values.push_back(to_millionth(slerp_short(aim, level, sunk)));
     }
 }
 

@@ -145,10 +145,10 @@ void add_lights(Scene& scene) {
     // A tall window in the evening; its bars are a little in front of the sky.
     const int sky = add_textured(scene, "evening_sky", "sky");
     Material& shining = scene.materials.back();
-    std::swap(shining.base_color_texture, shining.emission_texture);
+    std::swap(shining.textures[TextureSlot::base_color], shining.textures[TextureSlot::emission]);
     shining.base_color = glm::dvec3(0.0);
-    shining.emission = glm::dvec3(1.0);
-    shining.emission_strength = 0.4;
+    shining.glow.color = glm::dvec3(1.0);
+    shining.glow.strength = 0.4;
     const Group window{scene, add_node(scene, "window", no_index, {-1.9, 1.75, room_low.z})};
     const double width = 1.5, height = 1.4;
     window.add_shape("window_sky", quad(width, height), sky, {0.0, 0.0, 0.01});

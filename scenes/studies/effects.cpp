@@ -157,7 +157,7 @@ struct Finding {
 Finding compare_with_bound(const Scene& scene, const RenderSettings& settings, std::int64_t frame,
                            const Picture& planned, const EffectSet& force, const EffectBound& bound, int seeds) {
     constexpr double standard_errors = 6.0;
-    const double white = scene.viewing.display_white;
+    const double white = scene.film.viewing.display_white;
     Finding finding;
     MeanDifference difference;
     difference.reserve(planned.color.size());
@@ -207,7 +207,7 @@ void try_frame(const FrameOfScene& which, const EffectsOptions& options, const S
                    bound_of_all, share);
         ++totals.violations;
     }
-    const Image<double> changed = find_differences(planned, everything, scene.viewing.display_white);
+    const Image<double> changed = find_differences(planned, everything, scene.film.viewing.display_white);
     table.add({name, "plan off", "", fmt::format("{:.2g}", bound_of_all), fmt::format("{:.2g}", largest_of(changed)),
                "", fmt::format("{:.3f}", planned.seconds), fmt::format("{:.3f}", everything.seconds),
                fmt::format("{:.3f}", planned.rays / everything.rays), ""});

@@ -33,8 +33,8 @@ struct MotionOptions {
 
 /// For every instance: does it move between the frame and the next, apart from the camera?
 std::vector<bool> find_movers(const Scene& scene, int frame) {
-    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
-    const ScenePose next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
+    const ScenePose now = pose(scene, scene.film.frame_rate.seconds_of(frame));
+    const ScenePose next = pose(scene, scene.film.frame_rate.seconds_of(frame + 1));
     std::vector<bool> moves;
     for (const Instance& instance : now.instances) {
         moves.push_back(now.world[instance.node] != next.world[instance.node]);
@@ -119,7 +119,7 @@ void time_model(const Sequence& sequence, const RenderSettings& settings, int fr
     const Scene& scene = sequence.scene();
     const int camera = find_camera(scene, "");
     const auto pose_frame = [&](int number) {
-        return make_posed_view(scene, scene.frame_rate.seconds_of(number), camera, settings.picture.width,
+        return make_posed_view(scene, scene.film.frame_rate.seconds_of(number), camera, settings.picture.width,
                                settings.picture.height);
     };
     const PosedView now = pose_frame(frame), other = pose_frame(frame + 1);

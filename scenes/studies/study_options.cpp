@@ -18,7 +18,7 @@ void add_study_program_options(CLI::App& app, StudyOptions& options) {
 
 RenderSettings scene_settings(const Scene& scene, const std::string& file, const StudyOptions& options) {
     RenderSettings settings;
-    apply_settings(settings, scene.settings, file);
+    apply_settings(settings, scene.source.settings, file);
     parse_size(options.size, "--size", settings.picture.width, settings.picture.height);
     settings = with_settings(settings, options.sets);
     validate(settings);

@@ -45,7 +45,7 @@ class Best {
 /// Data of a frame that gathers need.
 struct Frame {
     Frame(const Scene& scene, std::int64_t number, int width, int height)
-        : posed(make_posed_view(scene, scene.frame_rate.seconds_of(number), 0, width, height)),
+        : posed(make_posed_view(scene, scene.film.frame_rate.seconds_of(number), 0, width, height)),
           textures(make_texture_set(scene)),
           rays(scene),
           shading((rays.update(posed.pose, compute_anchor(posed.view)),

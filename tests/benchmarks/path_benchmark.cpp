@@ -44,8 +44,8 @@ int run(int argc, char** argv) {
         recorded = record_rays([&] { shade(1); });
     }
     const FrameStatistics paths = shade(1);
-    const PosedView posed =
-        make_posed_view(scene, scene.frame_rate.seconds_of(frame), 0, settings.picture.width, settings.picture.height);
+    const PosedView posed = make_posed_view(scene, scene.film.frame_rate.seconds_of(frame), 0, settings.picture.width,
+                                            settings.picture.height);
     RayScene rays_of_frame(scene);
     rays_of_frame.update(posed.pose, compute_anchor(posed.view));
     const RawEmbree raw(scene, posed.pose, origin_of_recorded(rays_of_frame, posed.pose));

@@ -168,7 +168,7 @@ void print_sizes(const Scene& scene, const ScenePose& posed, const Built& flat, 
         flat_triangles += flat.rays->is_flat(static_cast<int>(i)) ? count : 0;
     }
     fmt::print("{} instances with {} triangles, of which {} with {} triangles are flat\n", shown, triangles,
-               flat.meshes->flat_count, flat_triangles);
+               flat.meshes->flat.count, flat_triangles);
     fmt::print("building: flat {:.3f} s, {:.1f} MB; nodes {:.3f} s, {:.1f} MB\n", flat.seconds,
                1e-6 * static_cast<double>(flat.bytes), nodes.seconds, 1e-6 * static_cast<double>(nodes.bytes));
 }
@@ -246,7 +246,8 @@ int main(int argc, char** argv) {
         const std::int64_t frame = argc > 2 ? std::stoll(argv[2]) : frame_range(scene).first;
         int width = 640, height = 480;
         if (argc > 3) std::sscanf(argv[3], "%dx%d", &width, &height);
-        run(scene, make_posed_view(scene, scene.frame_rate.seconds_of(frame), find_camera(scene, ""), width, height));
+        run(scene,
+            make_posed_view(scene, scene.film.frame_rate.seconds_of(frame), find_camera(scene, ""), width, height));
         return 0;
     } catch (const std::exception& e) {
         fmt::print(stderr, "bench_rays: {}\n", e.what());

@@ -46,7 +46,7 @@ Scene make_boxes() {
         const glm::dvec3 at(0.6 * (i % 32) - 9.6, 0.0, 0.6 * (i / 32) - 9.6);
         add_node(scene, at, no_turn);
         scene.nodes.back().meshes = {1};
-        scene.nodes.back().translation = keyed<glm::dvec3>({0.0, 1.0}, {at, at + glm::dvec3(0.0, 0.5, 0.0)});
+        scene.nodes.back().transform.translation = keyed<glm::dvec3>({0.0, 1.0}, {at, at + glm::dvec3(0.0, 0.5, 0.0)});
     }
     return scene;
 }
@@ -55,7 +55,7 @@ Scene make_boxes() {
 Scene make_bending_sheet() {
     Scene scene = make_ground();
     const int node = add_mesh(scene, make_sheet(200), {0.0, 1.0, 0.0}, z_to_up);
-    scene.nodes[node].scale = glm::dvec3(8.0);
+    scene.nodes[node].transform.scale = glm::dvec3(8.0);
     scene.meshes.back().material = 0;
     add_cache(scene, scene.meshes.size() - 1, {0.0, 1.0}, [](const glm::vec3& p, std::size_t sample) {
         return p + glm::vec3(0.0f, 0.0f, 0.2f * static_cast<float>(sample) * p.x * p.x);
@@ -66,11 +66,11 @@ Scene make_bending_sheet() {
 void measure(const std::string& name, Scene scene, std::int64_t frame) {
     const Shot shot(std::move(scene), {}, {{.first = 0, .camera = 0}});
     FrameScene here(shot, shot.pose_plan), shutter(shot, here);
-    here.pose(shot.scene.frame_rate.seconds_of(frame), 0, width, height);
+    here.pose(shot.scene.film.frame_rate.seconds_of(frame), 0, width, height);
     here.prepare();
     const ShutterInterval interval{static_cast<double>(frame), static_cast<double>(frame) + half_a_frame};
     const auto move_to = [&](int i) {
-        const double at = place_in_shutter(interval, i, 0, 0.3) / shot.scene.frame_rate.per_second();
+        const double at = place_in_shutter(interval, i, 0, 0.3) / shot.scene.film.frame_rate.per_second();
         shutter.pose(at, 0, width, height);
         shutter.prepare();
         return shutter.sample_scene();

@@ -48,8 +48,8 @@ struct Inputs {
         const FrameRange range = frame_range(scene);
         frame_number = range.first + (range.last - range.first) / 4;
         const int camera = find_camera(scene, "");
-        now = make_posed_view(scene, scene.frame_rate.seconds_of(frame_number), camera, width, height);
-        next = make_posed_view(scene, scene.frame_rate.seconds_of(frame_number + 1), camera, width, height);
+        now = make_posed_view(scene, scene.film.frame_rate.seconds_of(frame_number), camera, width, height);
+        next = make_posed_view(scene, scene.film.frame_rate.seconds_of(frame_number + 1), camera, width, height);
         rays.update(now.pose, compute_anchor(now.view));
         other_rays.update(next.pose, compute_anchor(next.view));
         hits = cast_first_hits(rays, now.view);

@@ -36,27 +36,27 @@ Scene make_field(int objects) {
     scene.meshes.push_back(make_shape_mesh({.kind = Shape::Kind::quad, .size = {4.0, 4.0, 0.0}}));
     scene.meshes[1].material = 0;
     scene.materials.resize(1);
-    scene.materials[0].emission = glm::dvec3(5.0);
+    scene.materials[0].glow.color = glm::dvec3(5.0);
     const int columns = static_cast<int>(std::ceil(std::sqrt(objects)));
     for (int i = 0; i < objects; ++i) {
         Node node{.meshes = {i == 0 ? 1 : 0}};
         const glm::dvec3 at(2.0 * (i % columns), i == 0 ? 9.0 : 0.0, 2.0 * (i / columns));
-        node.translation = at;
+        node.transform.translation = at;
         if (i % (objects / movers) == 5) {
             Track<glm::dvec3> slide(at);
             slide.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 10.0}};
             slide.values.push_back(at + glm::dvec3(0.0, 3.0, 0.0));
-            node.translation = slide;
+            node.transform.translation = slide;
             Track<double> angle(0.0);
             angle.sampling = slide.sampling;
             angle.values.push_back(i < objects / movers ? 900.0 : 9.0);
-            node.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, angle};
+            node.transform.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, angle};
         }
         scene.nodes.push_back(node);
     }
     scene.cameras.emplace_back();
-    scene.nodes.push_back({.translation = glm::dvec3(6.0, 4.0, -6.0),
-                           .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, {std::numbers::pi}},
+    scene.nodes.push_back({.transform = {.translation = glm::dvec3(6.0, 4.0, -6.0),
+                                         .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, {std::numbers::pi}}},
                            .camera = 0});
     return scene;
 }

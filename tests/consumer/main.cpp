@@ -18,15 +18,15 @@ constexpr double step = 5.0;      // m a frame, to the right and half of it up
 /// A wall that glows evenly, slides sideways and fills the picture at all times.
 aleph::Scene make_scene() {
     aleph::Scene scene;
-    scene.name = "sliding wall";
-    scene.range = aleph::FrameRange{0, 10};
-    scene.exposure = 1.0;
+    scene.source.name = "sliding wall";
+    scene.film.range = aleph::FrameRange{0, 10};
+    scene.film.exposure = 1.0;
 
     aleph::Material glow;
     glow.name = "glow";
     glow.base_color = glm::dvec3(0.0);
-    glow.specular = 0.0;
-    glow.emission = glm::dvec3(0.25, 0.5, 0.125);
+    glow.gloss.specular = 0.0;
+    glow.glow.color = glm::dvec3(0.25, 0.5, 0.125);
     scene.materials.push_back(glow);
 
     aleph::Shape quad;
@@ -37,8 +37,8 @@ aleph::Scene make_scene() {
     aleph::Node wall;
     wall.name = "wall";
     wall.meshes = {0};
-    wall.translation.sampling = {.kind = aleph::TimeSampling::Kind::acyclic, .times = {0.0, 10.0 / 30.0}};
-    wall.translation.values = {{0.0, 0.0, -distance}, {10.0 * step, 5.0 * step, -distance}};
+    wall.transform.translation.sampling = {.kind = aleph::TimeSampling::Kind::acyclic, .times = {0.0, 10.0 / 30.0}};
+    wall.transform.translation.values = {{0.0, 0.0, -distance}, {10.0 * step, 5.0 * step, -distance}};
     scene.nodes.push_back(wall);
 
     aleph::Camera camera;
@@ -97,7 +97,7 @@ int main() {
     // One colour everywhere: all energy lies in the lowest band, .25 cycles per degree. The eye follows motion of up to
     // 80 deg/s. The elevation is the best sensitivity at the remaining speed over that at .25 (Yee 2000, 5.5 to 5.11).
     const double speed =
-        std::hypot(motion.x, motion.y) * scene.frame_rate.per_second() / scene.viewing.pixels_per_degree;
+        std::hypot(motion.x, motion.y) * scene.film.frame_rate.per_second() / scene.film.viewing.pixels_per_degree;
     const double velocity = speed - std::min(0.82 * speed + 0.15, 80.0);
     const double peak = 45.9 / (1.7 * velocity + 2.0) / (2.0 * std::numbers::pi * 0.67);
     const double elevation = contrast_sensitivity(peak, velocity) / std::max(contrast_sensitivity(0.25, velocity), 1.0);

@@ -8,7 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto path = aleph::write_fuzz_file("input.abc", data, size);
     aleph::Scene scene;
-    scene.includes.push_back({path.filename().string(), aleph::no_index});
+    scene.source.includes.push_back({path.filename().string(), aleph::no_index});
     try {
         aleph::append_alembic(path, scene, aleph::no_index, 0);
         aleph::pose(scene, 0.3);

@@ -69,15 +69,15 @@ void reverse(OperationStack&) {
 
 void scale_lengths(Scene& scene, double factor) {
     for (Node& node : scene.nodes) {
-        multiply(node.translation, factor);
-        if (node.matrix)
-            for (glm::dmat4& matrix : node.matrix->values) scale_column(matrix, factor);
-        if (node.operations) scale_stack(*node.operations, factor);
+        multiply(node.transform.translation, factor);
+        if (node.transform.matrix)
+            for (glm::dmat4& matrix : node.transform.matrix->values) scale_column(matrix, factor);
+        if (node.transform.operations) scale_stack(*node.transform.operations, factor);
     }
     for (Mesh& mesh : scene.meshes) {
         mesh.shape.reset();
         scale_points(mesh.positions, factor);
-        for (MorphTarget& target : mesh.targets) scale_points(target.positions, factor);
+        for (MorphTarget& target : mesh.deformation.targets) scale_points(target.positions, factor);
     }
     for (PointCache& cache : scene.point_caches) {
         for (auto& sample : cache.positions) scale_points(sample, factor);
@@ -86,8 +86,8 @@ void scale_lengths(Scene& scene, double factor) {
     for (Skin& skin : scene.skins)
         for (glm::dmat4& bind : skin.inverse_binds) scale_column(bind, factor);
     for (Material& material : scene.materials) {
-        multiply(material.thickness, factor);
-        multiply(material.attenuation_distance, factor);
+        multiply(material.glass.thickness, factor);
+        multiply(material.glass.attenuation_distance, factor);
     }
     for (Light& light : scene.lights) {
         if (light.kind != Light::Kind::directional) multiply(light.intensity, factor * factor);
@@ -102,14 +102,14 @@ void scale_lengths(Scene& scene, double factor) {
 }
 
 void scale_light(Scene& scene, double factor) {
-    for (Material& material : scene.materials) multiply(material.emission_strength, factor);
+    for (Material& material : scene.materials) multiply(material.glow.strength, factor);
     for (Light& light : scene.lights) multiply(light.intensity, factor);
-    if (scene.environment) multiply(*scene.environment, factor);
-    *scene.exposure /= factor;
+    if (scene.environment.radiance) multiply(*scene.environment.radiance, factor);
+    *scene.film.exposure /= factor;
 }
 
 void delay(Scene& scene, std::int64_t frames) {
-    const double seconds = static_cast<double>(frames) / scene.frame_rate.per_second();
+    const double seconds = static_cast<double>(frames) / scene.film.frame_rate.per_second();
     const auto later = [&](const auto& seen) {  // visit.h gives what is not to be changed
         delay(const_cast<TimeSampling&>(seen.sampling), seconds);
     };
@@ -117,15 +117,15 @@ void delay(Scene& scene, std::int64_t frames) {
     for (const Material& material : scene.materials) visit_tracks(material, later);
     for (const Light& light : scene.lights) visit_tracks(light, later);
     for (const Camera& camera : scene.cameras) visit_tracks(camera, later);
-    visit_environment(scene, later);
+    visit_tracks(scene.environment, later);
     for (Mesh& mesh : scene.meshes) {
         visit_tracks(mesh, later);
-        delay(mesh.normal_sampling, seconds);
+        delay(mesh.deformation.normal_sampling, seconds);
     }
     for (PointCache& cache : scene.point_caches) delay(cache.sampling, seconds);
-    for (std::int64_t& cut : scene.cuts) cut += frames;
-    for (CameraKey& key : scene.camera_keys) key.frame += frames;
-    if (scene.range) *scene.range = {scene.range->first + frames, scene.range->last + frames};
+    for (std::int64_t& cut : scene.film.cuts) cut += frames;
+    for (CameraKey& key : scene.film.camera_keys) key.frame += frames;
+    if (scene.film.range) *scene.film.range = {scene.film.range->first + frames, scene.film.range->last + frames};
 }
 
 void reverse_time(Scene& scene) {
@@ -143,10 +143,10 @@ void place_below(Scene& scene, const glm::dvec3& translation, const glm::dquat& 
     for (Node& node : scene.nodes) ++node.parent;
     for (Skin& skin : scene.skins)
         for (int& joint : skin.joints) ++joint;
-    for (Include& include : scene.includes) ++include.node;
-    Node root{.name = "above everything", .translation = translation, .rotation = rotation};
+    for (Include& include : scene.source.includes) ++include.node;
+    Node root{.name = "above everything", .transform = {.translation = translation, .rotation = rotation}};
     scene.nodes.insert(scene.nodes.begin(), root);
-    for (glm::dquat& value : scene.environment_rotation.values) value = rotation * value;
+    for (glm::dquat& value : scene.environment.rotation.values) value = rotation * value;
 }
 
 std::vector<int> reverse_nodes(Scene& scene) {
@@ -167,7 +167,7 @@ std::vector<int> reverse_nodes(Scene& scene) {
     scene.nodes = std::move(nodes);
     for (Skin& skin : scene.skins)
         for (int& joint : skin.joints) joint = place[joint];
-    for (Include& include : scene.includes) include.node = place[include.node];
+    for (Include& include : scene.source.includes) include.node = place[include.node];
     return place;
 }
 
@@ -181,12 +181,12 @@ void rename_everything(Scene& scene) {
     for (auto& image : scene.images) renamed(image.name);
     for (auto& light : scene.lights) renamed(light.name);
     for (auto& camera : scene.cameras) renamed(camera.name);
-    renamed(scene.camera);
-    for (auto& key : scene.camera_keys) renamed(key.camera);
+    renamed(scene.film.camera);
+    for (auto& key : scene.film.camera_keys) renamed(key.camera);
 }
 
 void add_unused(Scene& scene) {
-    scene.materials.emplace_back().emission = glm::dvec3(7.0);
+    scene.materials.emplace_back().glow.color = glm::dvec3(7.0);
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.triangles = {{0, 1, 2}};
@@ -202,8 +202,8 @@ void split_meshes(Scene& scene) {
     std::unordered_map<int, int> halves;
     for (std::size_t i = 0; i < count; ++i) {
         Mesh& mesh = scene.meshes[i];
-        if (mesh.triangles.size() < 2 || mesh.points != no_index || !mesh.targets.empty() || mesh.skin != no_index ||
-            mesh.cage != no_index)
+        if (mesh.triangles.size() < 2 || mesh.deformation.points != no_index || !mesh.deformation.targets.empty() ||
+            mesh.deformation.skin != no_index || mesh.subdivision.cage != no_index)
             continue;
         mesh.shape.reset();
         Mesh half = mesh;

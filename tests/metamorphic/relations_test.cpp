@@ -29,8 +29,9 @@ const std::vector<Authored>& authored_scenes() {
             for (const auto& entry : std::filesystem::directory_iterator(source_folder() / "scenes" / folder)) {
                 if (entry.path().extension() != ".json") continue;
                 Authored one{entry.path().stem(), load_scene(entry.path()), 0};
-                if (one.scene.range) one.frame = (one.scene.range->first + one.scene.range->last + 1) / 2;
-                if (!one.scene.exposure) one.scene.exposure = 1.0;
+                if (one.scene.film.range)
+                    one.frame = (one.scene.film.range->first + one.scene.film.range->last + 1) / 2;
+                if (!one.scene.film.exposure) one.scene.film.exposure = 1.0;
                 all.push_back(std::move(one));
             }
         }
@@ -81,7 +82,8 @@ Difference compare(const FrameOutput& a, const FrameOutput& b, double lengths) {
         const bool misses = a.hits.pixels[i].instance == no_index;
         EXPECT_EQ(misses, b.hits.pixels[i].instance == no_index) << i;
         if (!misses)
-            most.depth = std::max(most.depth, std::abs(b.depth.pixels[i] / (a.depth.pixels[i] * lengths) - 1.0));
+            most.depth =
+                std::max(most.depth, std::abs(b.surface.depth.pixels[i] / (a.surface.depth.pixels[i] * lengths) - 1.0));
         const glm::dvec2 motion = a.motion.displacement.pixels[i] - b.motion.displacement.pixels[i];
         most.motion = std::max(most.motion, glm::length(motion));
         const double x = luminance(a.shaded.color.pixels[i]), y = luminance(b.shaded.color.pixels[i]);
@@ -191,14 +193,15 @@ TEST(Relations, TimeReversed) {
         Scene scene = authored.scene;
         const bool steps = std::ranges::any_of(scene.nodes, [](const Node& n) { return is_animated(n.visible); }) ||
                            std::ranges::any_of(scene.meshes, [](const Mesh& m) { return is_animated(m.present); });
-        if (steps || !scene.camera_keys.empty() || !scene.cuts.empty() || scene.range->first == scene.range->last)
+        if (steps || !scene.film.camera_keys.empty() || !scene.film.cuts.empty() ||
+            scene.film.range->first == scene.film.range->last)
             continue;
         ++scenes;
-        scene.range->last = std::max(authored.frame, scene.range->first + 1);
-        const std::int64_t frame = scene.range->last;
+        scene.film.range->last = std::max(authored.frame, scene.film.range->first + 1);
+        const std::int64_t frame = scene.film.range->last;
         const FrameOutput forward = render(scene, frame);
         reverse_time(scene);
-        scene.range = FrameRange{-frame, -scene.range->first};
+        scene.film.range = FrameRange{-frame, -scene.film.range->first};
         const FrameOutput backward = render(scene, -frame);
         for (std::size_t i = 0; i < forward.hits.size(); ++i) {
             const MotionField &a = forward.motion, &b = backward.motion;

@@ -7,7 +7,7 @@ namespace aleph {
 namespace {
 
 SeenMotion compute_motion(const Scene& scene) {
-    return {scene, 0.0, scene.frame_rate.seconds_of(1), 160, 120};
+    return {scene, 0.0, scene.film.frame_rate.seconds_of(1), 160, 120};
 }
 
 /// (s, t) of a hit on the one face that is drawn: two triangles per cell, cells row by row.
@@ -29,7 +29,7 @@ TEST(CageMotion, IsTheLimitSurfacesAtEveryLevel) {
     }
     for (int level = 0; level <= 6; ++level) {
         Scene scene = make_cage_scene(test, {test.points, later}, level);
-        scene.nodes[1].translation = glm::dvec3(1.5, 1.6, 1.9);
+        scene.nodes[1].transform.translation = glm::dvec3(1.5, 1.6, 1.9);
         const SeenMotion moved = compute_motion(scene);
         const auto from = round_to_float(test.points), to = round_to_float(later);
         int hits = 0;
@@ -60,9 +60,9 @@ TEST(CageMotion, FollowsAnAffineMapOfAnIrregularCage) {
     std::vector<glm::dvec3> later;
     for (const glm::dvec3& p : test.points) later.push_back(map * p + shift);
     Scene scene = make_cage_scene(test, {test.points, later}, 4);
-    scene.nodes[1].translation = glm::dvec3(0.1, 0.2, 5.0);
+    scene.nodes[1].transform.translation = glm::dvec3(0.1, 0.2, 5.0);
     const SeenMotion moved = compute_motion(scene);
-    const LimitSurface& surface = *scene.meshes[0].limit.surface;
+    const LimitSurface& surface = *scene.meshes[0].subdivision.limit.surface;
     const auto control = surface.make_control_points(round_to_float(test.points));
     double worst = 0.0;
     int hits = 0;
@@ -89,7 +89,7 @@ TEST(CageMotion, RP16_StaticSurfacesDoNotMoveAtAnyLevel) {
         std::vector<glm::dvec3> later = test.points;
         later[0] *= 1.5;
         Scene scene = make_cage_scene(test, {test.points, test.points, later}, level);
-        scene.nodes[1].translation = glm::dvec3(0.3, 0.2, 4.0);
+        scene.nodes[1].transform.translation = glm::dvec3(0.3, 0.2, 4.0);
         const SeenMotion moved = compute_motion(scene);
         int hits = 0;
         for (std::size_t i = 0; i < moved.hits.size(); ++i) {
@@ -110,7 +110,7 @@ TEST(CageMotion, RP16_PartsThatDoNotMoveDoNotMove) {
         if (i % 12 >= 9) later[i].z += 1.0;
     }
     Scene scene = make_cage_scene(test, {test.points, later}, 3);
-    scene.nodes[1].translation = glm::dvec3(5.5, 1.5, 12.0);
+    scene.nodes[1].transform.translation = glm::dvec3(5.5, 1.5, 12.0);
     const SeenMotion moved = compute_motion(scene);
     int still = 0, moving = 0;
     for (std::size_t i = 0; i < moved.hits.size(); ++i) {

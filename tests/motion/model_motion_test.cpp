@@ -25,7 +25,7 @@ void PrintTo(const Moving& moving, std::ostream* out) {
 }
 
 Node with_spin(Node node, const glm::dvec3& axis, double from_degrees, double degrees_per_frame) {
-    node.axis_rotation = AxisRotation{
+    node.transform.axis_rotation = AxisRotation{
         glm::normalize(axis), ramp(from_degrees * degrees, (from_degrees + 30.0 * degrees_per_frame) * degrees)};
     return node;
 }
@@ -37,7 +37,7 @@ int add_object(Scene& scene, Node node) {
 
 int translating(Scene& scene, int root) {
     Node node = child_of(root, {});
-    node.translation = ramp(glm::dvec3(-1.0, 0.3, -8.0), glm::dvec3(5.0, -2.0, -11.0));
+    node.transform.translation = ramp(glm::dvec3(-1.0, 0.3, -8.0), glm::dvec3(5.0, -2.0, -11.0));
     add_object(scene, node);
     return add_camera(scene, root);
 }
@@ -49,8 +49,8 @@ int spinning(Scene& scene, int root) {
 
 int turning_by_quaternions(Scene& scene, int root) {
     Node node = child_of(root, {0.4, -0.3, -7.0});
-    node.rotation = ramp(glm::normalize(glm::dquat(0.9, 0.1, -0.4, 0.2)),
-                         glm::normalize(glm::dquat(-0.2, 0.7, 0.6, -0.3)), 0.0, 0.9);
+    node.transform.rotation = ramp(glm::normalize(glm::dquat(0.9, 0.1, -0.4, 0.2)),
+                                   glm::normalize(glm::dquat(-0.2, 0.7, 0.6, -0.3)), 0.0, 0.9);
     add_object(scene, node);
     return add_camera(scene, root);
 }
@@ -62,9 +62,10 @@ int deep(Scene& scene, int root) {
         Node node = with_spin(child_of(parent, {0.2 - 0.05 * level, 0.1, 0.07 * level}),
                               {0.3, 1.0 - 0.2 * level, 0.1 * level}, 10.0 * level, 4.0 - level);
         const double mirror = level % 3 == 1 ? -1.0 : 1.0;
-        node.scale = ramp(glm::dvec3(1.1 * mirror, 0.8, 1.3), glm::dvec3(0.9 * mirror, 1.2, 1.0));
+        node.transform.scale = ramp(glm::dvec3(1.1 * mirror, 0.8, 1.3), glm::dvec3(0.9 * mirror, 1.2, 1.0));
         if (level == 4) {
-            node.matrix = glm::dmat4(1.1, 0.2, 0.0, 0.0, -0.3, -0.9, 0.1, 0.0, 0.0, 0.4, 1.0, 0.0, 0.1, 0.2, -0.3, 1.0);
+            node.transform.matrix =
+                glm::dmat4(1.1, 0.2, 0.0, 0.0, -0.3, -0.9, 0.1, 0.0, 0.0, 0.4, 1.0, 0.0, 0.1, 0.2, -0.3, 1.0);
         }
         if (level % 3 == 2) node.meshes = {add_triangle_soup(scene, 50, 0.8f)};
         parent = add_node(scene, std::move(node));
@@ -83,7 +84,7 @@ int panning(Scene& scene, int root) {
     return camera_in_place(scene, root, with_spin(child_of(root, {0.1, 0.2, 1.0}), {0.1, 1.0, 0.0}, -1.0, 2.0));
 }
 int dollying(Scene& scene, int root) {
-    Node mount{.translation = ramp(glm::dvec3(0.0, 0.5, 2.0), glm::dvec3(8.0, -3.0, -7.0))};
+    Node mount{.transform = {.translation = ramp(glm::dvec3(0.0, 0.5, 2.0), glm::dvec3(8.0, -3.0, -7.0))}};
     return camera_in_place(scene, root, mount);
 }
 int rolling(Scene& scene, int root) {
@@ -108,7 +109,7 @@ int everything(Scene& scene, int root) {
     scene.cameras.clear();
     for (Node& node : scene.nodes) node.camera = no_index;
     Node crane = with_spin(child_of(root, {0.0, 0.5, 2.0}), {0.0, 1.0, 0.2}, 0.0, 1.5);
-    crane.scale = glm::dvec3(2.0);
+    crane.transform.scale = glm::dvec3(2.0);
     Node head = with_spin(child_of(add_node(scene, crane), {0.1, 0.0, 0.2}), {0.2, 0.1, 1.0}, 0.0, -3.0);
     return add_camera(scene, add_node(scene, head));
 }
@@ -127,7 +128,8 @@ class MotionTruth : public testing::TestWithParam<std::tuple<Moving, double>> {
 
 TEST_P(MotionTruth, ErrorBelowMillionthOfAPixel) {
     for (const int frame : {0, 1, 7, 23}) {
-        const double now = scene_.frame_rate.seconds_of(frame), other = scene_.frame_rate.seconds_of(frame + 1);
+        const double now = scene_.film.frame_rate.seconds_of(frame),
+                     other = scene_.film.frame_rate.seconds_of(frame + 1);
         const TwoViews views(scene_, now, other, width, height);
         const Image<Hit> hits = make_random_hits(scene_, views.now.pose, width, height);
         const MotionField field = compute_model_motion(scene_, views.now, views.other, hits);
@@ -198,7 +200,7 @@ TEST(ModelMotion, StaticObjectsBesideMovingOnesAreExactlyStill) {
     Scene scene;
     const int root = add_node(scene, child_of(no_index, {0.3, -0.1, 0.7}));
     Node still = with_spin(child_of(root, {0.3, 0.2, -7.0}), {0.3, 0.5, 1.0}, 33.0, 0.0);
-    still.scale = glm::dvec3(1.1, -0.7, 0.3);
+    still.transform.scale = glm::dvec3(1.1, -0.7, 0.3);
     add_object(scene, still);
     translating(scene, root);
     const TwoViews views(scene, 0.1, 0.4, width, height);

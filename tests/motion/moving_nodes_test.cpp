@@ -16,7 +16,7 @@ namespace {
 constexpr int picture_width = 96, picture_height = 72;
 
 Node spinning(Node node, double degrees_per_second) {
-    node.axis_rotation = AxisRotation{{0.0, 0.6, 0.8}, ramp(0.1, 0.1 + degrees_per_second * degrees)};
+    node.transform.axis_rotation = AxisRotation{{0.0, 0.6, 0.8}, ramp(0.1, 0.1 + degrees_per_second * degrees)};
     return node;
 }
 
@@ -109,7 +109,7 @@ TEST(StillMotion, SurfacesBeforeTheNearPlaneAreBehindTheCamera) {
             add_camera(scene);
             scene.cameras[0].orthographic = orthographic;
             scene.cameras[0].near_plane = 2.0;
-            scene.nodes[0].axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.7};
+            scene.nodes[0].transform.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.7};
             const TwoViews views(scene, 0.0, 0.0, 32, 24);
             const CameraView& view = views.now.view;
             Image<Hit> hits(32, 24);

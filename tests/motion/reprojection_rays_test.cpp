@@ -21,12 +21,12 @@ RayScene trace(const Scene& scene, const ScenePose& frame, const CameraView& vie
 TEST(ReprojectionRays, RP01_StaticSceneMovesByExactlyZero) {
     for (const double tilt : {45.0, 10.0, 1.0, 0.1}) {
         Scene scene;
-        Node plane{.translation = glm::dvec3(0.0, -1.0, -3.0),
-                   .axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, (tilt - 90.0) * degrees},
+        Node plane{.transform = {.translation = glm::dvec3(0.0, -1.0, -3.0),
+                                 .axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, (tilt - 90.0) * degrees}},
                    .meshes = {add_grid(scene, 1000.0f, 1000.0f, 8)}};
         add_node(scene, plane);
-        Node mount{.translation = glm::dvec3(0.1, 0.7, -0.3),
-                   .axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.03}};
+        Node mount{.transform = {.translation = glm::dvec3(0.1, 0.7, -0.3),
+                                 .axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.03}}};
         add_camera(scene, add_node(scene, mount));
         const TwoViews views(scene, 0.0, 1.0 / 30.0, 320, 240);
         const RayScene rays = trace(scene, views.now.pose, views.now.view);
@@ -89,8 +89,9 @@ TEST(ReprojectionRays, RP18_HitsOnSubPixelTrianglesLieAtTheirPixel) {
         Node node;
         node.meshes = {add_grid(scene, static_cast<float>(0.04 * metres_per_pixel),
                                 static_cast<float>(0.04 * metres_per_pixel / std::cos(tilt * degrees)), 40)};
-        node.translation = glm::dvec3((70.5 - 50.0) * metres_per_pixel, (50.0 - 40.5) * metres_per_pixel, -5.0);
-        node.axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, -tilt * degrees};
+        node.transform.translation =
+            glm::dvec3((70.5 - 50.0) * metres_per_pixel, (50.0 - 40.5) * metres_per_pixel, -5.0);
+        node.transform.axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, -tilt * degrees};
         add_node(scene, node);
         add_camera(scene, no_index, fov_of(1000.0, 100));
         const TwoViews views(scene, 0.0, 1.0, 100, 100);
@@ -174,13 +175,16 @@ struct Hidden {
 /// A card passes before a wall while the camera stands still.
 Scene make_card(bool orthographic, double distance_from_origin) {
     Scene scene;
-    Node root{.translation = glm::dvec3(distance_from_origin, -distance_from_origin, distance_from_origin),
-              .axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, -2.0, 0.5)), 0.8}};
+    Node root{
+        .transform = {.translation = glm::dvec3(distance_from_origin, -distance_from_origin, distance_from_origin),
+                      .axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, -2.0, 0.5)), 0.8}}};
     add_node(scene, root);
-    Node wall{.parent = 0, .translation = glm::dvec3(0.0, 0.0, -10.0), .meshes = {add_grid(scene, 30.0f, 30.0f, 3)}};
+    Node wall{.parent = 0,
+              .transform = {.translation = glm::dvec3(0.0, 0.0, -10.0)},
+              .meshes = {add_grid(scene, 30.0f, 30.0f, 3)}};
     add_node(scene, wall);
     Node card{.parent = 0,
-              .translation = ramp(glm::dvec3(-0.9, 0.1, -5.0), glm::dvec3(0.7, -0.2, -5.0)),
+              .transform = {.translation = ramp(glm::dvec3(-0.9, 0.1, -5.0), glm::dvec3(0.7, -0.2, -5.0))},
               .meshes = {add_grid(scene, 1.03f, 1.51f)}};
     add_node(scene, card);
     add_camera(scene, 0);
@@ -232,8 +236,8 @@ TEST(ReprojectionRays, ASpinningBallHidesWhatTurnsAway) {
         }
     }
     scene.meshes = {ball};
-    Node node{.translation = ramp(glm::dvec3(-0.3, 0.0, -6.0), glm::dvec3(0.3, 0.2, -6.0)),
-              .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 40.0 * degrees)},
+    Node node{.transform = {.translation = ramp(glm::dvec3(-0.3, 0.0, -6.0), glm::dvec3(0.3, 0.2, -6.0)),
+                            .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 40.0 * degrees)}},
               .meshes = {0}};
     add_node(scene, node);
     add_camera(scene);

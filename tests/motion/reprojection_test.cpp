@@ -11,8 +11,8 @@ namespace {
 /// An object that rotates about the camera together with it: its motion must be almost 0.
 TEST(Reprojection, RP01_RidingAlongIsStillWithinRounding) {
     Scene scene;
-    Node cart{.translation = ramp(glm::dvec3(0.0), glm::dvec3(300.0, 5.0, 90.0)),
-              .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 90.0)}};
+    Node cart{.transform = {.translation = ramp(glm::dvec3(0.0), glm::dvec3(300.0, 5.0, 90.0)),
+                            .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 90.0)}}};
     const int root = add_node(scene, cart);
     Node node{.parent = root, .meshes = {add_point(scene, {0.3f, 0.2f, -5.0f})}};
     add_node(scene, node);
@@ -30,8 +30,8 @@ TEST(Reprojection, RP02_TinyMotion) {
             Scene scene = make_point_scene({0.5f, -0.25f, -5.0f});
             // The far keys are rounded to doubles: the rounded values are the truth.
             const double from = distance, to = distance + metres;
-            scene.nodes[0].translation = ramp(glm::dvec3(from, 0.0, 0.0), glm::dvec3(to, 0.0, 0.0));
-            scene.nodes[1].translation = glm::dvec3(distance, 0.0, 0.0);
+            scene.nodes[0].transform.translation = ramp(glm::dvec3(from, 0.0, 0.0), glm::dvec3(to, 0.0, 0.0));
+            scene.nodes[1].transform.translation = glm::dvec3(distance, 0.0, 0.0);
             const double expected = 200.0 * (to - from);
             ASSERT_NEAR(expected, pixels, distance < 1e6 ? 1e-2 * pixels : 3e-8);
             const PointMotion motion = motion_of_point(scene);
@@ -46,8 +46,8 @@ TEST(Reprojection, RP02_TinyMotion) {
 /// dead zone of the motion channel.
 TEST(Reprojection, RP03_RoundingStaysFarBelowTheDeadZone) {
     Scene scene;
-    Node node{.translation = glm::dvec3(0.0, 0.0, -10.0),
-              .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 200.0 * std::numbers::pi)},
+    Node node{.transform = {.translation = glm::dvec3(0.0, 0.0, -10.0),
+                            .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 200.0 * std::numbers::pi)}},
               .meshes = {add_triangle_soup(scene, 100, 1.0f)}};
     add_node(scene, node);
     add_camera(scene);
@@ -65,7 +65,7 @@ TEST(Reprojection, RP03_RoundingStaysFarBelowTheDeadZone) {
 
 TEST(Reprojection, RP04_BehindTheNextCamera) {
     Scene scene = make_point_scene({0.3f, -0.3f, -1.0f});
-    scene.nodes[1].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -2.0));
+    scene.nodes[1].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -2.0));
     const PointMotion motion = motion_of_point(scene);
     EXPECT_EQ(motion.validity, MotionValidity::behind_camera);
     EXPECT_EQ(motion.displacement, glm::dvec2(0.0));
@@ -77,7 +77,7 @@ TEST(Reprojection, RP05_OnAndNearTheCameraPlane) {
         for (const double remaining : {0.0, 1e-300, 1e-6, 0.99e-4, 1e-4}) {  // m; the near plane is at 1e-4
             Scene scene = make_point_scene(point);
             // The point moves towards the camera: the rest is exact.
-            scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - remaining));
+            scene.nodes[0].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - remaining));
             const double depth = 1.0 - (1.0 - remaining);
             const PointMotion motion = motion_of_point(scene);
             if (depth <= 1e-4) {
@@ -91,7 +91,7 @@ TEST(Reprojection, RP05_OnAndNearTheCameraPlane) {
     }
     // Just beyond the near plane the displacement is 3000 times the image: capped at its diagonal, direction kept.
     Scene scene = make_point_scene({0.3f, -0.3f, -1.0f});
-    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - 1.1e-4));
+    scene.nodes[0].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - 1.1e-4));
     const PointMotion motion = motion_of_point(scene);
     EXPECT_EQ(motion.validity, MotionValidity::leaves_screen);
     EXPECT_NEAR(motion.displacement.x, 1000.0, 1e-9);  // diagonal 1000 sqrt 2
@@ -104,19 +104,19 @@ TEST(Reprojection, RP05_NoNearPlane) {
     for (const double near_plane : {0.0, 1e-300, -1.0}) {
         Scene scene = make_point_scene({3.0e30f, -4.0e30f, -1.0f});
         scene.cameras[0].near_plane = near_plane;
-        scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - 1e-9));
+        scene.nodes[0].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - 1e-9));
         const PointMotion motion = motion_of_point(scene);
         EXPECT_NEAR(motion.displacement.x, 0.6 * 1000.0 * std::sqrt(2.0), 1e-3) << near_plane;
         EXPECT_NEAR(motion.displacement.y, 0.8 * 1000.0 * std::sqrt(2.0), 1e-3) << near_plane;
-        scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
+        scene.nodes[0].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
         EXPECT_EQ(motion_of_point(scene).validity, MotionValidity::behind_camera) << near_plane;
     }
 }
 
 TEST(Reprojection, RP05_LengthsWhoseSquareOverflows) {
     Scene scene = make_point_scene({3.0f, -4.0f, -2.0f});
-    scene.nodes[0].scale = glm::dvec3(1e200, 1e200, 1.0);
-    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
+    scene.nodes[0].transform.scale = glm::dvec3(1e200, 1e200, 1.0);
+    scene.nodes[0].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
     const PointMotion motion = motion_of_point(scene);
     EXPECT_NEAR(motion.displacement.x, 0.6 * 1000.0 * std::sqrt(2.0), 1e-9);
     EXPECT_NEAR(motion.displacement.y, 0.8 * 1000.0 * std::sqrt(2.0), 1e-9);
@@ -125,7 +125,7 @@ TEST(Reprojection, RP05_LengthsWhoseSquareOverflows) {
 TEST(Reprojection, RP06_ApproachingSurface) {
     // x = .075 at z = -2 and at z = -.1: f x (1/.1 - 1/2) = 712.5 px, kept although it leaves the screen.
     Scene scene = make_point_scene({0.075f, 0.0f, -2.0f});
-    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.9));
+    scene.nodes[0].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.9));
     const PointMotion motion = motion_of_point(scene);
     EXPECT_NEAR(motion.displacement.x, 712.5, 1e-4);
     EXPECT_EQ(motion.validity, MotionValidity::leaves_screen);
@@ -147,7 +147,8 @@ Scene make_empty_scene() {
 TEST(Reprojection, RP09_BackgroundFollowsRotationAlone) {
     Scene scene = make_empty_scene();
     for (const double from : {0.0, 30.0}) {
-        scene.nodes[0].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(from * degrees, (from + 1.0) * degrees)};
+        scene.nodes[0].transform.axis_rotation =
+            AxisRotation{{0.0, 1.0, 0.0}, ramp(from * degrees, (from + 1.0) * degrees)};
         const MotionField panned = background_motion(scene);
         for (const int x : {0, 57, 100, 199}) {
             for (const int y : {3, 50}) {
@@ -161,14 +162,14 @@ TEST(Reprojection, RP09_BackgroundFollowsRotationAlone) {
             }
         }
     }
-    scene.nodes[0].axis_rotation.reset();
-    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(1.0, -2.0, 3.0));
+    scene.nodes[0].transform.axis_rotation.reset();
+    scene.nodes[0].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(1.0, -2.0, 3.0));
     for (const glm::dvec2& d : background_motion(scene).displacement.pixels) ASSERT_EQ(d, glm::dvec2(0.0));
 }
 
 TEST(Reprojection, RP09_StillRotatedCameraExactlyZero) {
     Scene scene = make_empty_scene();
-    scene.nodes[0].axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.7};
+    scene.nodes[0].transform.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.7};
     const MotionField field = background_motion(scene);
     for (std::size_t i = 0; i < field.displacement.size(); ++i) {
         ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0));
@@ -178,7 +179,7 @@ TEST(Reprojection, RP09_StillRotatedCameraExactlyZero) {
 
 TEST(Reprojection, RP09_BackgroundBehindTheTurnedCameraDoesNotMove) {
     Scene scene = make_empty_scene();
-    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 180.0 * degrees)};
+    scene.nodes[0].transform.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 180.0 * degrees)};
     const MotionField field = background_motion(scene);
     for (std::size_t i = 0; i < field.displacement.size(); ++i) {
         ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0));
@@ -190,14 +191,14 @@ TEST(Reprojection, RP09_BackgroundBehindTheTurnedCameraDoesNotMove) {
 TEST(Reprojection, RP09_OrthographicBackgroundDoesNotMove) {
     Scene scene = make_empty_scene();
     scene.cameras[0].orthographic = true;
-    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 5.0 * degrees)};
+    scene.nodes[0].transform.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 5.0 * degrees)};
     for (const glm::dvec2& d : background_motion(scene).displacement.pixels) ASSERT_EQ(d, glm::dvec2(0.0));
 }
 
 TEST(Reprojection, RP10_AcrossACutNothingMoves) {
     Scene scene = make_point_scene({0.1f, 0.1f, -5.0f});
-    scene.nodes[1].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.3, 0.0, 0.0));
-    scene.nodes[1].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 25.0 * degrees)};
+    scene.nodes[1].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.3, 0.0, 0.0));
+    scene.nodes[1].transform.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 25.0 * degrees)};
     const TwoViews views(scene, 0.0, 1.0, 64, 48);
     Image<Hit> hits(64, 48);
     for (int x = 0; x < 64; ++x) hits(x, 20) = {.instance = 0, .primitive = 0};
@@ -220,7 +221,7 @@ TEST(Reprojection, RP10_AcrossACutNothingMoves) {
 TEST(Reprojection, RP11_LastFrameGoesBackwards) {
     // Constant speed on the screen: frame N-1 forwards and frame N backwards agree.
     Scene scene = make_point_scene({0.1f, 0.2f, -5.0f});
-    scene.nodes[0].translation = ramp(glm::dvec3(-0.5, 0.0, 0.0), glm::dvec3(0.7, -0.3, 0.0));
+    scene.nodes[0].transform.translation = ramp(glm::dvec3(-0.5, 0.0, 0.0), glm::dvec3(0.7, -0.3, 0.0));
     const double last = 1.0, before = last - 1.0 / 30.0;
     const PointMotion forward = motion_of_point(scene, before, last);
     const PointMotion backward = motion_of_point(scene, last, before, OtherFrame::previous);
@@ -233,7 +234,7 @@ TEST(Reprojection, RP11_LastFrameGoesBackwards) {
 
 TEST(Reprojection, RP12_VisibleInOneFrameOnly) {
     Scene scene = make_point_scene({0.1f, 0.2f, -5.0f});
-    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.5, 0.0, 0.0));
+    scene.nodes[0].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.5, 0.0, 0.0));
     scene.nodes[0].visible = ramp(1.0, 0.0);
     scene.nodes[0].visible.interpolation = Interpolation::step;
     const PointMotion vanishes = motion_of_point(scene);
@@ -241,7 +242,7 @@ TEST(Reprojection, RP12_VisibleInOneFrameOnly) {
     EXPECT_EQ(vanishes.displacement, glm::dvec2(0.0));
     EXPECT_EQ(vanishes.path_length, 0.0);
     // The first reason that applies: it is also behind the camera, but has no counterpart.
-    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 9.0));
+    scene.nodes[0].transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 9.0));
     EXPECT_EQ(motion_of_point(scene).validity, MotionValidity::no_counterpart);
     scene.nodes[0].visible = 1.0;
     EXPECT_EQ(motion_of_point(scene).validity, MotionValidity::behind_camera);
@@ -258,7 +259,7 @@ TEST(Reprojection, RP13_LeavingTheScreen) {
     for (const auto& c : cases) {
         for (const bool vertical : {false, true}) {
             Scene scene = make_point_scene({0.0f, 0.0f, -5.0f});
-            scene.nodes[0].translation =
+            scene.nodes[0].transform.translation =
                 ramp(glm::dvec3(0.0), vertical ? glm::dvec3(0.0, c.metres, 0.0) : glm::dvec3(c.metres, 0.0, 0.0));
             // A focal length of exactly 1000 px, so that the border case is one.
             TwoViews views(scene, 0.0, 1.0, 1000, 1000);

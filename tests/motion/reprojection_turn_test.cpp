@@ -11,7 +11,7 @@ namespace {
 /// Radius 1 at 10 m, 1500 px focal length: 150 px. Turns about the viewing axis.
 Scene make_wheel(double degrees_per_second) {
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
-    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, degrees_per_second * degrees)};
+    scene.nodes[0].transform.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, degrees_per_second * degrees)};
     return scene;
 }
 
@@ -34,7 +34,7 @@ TEST(ReprojectionTurn, RP07_RotationBeyondAHalfTurnPerFrame) {
 
 TEST(ReprojectionTurn, RP07_TheCameraTurnsInstead) {
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
-    scene.nodes[1].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 2.0 * std::numbers::pi)};
+    scene.nodes[1].transform.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 2.0 * std::numbers::pi)};
     const TwoViews views(scene, 0.0, 1.0, 1000, 1000);
     Image<Hit> hits(1000, 1000);
     hits(650, 500) = {.instance = 0, .primitive = 0};
@@ -76,7 +76,7 @@ TEST(ReprojectionTurn, RP07_ViewsMadeByHand) {
 TEST(ReprojectionTurn, RP07_FullTurnBetweenEqualPoses) {
     for (const bool camera_turns : {false, true}) {
         Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
-        Track<glm::dquat>& rotation = scene.nodes[camera_turns ? 1 : 0].rotation;
+        Track<glm::dquat>& rotation = scene.nodes[camera_turns ? 1 : 0].transform.rotation;
         rotation.sampling.kind = TimeSampling::Kind::acyclic;
         rotation.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
         for (int i = 1; i < 4; ++i) rotation.values.push_back(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1)));
@@ -96,7 +96,7 @@ TEST(ReprojectionTurn, RP07_FullTurnBetweenEqualPoses) {
 TEST(ReprojectionTurn, RP07_QuaternionKeysWithinTheFrame) {
     // A full turn in four keys of 90 degrees between two frames.
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
-    Track<glm::dquat>& rotation = scene.nodes[0].rotation;
+    Track<glm::dquat>& rotation = scene.nodes[0].transform.rotation;
     rotation.sampling.kind = TimeSampling::Kind::acyclic;
     rotation.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
     rotation.values.clear();
@@ -112,7 +112,7 @@ TEST(ReprojectionTurn, RP07_QuaternionKeysWithinTheFrame) {
 /// Quaternion keys 270 degrees apart take the short way, 90 degrees back, as the picture does.
 TEST(ReprojectionTurn, RP08_KeysBeyondAHalfTurnGoTheShortWay) {
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
-    scene.nodes[0].rotation =
+    scene.nodes[0].transform.rotation =
         ramp(glm::angleAxis(0.0, glm::dvec3(0, 0, 1)), glm::angleAxis(270.0 * degrees, glm::dvec3(0, 0, 1)));
     const PointMotion motion = motion_of_point(scene);
     EXPECT_NEAR(motion.displacement.x, -150.0, 1e-9);
@@ -129,7 +129,7 @@ TEST(ReprojectionTurn, RP07_MatrixKeysWithinTheFrame) {
     for (int i = 0; i <= 4; ++i) {
         matrix.values.emplace_back(glm::mat4_cast(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1))));
     }
-    scene.nodes[0].matrix = matrix;
+    scene.nodes[0].transform.matrix = matrix;
     EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
 }
 
@@ -137,9 +137,9 @@ TEST(ReprojectionTurn, RP07_SpinsAddUpAlongTheHierarchy) {
     // Two nested half turns make a full one; in opposite directions they cancel.
     for (const double sense : {1.0, -1.0}) {
         Scene scene;
-        Node outer{.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, std::numbers::pi)}};
+        Node outer{.transform = {.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, std::numbers::pi)}}};
         Node inner{.parent = add_node(scene, outer),
-                   .axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, sense * std::numbers::pi)},
+                   .transform = {.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, sense * std::numbers::pi)}},
                    .meshes = {add_point(scene, {1.0f, 0.0f, -10.0f})}};
         add_node(scene, inner);
         add_camera(scene, no_index, fov_of(1500.0, 1000));
@@ -162,7 +162,7 @@ TEST(ReprojectionTurn, RP07_UnevenSpin) {
     angle.sampling.times = {0.0, 1.0};
     const double turn = 2.0 * std::numbers::pi;
     angle.values = {0.0, 0.0, 0.0, 2.0 * turn, turn, 0.0};  // angle = turn t^2
-    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, angle};
+    scene.nodes[0].transform.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, angle};
     EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
     const std::vector<double> times = subdivide(scene);
     double previous = 0.0;
@@ -179,7 +179,7 @@ TEST(ReprojectionTurn, RP07_NoSubFramesWithoutAFastSpin) {
     EXPECT_EQ(subdivide(make_wheel(180.0)).size(), 8u);
     EXPECT_EQ(subdivide(make_wheel(1e12)).size(), 511u);
     Scene jump = make_wheel(180.0);
-    jump.nodes[0].axis_rotation->angle.interpolation = Interpolation::step;
+    jump.nodes[0].transform.axis_rotation->angle.interpolation = Interpolation::step;
     EXPECT_TRUE(subdivide(jump).empty());
 }
 

@@ -46,7 +46,7 @@ Node make_operations() {
         append(channels, glm::mat4_cast(turned(0.05 * phase, {1.0, 2.0, 3.0})));
         channels.insert(channels.end(), {phase, phase, phase});
     }
-    return {.operations = stack};
+    return {.transform = {.operations = stack}};
 }
 
 TEST(Turn, AllOperationsThatTurnAddUp) {
@@ -58,15 +58,15 @@ TEST(Turn, AllOperationsThatTurnAddUp) {
     EXPECT_NEAR(turn_of(node, 2.0, 0.5), 1.5 * sum, 1e-12);
     EXPECT_NEAR(turn_of(node, -5.0, 9.0), 3.0 * sum, 1e-12);
     EXPECT_EQ(turn_of(node, 3.0, 9.0), 0.0);
-    Node single{.operations = OperationStack{{OperationStack::Kind::rotate_x}, {}, {1.0}}};
+    Node single{.transform = {.operations = OperationStack{{OperationStack::Kind::rotate_x}, {}, {1.0}}}};
     EXPECT_EQ(turn_of(single, 0.0, 1.0), 0.0);
 }
 
 TEST(Turn, ASplineSwingsBeyondItsKeys) {
     // Equal keys at 0 and 1 s, and an angle of 4 a (t - t^2) between: to a and back.
     constexpr double a = 2.5;
-    Node node{.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 0.0)}};
-    Track<double>& angle = node.axis_rotation->angle;
+    Node node{.transform = {.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 0.0)}}};
+    Track<double>& angle = node.transform.axis_rotation->angle;
     angle.interpolation = Interpolation::cubic;
     angle.values = {0.0, 0.0, 4.0 * a, -4.0 * a, 0.0, 0.0};
     EXPECT_NEAR(turn_of(node, 0.0, 1.0), 2.0 * a, 1e-12);
@@ -77,7 +77,7 @@ TEST(Turn, ASplineSwingsBeyondItsKeys) {
 
 TEST(Turn, QuaternionsTurnTheShortWay) {
     for (const double angle : {1e-6, 0.3, 2.0, 3.1, 3.2, 5.0}) {
-        Node node{.rotation = ramp(turned(0.7, {1.0, 2.0, 3.0}), turned(0.7 + angle, {1.0, 2.0, 3.0}))};
+        Node node{.transform = {.rotation = ramp(turned(0.7, {1.0, 2.0, 3.0}), turned(0.7 + angle, {1.0, 2.0, 3.0}))}};
         EXPECT_NEAR(turn_of(node, 0.0, 1.0), std::min(angle, 2.0 * pi - angle), 1e-12) << angle;
     }
 }
@@ -87,17 +87,17 @@ TEST(Turn, MatricesTurnAsTheirRotations) {
         Node node;
         // Sheared along the first axes, which leaves what Gram and Schmidt find.
         const glm::dmat4 scale(glm::dmat3(2.0 * mirror, 0.0, 0.0, 1.0, 3.0, 0.0, -0.4, 0.7, 0.5));
-        node.matrix = ramp(glm::mat4_cast(turned(0.2, {3.0, 1.0, 2.0})) * scale,
-                           glm::mat4_cast(turned(1.5, {3.0, 1.0, 2.0})) * scale);
+        node.transform.matrix = ramp(glm::mat4_cast(turned(0.2, {3.0, 1.0, 2.0})) * scale,
+                                     glm::mat4_cast(turned(1.5, {3.0, 1.0, 2.0})) * scale);
         EXPECT_NEAR(turn_of(node, 0.0, 1.0), 1.3, 1e-12) << mirror;
     }
     // What has no rotation does not turn.
-    Node flat{.matrix = ramp(glm::dmat4(0.0), glm::dmat4(0.0))};
+    Node flat{.transform = {.matrix = ramp(glm::dmat4(0.0), glm::dmat4(0.0))}};
     EXPECT_EQ(turn_of(flat, 0.0, 1.0), 0.0);
 }
 
 Node make_spin(int parent, double turn) {
-    return {.parent = parent, .axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, turn)}};
+    return {.parent = parent, .transform = {.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, turn)}}};
 }
 
 /// A cart carries an arm, with an object on it, and a mast with the camera on it.
@@ -147,8 +147,8 @@ TEST(Turn, ASkinTurnsAsTheJointThatTurnsMost) {
     const int camera = add_camera(scene, add_node(scene, make_spin(no_index, 0.04)));
     scene.skins = {skin};
     const int mesh = add_point(scene, glm::vec3(0.0f));
-    scene.meshes[mesh].skin = 0;
-    scene.meshes[mesh].joint_weights.assign(3, {0, 1.0f});
+    scene.meshes[mesh].deformation.skin = 0;
+    scene.meshes[mesh].deformation.joint_weights.assign(3, {0, 1.0f});
     scene.nodes[skinned].meshes = {mesh};
     const PosePlan plan = make_pose_plan(scene);
     TurnFinder turns(scene, plan);
@@ -160,7 +160,7 @@ TEST(Turn, ASkinTurnsAsTheJointThatTurnsMost) {
 
 TEST(Turn, StepsAreEvenInEitherDirection) {
     Cart test(0.0, 0.0, 0.0);
-    test.scene.nodes[test.arm].axis_rotation->angle = ramp(0.0, 1.0, 2.0, 4.0);
+    test.scene.nodes[test.arm].transform.axis_rotation->angle = ramp(0.0, 1.0, 2.0, 4.0);
     const PosePlan plan = make_pose_plan(test.scene);
     TurnFinder turns(test.scene, plan);
     const auto expect = [](const std::vector<double>& found, const std::vector<double>& expected) {

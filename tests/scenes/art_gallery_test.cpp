@@ -26,7 +26,7 @@ std::set<std::string> find_lamps(const Scene& scene) {
     std::set<std::string> lamps;
     for (const Instance& instance : list_instances(scene)) {
         const int material = scene.meshes[instance.mesh].material;
-        if (evaluate(scene.materials[material].emission, 0.0) != glm::dvec3(0.0))
+        if (evaluate(scene.materials[material].glow.color, 0.0) != glm::dvec3(0.0))
             lamps.insert(scene.nodes[instance.node].name);
     }
     return lamps;
@@ -42,9 +42,9 @@ TEST(ArtGallery, HasTheContentsThatTheThesisAsksFor) {
     EXPECT_GE(count_triangles(scene), 70'000u);
     EXPECT_EQ(find_lamps(scene).size(), 8u);
     EXPECT_TRUE(scene.lights.empty());
-    EXPECT_FALSE(scene.environment.has_value());
+    EXPECT_FALSE(scene.environment.radiance.has_value());
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 749}));
-    EXPECT_EQ(scene.frame_rate, (FrameRate{30, 1}));
+    EXPECT_EQ(scene.film.frame_rate, (FrameRate{30, 1}));
     EXPECT_GE(scene.cages.size(), 6u);
     int tori = 0, lathes = 0;
     for (const Mesh& mesh : scene.meshes) {
@@ -60,7 +60,7 @@ TEST(ArtGallery, HasTheContentsThatTheThesisAsksFor) {
         const Node& node = scene.nodes[instance.node];
         if (node.parent == no_index || scene.nodes[node.parent].parent != pictures) continue;
         const int material = scene.meshes[instance.mesh].material;
-        shown.insert(scene.materials[material].base_color_texture.image);
+        shown.insert(scene.materials[material].textures[TextureSlot::base_color].image);
     }
     shown.erase(no_index);
     EXPECT_EQ(shown.size(), 14u);
@@ -135,11 +135,11 @@ TEST(ArtGallery, BallsThatTravelFlyOnParabolasAndRollWithoutSliding) {
         if (glm::length(drops[i].velocity) == 0.0) continue;
         ++travelling;
         const Node& node = scene.nodes[find_node(scene, "ball_" + std::to_string(i))];
-        const Track<glm::dvec3>& path = node.translation;
+        const Track<glm::dvec3>& path = node.transform.translation;
         ASSERT_EQ(path.interpolation, Interpolation::cubic);
         const std::size_t keys = path.key_count();
         ASSERT_GE(keys, 6u);
-        ASSERT_TRUE(node.axis_rotation.has_value());
+        ASSERT_TRUE(node.transform.axis_rotation.has_value());
         for (std::size_t k = 0; k + 1 < keys; ++k) {
             const double from = path.sampling.times[k], to = path.sampling.times[k + 1], h = (to - from) / 8.0;
             const bool flies = path.values[3 * k + 2].y > 0.0;
@@ -157,7 +157,8 @@ TEST(ArtGallery, BallsThatTravelFlyOnParabolasAndRollWithoutSliding) {
                 EXPECT_NEAR(path.values[3 * k + 2].y, -drops[i].restitution * path.values[3 * k].y, 3e-6);
             }
             // The contact point does not slide.
-            const glm::dvec3 spin = node.axis_rotation->axis * node.axis_rotation->angle.values[3 * k + 2];
+            const glm::dvec3 spin =
+                node.transform.axis_rotation->axis * node.transform.axis_rotation->angle.values[3 * k + 2];
             const glm::dvec3 level = path.values[3 * k + 2] * glm::dvec3(1.0, 0.0, 1.0);
             EXPECT_LT(glm::length(level + glm::cross(spin, glm::dvec3(0.0, -drops[i].radius, 0.0))), 3e-6);
         }
@@ -185,8 +186,8 @@ TEST(ArtGallery, BallsNeverTouchOneAnother) {
 TEST(ArtGallery, TopSpinsAndPrecessesOnItsTip) {
     const Scene& scene = loaded("art-gallery");
     const int top = find_node(scene, "top"), precession = find_node(scene, "top_precession");
-    const auto& spin = scene.nodes[top].axis_rotation->angle;
-    const auto& turn = scene.nodes[precession].axis_rotation->angle;
+    const auto& spin = scene.nodes[top].transform.axis_rotation->angle;
+    const auto& turn = scene.nodes[precession].transform.axis_rotation->angle;
     const auto rate = [](const Track<double>& angle, double t) {
         return (evaluate(angle, t + 0.01) - evaluate(angle, t - 0.01)) / 0.02;
     };
@@ -236,7 +237,7 @@ TEST(ArtGallery, KineticWorkBleedsColour) {
     const FrameOutput with = Sequence(scene, settings).render(frame);
     settings.light.bounces = 0;
     const FrameOutput without = Sequence(scene, settings).render(frame);
-    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
+    const ScenePose now = pose(scene, scene.film.frame_rate.seconds_of(frame));
     double reddest = 0.0, least_red = 9.0;
     for (std::size_t i = 0; i < with.hits.size(); ++i) {
         const Hit& hit = with.hits.pixels[i];

@@ -39,7 +39,7 @@ inline Image<Hit> cast(const Scene& scene, const ScenePose& now, const CameraVie
 
 /// First hits of a frame and their motion to the next frame.
 inline SeenMotion compute_motion(const Scene& scene, int frame, int width, int height) {
-    return {scene, scene.frame_rate.seconds_of(frame), scene.frame_rate.seconds_of(frame + 1), width, height};
+    return {scene, scene.film.frame_rate.seconds_of(frame), scene.film.frame_rate.seconds_of(frame + 1), width, height};
 }
 
 inline std::uintmax_t folder_size(const std::filesystem::path& folder) {
@@ -76,8 +76,8 @@ inline void expect_generated(const std::string& program, std::size_t files) {
 
 /// The scene that was read equals the one that the program made, except for its file name.
 inline void expect_same_scene(Scene read, const Scene& made) {
-    EXPECT_TRUE(read.warnings.empty());
-    read.file.clear();
+    EXPECT_TRUE(read.source.warnings.empty());
+    read.source.file.clear();
     EXPECT_TRUE(read.nodes == made.nodes);
     EXPECT_TRUE(read.meshes == made.meshes);
     EXPECT_TRUE(read.cages == made.cages);

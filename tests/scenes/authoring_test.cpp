@@ -77,7 +77,7 @@ Scene load_example(const Example& example, const fs::path& folder) {
     for (const SceneImage& image : named.images) {
         put(image.path, source / "scenes" / "pool" / "textures" / "ball_01.png");
     }
-    for (const Include& include : named.includes) {
+    for (const Include& include : named.source.includes) {
         if (include.path.ends_with(".glb")) {
             put(include.path, source / "scenes" / "room" / "room.glb");
         } else if (include.path.ends_with(".abc")) {
@@ -98,13 +98,13 @@ TEST(Authoring, EveryExampleLoadsWithoutWarnings) {
         SCOPED_TRACE("AUTHORING.md, line " + std::to_string(example.line));
         try {
             const Scene scene = load_example(example, folder.path());
-            for (const std::string& warning : scene.warnings) {
+            for (const std::string& warning : scene.source.warnings) {
                 EXPECT_NE(warning.find("no light"), std::string::npos) << warning;
             }
             save_scene(scene, folder.path() / "saved.json");
             Scene saved = load_scene(folder.path() / "saved.json");
-            saved.file = scene.file;
-            saved.warnings = scene.warnings;
+            saved.source.file = scene.source.file;
+            saved.source.warnings = scene.source.warnings;
             EXPECT_TRUE(saved == scene);
         } catch (const std::exception& error) {
             ADD_FAILURE() << error.what();
@@ -115,7 +115,7 @@ TEST(Authoring, EveryExampleLoadsWithoutWarnings) {
 /// The settings of an example, at a size and with sample counts that take milliseconds.
 RenderSettings small_settings(const Scene& scene) {
     RenderSettings settings;
-    apply_settings(settings, scene.settings, "example.json");
+    apply_settings(settings, scene.source.settings, "example.json");
     settings.picture.width = 16;
     settings.picture.height = 12;
     settings.cache.gather = 4;
@@ -129,7 +129,7 @@ void add_missing_camera(Scene& scene) {
     const auto has_camera = [](const Node& node) { return node.camera != no_index; };
     if (std::ranges::any_of(scene.nodes, has_camera)) return;
     Node eye{.name = "added camera",
-             .translation = glm::dvec3(0.0, 1.0, 6.0),
+             .transform = {.translation = glm::dvec3(0.0, 1.0, 6.0)},
              .camera = static_cast<int>(scene.cameras.size())};
     scene.cameras.emplace_back();
     scene.nodes.push_back(std::move(eye));
@@ -145,7 +145,7 @@ TEST(Authoring, EveryExampleRendersWithItsSettings) {
             const RenderSettings settings = small_settings(scene);
             Sequence sequence(std::move(scene), settings);
             const std::int64_t frame = sequence.range().first;
-            EXPECT_EQ(sequence.render(frame, {.frame = false, .maps = true, .progress = {}}).alpha.width, 16);
+            EXPECT_EQ(sequence.render(frame, {.frame = false, .maps = true, .progress = {}}).limits.alpha.width, 16);
             const FrameOutput output = sequence.render(frame);
             EXPECT_EQ(output.shaded.color.width, 16);
             EXPECT_EQ(output.shaded.counts.invalid_samples, 0u);
@@ -157,7 +157,7 @@ TEST(Authoring, EveryExampleRendersWithItsSettings) {
 
 TEST(Authoring, TheFirstExampleIsAShotThatCanBeRendered) {
     const Scene scene = read_scene_text(read_examples().at(0).text, "first.json").scene;
-    EXPECT_EQ(scene.range, (FrameRange{0, 59}));
+    EXPECT_EQ(scene.film.range, (FrameRange{0, 59}));
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.meshes.size(), 3u);
 }

@@ -32,7 +32,7 @@ struct HardScene {
         ADD_FAILURE() << "no node " << name;
         return 0;
     }
-    ScenePose posed(double frame) const { return pose(scene, frame / scene.frame_rate.per_second()); }
+    ScenePose posed(double frame) const { return pose(scene, frame / scene.film.frame_rate.per_second()); }
     glm::dmat4 world(const std::string& name, double frame) const { return posed(frame).world[node(name)]; }
     /// Pixels whose first hit is on the node called `name`.
     std::vector<std::size_t> pixels_on(const FrameOutput& output, const std::string& name) const {

@@ -43,8 +43,9 @@ TEST(HardScenes, KF17_MirroredScaleKeepsItsLight) {
     HardScene hard("mirrored");
     Scene straight = hard.scene;
     Node& thing = straight.nodes[hard.node("thing")];
-    thing.scale = glm::dvec3(1.0);  // unmirrored and turned the other way: this gives the mirror image of the picture
-    thing.axis_rotation->angle = Track<double>(-20.0 * std::numbers::pi / 180.0);
+    thing.transform.scale =
+        glm::dvec3(1.0);  // unmirrored and turned the other way: this gives the mirror image of the picture
+    thing.transform.axis_rotation->angle = Track<double>(-20.0 * std::numbers::pi / 180.0);
     RenderSettings settings = small_settings();
     settings.light.light_samples = 256;
     settings.cache.gather = 1024;
@@ -75,7 +76,7 @@ TEST(HardScenes, KF19_TinyAndHugeScalesLookLikeABox) {
         Scene scene = hard.scene;
         Node& thing = scene.nodes[hard.node("thing")];
         for (glm::vec3& p : scene.meshes[thing.meshes.front()].positions) p = glm::vec3(glm::dvec3(p) * (size / 1e8));
-        thing.scale = glm::dvec3(1.0 / size);
+        thing.transform.scale = glm::dvec3(1.0 / size);
         Sequence sequence(scene, small_settings());
         return sequence.render(0, {.frame = true, .maps = true, .progress = {}});
     };
@@ -88,8 +89,8 @@ TEST(HardScenes, KF19_TinyAndHugeScalesLookLikeABox) {
         ASSERT_EQ(hard.pixels_on(found, "thing"), pixels);
         double error = 0.0;
         for (const std::size_t i : pixels) {
-            EXPECT_NEAR(found.depth.pixels[i], expected.depth.pixels[i], 1e-5);
-            EXPECT_LT(glm::length(found.normal.pixels[i] - expected.normal.pixels[i]), 1e-5f);
+            EXPECT_NEAR(found.surface.depth.pixels[i], expected.surface.depth.pixels[i], 1e-5);
+            EXPECT_LT(glm::length(found.surface.normal.pixels[i] - expected.surface.normal.pixels[i]), 1e-5f);
             error += luminance(found.shaded.color.pixels[i]) - luminance(expected.shaded.color.pixels[i]);
         }
         EXPECT_NEAR(error / static_cast<double>(pixels.size()), 0.0, 0.01 * mean_luminance(expected.shaded.color));
@@ -126,7 +127,7 @@ TEST(HardScenes, KF25_RP02_FarAwayMovesAsNear) {
     HardScene hard("far_away");
     Scene near = hard.scene;
     for (Node& node : near.nodes)
-        for (glm::dvec3& key : node.translation.values) key -= glm::dvec3(1e6, 0.0, -1e6);
+        for (glm::dvec3& key : node.transform.translation.values) key -= glm::dvec3(1e6, 0.0, -1e6);
     Sequence sequence(near, small_settings());
     const FrameOutput far_frame = hard.render(0);
     const FrameOutput near_frame = sequence.render(0, {.frame = true, .maps = true, .progress = {}});
@@ -150,7 +151,7 @@ TEST(HardScenes, KF26_NormalsOfShearedFaces) {
         // Perpendicular to two edges of the box in world space.
         int perpendicular = 0;
         for (int axis = 0; axis < 3; ++axis)
-            if (std::abs(glm::dot(glm::normalize(linear[axis]), glm::dvec3(output.normal.pixels[i]))) < 1e-6)
+            if (std::abs(glm::dot(glm::normalize(linear[axis]), glm::dvec3(output.surface.normal.pixels[i]))) < 1e-6)
                 ++perpendicular;
         EXPECT_EQ(perpendicular, 2);
     }
@@ -158,8 +159,8 @@ TEST(HardScenes, KF26_NormalsOfShearedFaces) {
 TEST(HardScenes, KF27_LookingDownSeesTheBox) {
     HardScene hard("looking_down");
     const FrameOutput output = hard.render(0);
-    EXPECT_NEAR(output.normal(24, 18).y, 1.0, 1e-6);
-    EXPECT_NEAR(output.depth(24, 18), 3.0, 1e-5);
+    EXPECT_NEAR(output.surface.normal(24, 18).y, 1.0, 1e-6);
+    EXPECT_NEAR(output.surface.depth(24, 18), 3.0, 1e-5);
 }
 
 }  // namespace

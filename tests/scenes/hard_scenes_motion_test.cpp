@@ -17,7 +17,7 @@ TEST(HardScenes, RP02_RP03_CreepingIsMeasuredAndNotSalient) {
     std::size_t moved = 0;
     for (std::size_t i = 0; i < output.hits.size(); ++i) {
         if (output.hits.pixels[i].instance == no_index) continue;
-        const double expected = pixels_per_unit * 1e-6 / output.depth.pixels[i];
+        const double expected = pixels_per_unit * 1e-6 / output.surface.depth.pixels[i];
         ASSERT_NEAR(glm::length(output.motion.displacement.pixels[i]), expected, 1e-3 * expected);
         ++moved;
     }
@@ -61,19 +61,19 @@ TEST(HardScenes, RP10_NoMotionAcrossACut) {
     EXPECT_EQ(longest_motion(output), 0.0);
     // The maps of a scene where nothing moves at all.
     Scene still = hard.scene;
-    still.cuts.clear();
+    still.film.cuts.clear();
     Node& camera = still.nodes[hard.node("camera")];
-    camera.translation = evaluate(camera.translation, 1.0 / 30.0);
+    camera.transform.translation = evaluate(camera.transform.translation, 1.0 / 30.0);
     Sequence sequence(still, small_settings());
     const FrameOutput expected = sequence.render(1, {.frame = true, .maps = true, .progress = {}});
     EXPECT_EQ(output.velocity, expected.velocity);
     EXPECT_EQ(output.perception.saliency, expected.perception.saliency);
     EXPECT_EQ(output.perception.aleph, expected.perception.aleph);
-    EXPECT_EQ(output.threshold, expected.threshold);
-    EXPECT_EQ(output.alpha, expected.alpha);
+    EXPECT_EQ(output.limits.threshold, expected.limits.threshold);
+    EXPECT_EQ(output.limits.alpha, expected.limits.alpha);
     // Without the cut the whole picture moves, and its maps are others.
     Scene jumping = hard.scene;
-    jumping.cuts.clear();
+    jumping.film.cuts.clear();
     Sequence jump(jumping, small_settings());
     const FrameOutput moving = jump.render(1, {.frame = true, .maps = true, .progress = {}});
     EXPECT_GT(longest_motion(moving), 5.0);
@@ -102,10 +102,10 @@ TEST(HardScenes, RP14_DeformingMovesAsRigid) {
     HardScene hard("deforming");
     Scene rigid = hard.scene;
     Mesh& mesh = rigid.meshes[rigid.nodes[hard.node("thing")].meshes.front()];
-    mesh.points = no_index;
+    mesh.deformation.points = no_index;
     Node& node = rigid.nodes[hard.node("thing")];
-    node.translation.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 2.0 / 30.0}};
-    node.translation.values = {{0.0, 0.5, 0.0}, {0.5, 0.5, 0.0}};
+    node.transform.translation.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 2.0 / 30.0}};
+    node.transform.translation.values = {{0.0, 0.5, 0.0}, {0.5, 0.5, 0.0}};
     Sequence sequence(rigid, small_settings());
     const FrameOutput output = hard.render(0);
     const FrameOutput expected = sequence.render(0, {.frame = true, .maps = true, .progress = {}});

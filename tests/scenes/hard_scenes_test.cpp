@@ -16,7 +16,7 @@ void expect_all_finite(const FrameOutput& output) {
     for (const float aleph : output.perception.aleph.pixels) ASSERT_TRUE(aleph >= 1.0f && aleph <= 250.76f) << aleph;
     for (const float s : output.perception.saliency.pixels) ASSERT_TRUE(s >= 0.0f && s <= 1.0f) << s;
     for (const float v : output.velocity.pixels) ASSERT_TRUE(v >= 0.0f && std::isfinite(v)) << v;
-    for (const float t : output.threshold.pixels) ASSERT_TRUE(t > 0.0f && std::isfinite(t)) << t;
+    for (const float t : output.limits.threshold.pixels) ASSERT_TRUE(t > 0.0f && std::isfinite(t)) << t;
     for (const glm::dvec2& d : output.motion.displacement.pixels)
         ASSERT_TRUE(glm::length(d) <= std::hypot(48.0, 36.0) + 1e-9) << d.x << " " << d.y;
     EXPECT_EQ(output.statistics.counts.invalid_samples, 0u);
@@ -89,7 +89,7 @@ TEST(HardScenes, RC07_TheFirstOfCoplanarWins) {
     // In the plane z = 0 the first quad ends at x = 1; the second may be visible only beyond that.
     const double pixels_per_unit = 18.0 / std::tan(20.0 * std::numbers::pi / 180.0);
     for (const std::size_t i : two) {
-        const double x = (static_cast<double>(i % 48) + 0.5 - 24.0) / pixels_per_unit * output.depth.pixels[i];
+        const double x = (static_cast<double>(i % 48) + 0.5 - 24.0) / pixels_per_unit * output.surface.depth.pixels[i];
         EXPECT_GT(x, 1.0 - 1e-6);
     }
 }
@@ -115,8 +115,8 @@ TEST(HardScenes, RC10_WithoutSurfacesOrCameraTheEnvironmentShows) {
             Scene scene;
             scene.meshes = meshes;
             for (int m = 0; m < std::ssize(meshes); ++m) scene.nodes.emplace_back().meshes = {m};
-            if (environment.x > 0.0f) scene.environment = Track<glm::dvec3>(glm::dvec3(environment));
-            scene.exposure = 1.0;
+            if (environment.x > 0.0f) scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(environment));
+            scene.film.exposure = 1.0;
             add_framing_camera(scene);
             EXPECT_TRUE(has_warning(scene, "there is no camera"));
             EXPECT_EQ(has_warning(scene, "nothing to see"),
@@ -140,8 +140,8 @@ TEST(HardScenes, RC11_BadNormalsAreReplaced) {
     const std::vector<std::size_t> pixels = hard.pixels_on(output, "thing");
     ASSERT_FALSE(pixels.empty());
     for (const std::size_t i : pixels) {
-        EXPECT_NEAR(glm::length(output.normal.pixels[i]), 1.0f, 1e-5f);
-        EXPECT_GT(output.normal.pixels[i].z, 0.0f);
+        EXPECT_NEAR(glm::length(output.surface.normal.pixels[i]), 1.0f, 1e-5f);
+        EXPECT_GT(output.surface.normal.pixels[i].z, 0.0f);
         EXPECT_GT(luminance(output.shaded.color.pixels[i]), 0.0f);
     }
 }

@@ -12,13 +12,13 @@ namespace {
 
 Scene load_material_scene(const std::string& name) {
     Scene scene = load_scene(source_folder() / "scenes/materials" / (name + ".json"));
-    EXPECT_TRUE(scene.warnings.empty()) << name << ": " << scene.warnings.front();
+    EXPECT_TRUE(scene.source.warnings.empty()) << name << ": " << scene.source.warnings.front();
     return scene;
 }
 
 Image<Rgb> render_small(const Scene& scene, int spp, std::int64_t frame = 20) {
     RenderSettings settings;
-    apply_settings(settings, scene.settings, scene.file);
+    apply_settings(settings, scene.source.settings, scene.source.file);
     settings.picture.width = 48;
     settings.picture.height = 32;
     settings.sampling.spp = spp;
@@ -75,7 +75,7 @@ TEST(MaterialScenes, GlassShowsTheWallAndTheBlockIsGreen) {
 TEST(MaterialScenes, TheNormalMapChangesTheLightOnTheWall) {
     Scene scene = load_material_scene("brick_wall");
     const Image<Rgb> mapped = render_small(scene, 32);
-    for (Material& material : scene.materials) material.normal_texture = {};
+    for (Material& material : scene.materials) material.textures[TextureSlot::normal] = {};
     const Image<Rgb> flat = render_small(scene, 32);
     double difference = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < mapped.size(); ++i) {
@@ -110,7 +110,7 @@ struct Deviation {
 Deviation render_frame(const std::string& file, std::int64_t frame, double expected) {
     const Scene scene = load_scene(source_folder() / "scenes" / "furnace" / file);
     RenderSettings settings;
-    apply_settings(settings, scene.settings, file);
+    apply_settings(settings, scene.source.settings, file);
     settings.picture.width = 64;
     settings.picture.height = 48;
     settings.cache.gather = 1024;

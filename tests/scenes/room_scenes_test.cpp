@@ -38,7 +38,9 @@ TEST(AntiqueRoom, IsClosedSmallAndGlossy) {
             const int material = scene.meshes[instance.mesh].material;
             const MaterialValues& values = now.materials[material];
             ++pixels;
-            glossy += values.specular > 0.0f && values.roughness >= 0.1f && values.roughness <= 0.3f ? 1 : 0;
+            glossy += values.gloss.specular > 0.0f && values.gloss.roughness >= 0.1f && values.gloss.roughness <= 0.3f
+                          ? 1
+                          : 0;
         }
     }
     EXPECT_GT(static_cast<double>(glossy) / static_cast<double>(pixels), 0.3);
@@ -46,7 +48,7 @@ TEST(AntiqueRoom, IsClosedSmallAndGlossy) {
 
 TEST(BoomerangScene, ComesFromItsGeneratorByteForByte) {
     expect_generated(program_path("make_boomerang"), 1u + 4u);
-    EXPECT_TRUE(loaded("boomerang").warnings.empty());
+    EXPECT_TRUE(loaded("boomerang").source.warnings.empty());
 }
 
 TEST(BoomerangScene, TheSolidIsClosedAndFacesOutwards) {

@@ -53,7 +53,7 @@ TEST(PoolScene, SixteenBallsOverNinetyFrames) {
     const Scene& scene = loaded("pool");
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 89}));
     const PoolSettings settings;
-    const ScenePose first = pose(scene, 0.0), last = pose(scene, scene.frame_rate.seconds_of(89));
+    const ScenePose first = pose(scene, 0.0), last = pose(scene, scene.film.frame_rate.seconds_of(89));
     for (int i = 0; i < 16; ++i) {
         const int node = find_node(scene, "ball_" + std::string(i < 10 ? "0" : "") + std::to_string(i));
         EXPECT_GT(glm::distance(origin_of(first, node), origin_of(last, node)), settings.radius) << i;
@@ -68,7 +68,7 @@ TEST(PoolScene, FramesShowTheSimulationsOwnStates) {
     const PoolRun run = simulate_pool(make_rack(settings), settings, 3.0, 120.0);
     const int node = find_node(scene, "ball_15");
     for (const int frame : {5, 12, 30, 89}) {
-        const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const ScenePose now = pose(scene, scene.film.frame_rate.seconds_of(frame));
         const PoolBall& ball = run.samples[(frame - 5) * 4][15];
         EXPECT_LT(glm::distance(origin_of(now, node), ball.position + glm::dvec3(0.0, cloth_height, 0.0)), 1e-6);
         const glm::dvec3 mark = glm::dmat3(now.world[node]) * glm::dvec3(1.0, 0.0, 0.0);
@@ -121,7 +121,7 @@ TEST(PoolScene, BallsFillThePicture) {
 
 /// The number of balls that are completely inside the picture (aspect ratio 4 : 3).
 int whole_balls(const Scene& scene, int frame) {
-    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
+    const ScenePose now = pose(scene, scene.film.frame_rate.seconds_of(frame));
     const CameraView view = make_camera_view(now.cameras.front(), 640, 480);
     int count = 0;
     for (int i = 0; i < 16; ++i) {
@@ -145,7 +145,7 @@ TEST(PoolScene, CameraMovesSmoothly) {
     const Scene& scene = loaded("pool");
     std::vector<glm::dvec3> places, gazes;
     for (int frame = 0; frame <= 89; ++frame) {
-        const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const ScenePose now = pose(scene, scene.film.frame_rate.seconds_of(frame));
         const CameraView view = make_camera_view(now.cameras.front(), 640, 480);
         places.push_back(view.position);
         gazes.push_back(view.axes[2]);
@@ -180,7 +180,7 @@ TEST(PoolScene, CueIsGoneOnceTheBallsSpread) {
 TEST(PoolScene, LampsAndSkyReflectNothing) {
     int shining = 0;
     for (const Material& material : loaded("pool").materials) {
-        if (material.emission.values.front() == glm::dvec3(0.0)) continue;
+        if (material.glow.color.values.front() == glm::dvec3(0.0)) continue;
         ++shining;
         EXPECT_EQ(material.base_color.values.front(), glm::dvec3(0.0)) << material.name;
     }
@@ -213,7 +213,7 @@ TEST(PoolScene, CueTouchesOnlyTheCueBall) {
 
 TEST(CornellScene, LoadsAndMoves) {
     const Scene& scene = loaded("cornell");
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_TRUE(scene.source.warnings.empty());
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 59}));
     const int sphere = find_node(scene, "sphere"), block = find_node(scene, "tall_block");
     const double top = 1.65, radius = 0.45;

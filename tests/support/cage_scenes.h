@@ -22,7 +22,7 @@ inline Scene make_cage_scene(TestCage test, const std::vector<std::vector<glm::d
     scene.cages.push_back(std::move(test.cage));
     Mesh mesh;
     mesh.name = "surface";
-    mesh.cage = 0;
+    mesh.subdivision.cage = 0;
     scene.meshes.push_back(std::move(mesh));
     Node object{.meshes = {0}};
     Node camera{.camera = 0};

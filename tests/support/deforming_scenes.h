@@ -47,7 +47,7 @@ void add_cache(Scene& scene, std::size_t mesh, std::vector<double> times, const 
         cache.positions.emplace_back();
         for (const glm::vec3& p : scene.meshes[mesh].positions) cache.positions.back().push_back(move(p, sample));
     }
-    scene.meshes[mesh].points = static_cast<int>(scene.point_caches.size());
+    scene.meshes[mesh].deformation.points = static_cast<int>(scene.point_caches.size());
     scene.meshes[mesh].positions = cache.positions.front();
     scene.point_caches.push_back(std::move(cache));
 }
@@ -57,22 +57,22 @@ void add_cache(Scene& scene, std::size_t mesh, std::vector<double> times, const 
 inline Scene make_skin_scene() {
     Scene scene = make_sheet_scene();
     scene.nodes.resize(3);
-    scene.nodes[0].translation = glm::dvec3(5.0, -3.0, 2.0);
-    scene.nodes[0].scale = glm::dvec3(2.0, 1.0, 0.5);
-    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, -1.0);
+    scene.nodes[0].transform.translation = glm::dvec3(5.0, -3.0, 2.0);
+    scene.nodes[0].transform.scale = glm::dvec3(2.0, 1.0, 0.5);
+    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, -1.0);
     scene.nodes[2].parent = 1;
-    scene.nodes[2].translation = glm::dvec3(0.0, 0.0, 1.0);
+    scene.nodes[2].transform.translation = glm::dvec3(0.0, 0.0, 1.0);
     Skin skin;
     skin.joints = {1, 2};
     skin.inverse_binds = {glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 1.0)), glm::dmat4(1.0)};
     scene.skins = {skin};
     Mesh& mesh = scene.meshes[0];
-    mesh.skin = 0;
-    mesh.joints_per_vertex = 2;
+    mesh.deformation.skin = 0;
+    mesh.deformation.joints_per_vertex = 2;
     for (const glm::vec3& p : mesh.positions) {
         const float right = p.x > 0.0f ? 1.0f : 0.0f;
-        mesh.joint_weights.push_back({0, 1.0f - right});
-        mesh.joint_weights.push_back({1, right});
+        mesh.deformation.joint_weights.push_back({0, 1.0f - right});
+        mesh.deformation.joint_weights.push_back({1, right});
     }
     return scene;
 }
@@ -87,7 +87,7 @@ inline glm::dvec3 bent_by(const glm::vec3& rest, double angle) {
 /// One of each thing that can change with time, and things that do not.
 inline Scene make_everything_scene() {
     Scene scene = make_skin_scene();
-    scene.nodes[2].rotation =
+    scene.nodes[2].transform.rotation =
         keyed<glm::dquat>({0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dquat(0.6, 0.0, 0.0, 0.8)});
     const auto add_node = [&](int parent) -> Node& {
         scene.nodes.emplace_back();
@@ -104,19 +104,20 @@ inline Scene make_everything_scene() {
         return p + glm::vec3(0.0f, 0.0f, p.x * p.y * static_cast<float>(sample));
     });
     Mesh& morph = scene.meshes[morphed];
-    morph.targets.resize(1);
-    morph.targets[0].positions.assign(morph.positions.size(), glm::vec3(0.25f, 0.5f, 1.0f));
-    morph.target_weights = {keyed<double>({0.0, 1.5}, {0.0, 1.0})};
+    morph.deformation.targets.resize(1);
+    morph.deformation.targets[0].positions.assign(morph.positions.size(), glm::vec3(0.25f, 0.5f, 1.0f));
+    morph.deformation.target_weights = {keyed<double>({0.0, 1.5}, {0.0, 1.0})};
     Mesh& always = scene.meshes[held];
-    always.targets.resize(1);
-    always.targets[0].positions.assign(always.positions.size(), glm::vec3(1.0f));
-    always.target_weights = {Track<double>(0.5)};
+    always.deformation.targets.resize(1);
+    always.deformation.targets[0].positions.assign(always.positions.size(), glm::vec3(1.0f));
+    always.deformation.target_weights = {Track<double>(0.5)};
     scene.meshes[passing].present = keyed<double>({0.5, 1.0}, {1.0, 0.0}, Interpolation::step);
     add_node(no_index).meshes = {cached, still};
     add_node(3).meshes = {morphed, passing};
     add_node(no_index).meshes = {still, held};
     Node& mover = add_node(4);  // 6
-    mover.translation = keyed<glm::dvec3>({0.0, 2.0}, {glm::dvec3(0.0, 0.0, -2.0), glm::dvec3(3.0, 0.0, -2.0)});
+    mover.transform.translation =
+        keyed<glm::dvec3>({0.0, 2.0}, {glm::dvec3(0.0, 0.0, -2.0), glm::dvec3(3.0, 0.0, -2.0)});
     mover.meshes = {cached, still};
     Node& detached = add_node(6);  // 7
     detached.inherits = keyed<double>({0.0, 0.5}, {0.0, 1.0}, Interpolation::step);
@@ -124,7 +125,7 @@ inline Scene make_everything_scene() {
     detached.visible = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
     scene.nodes[5].visible = keyed<double>({0.0, 0.75}, {1.0, 0.0}, Interpolation::step);
     Node& stack = add_node(no_index);  // 8
-    stack.operations = OperationStack{{OperationStack::Kind::rotate_y}, {}, {0.0, 1.0}};
+    stack.transform.operations = OperationStack{{OperationStack::Kind::rotate_y}, {}, {0.0, 1.0}};
     stack.light = 0;
     scene.lights.resize(2);
     scene.lights[1].intensity = keyed<double>({0.0, 1.0}, {1.0, 5.0});
@@ -134,8 +135,8 @@ inline Scene make_everything_scene() {
     add_node(no_index).camera = 1;
     scene.cameras[1].fov = keyed<double>({0.0, 1.0}, {0.5, 1.0});
     scene.materials.resize(2);
-    scene.materials[1].roughness = keyed<double>({0.0, 1.0}, {0.1, 0.9});
-    scene.environment = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    scene.materials[1].gloss.roughness = keyed<double>({0.0, 1.0}, {0.1, 0.9});
+    scene.environment.radiance = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0)});
     return scene;
 }
 

@@ -51,30 +51,30 @@ inline SurfaceMaterial evaluate_plain(Material material, bool front = true, cons
 
 inline SurfaceMaterial make_white_plastic(float alpha, float f0 = 0.04f, float f90 = 1.0f) {
     SurfaceMaterial material = make_lambert(1.0f);
-    material.f0 = Rgb(f0);
-    material.f0_max = f0;
-    material.f90 = material.f90_max = f90;
-    material.alpha = alpha;
+    material.gloss.f0 = Rgb(f0);
+    material.gloss.f0_max = f0;
+    material.gloss.f90 = material.gloss.f90_max = f90;
+    material.gloss.alpha = alpha;
     return material;
 }
 
 /// @param ratio  index of refraction of the far side over that of the viewer's
 inline SurfaceMaterial make_glass(float alpha, float ratio, bool volume) {
-    SurfaceMaterial material{.alpha = alpha, .glass = 1.0f};
-    material.ior = material.ior_ratio = ratio;
-    material.volume = volume;
+    SurfaceMaterial material{.gloss = {.alpha = alpha}, .glass = {.share = 1.0f}};
+    material.glass.ior = material.glass.ior_ratio = ratio;
+    material.glass.volume = volume;
     return material;
 }
 
 inline SurfaceMaterial with_coat(SurfaceMaterial material, float alpha, float strength = 1.0f) {
-    material.coat = strength;
-    material.coat_alpha = alpha;
+    material.coat.strength = strength;
+    material.coat.alpha = alpha;
     return material;
 }
 
 inline SurfaceMaterial with_sheen(SurfaceMaterial material, float roughness, float color = 1.0f) {
-    material.sheen = Rgb(color);
-    material.sheen_alpha = std::max(roughness * roughness, 1e-3f);
+    material.sheen.color = Rgb(color);
+    material.sheen.alpha = std::max(roughness * roughness, 1e-3f);
     return material;
 }
 

@@ -100,17 +100,18 @@ inline RealVector real_turned(const RealVector& v, const Track<glm::dquat>& trac
 }
 
 inline RealVector real_to_parent(const Node& node, const RealVector& p, Real seconds) {
-    if (node.matrix) {
-        const glm::dmat4& m = node.matrix->values.front();
+    if (node.transform.matrix) {
+        const glm::dmat4& m = node.transform.matrix->values.front();
         return p.x * real(glm::dvec3(m[0])) + p.y * real(glm::dvec3(m[1])) + p.z * real(glm::dvec3(m[2])) +
                real(glm::dvec3(m[3]));
     }
-    const RealVector scale = real_value(node.scale, seconds);
+    const RealVector scale = real_value(node.transform.scale, seconds);
     const RealVector scaled{scale.x * p.x, scale.y * p.y, scale.z * p.z};
-    const RealVector turned = node.axis_rotation ? real_turned(scaled, unit(real(node.axis_rotation->axis)),
-                                                               real_value(node.axis_rotation->angle, seconds))
-                                                 : real_turned(scaled, node.rotation, seconds);
-    return turned + real_value(node.translation, seconds);
+    const RealVector turned = node.transform.axis_rotation
+                                  ? real_turned(scaled, unit(real(node.transform.axis_rotation->axis)),
+                                                real_value(node.transform.axis_rotation->angle, seconds))
+                                  : real_turned(scaled, node.transform.rotation, seconds);
+    return turned + real_value(node.transform.translation, seconds);
 }
 
 inline RealVector real_to_world(const Scene& scene, int node, RealVector p, Real seconds) {

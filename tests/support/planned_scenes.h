@@ -13,8 +13,8 @@ namespace aleph {
 /// A camera 3 m in front of the origin that looks along -z.
 inline Scene make_empty_view() {
     Scene scene;
-    scene.exposure = 1.0;
-    scene.range = FrameRange{0, 4};
+    scene.film.exposure = 1.0;
+    scene.film.range = FrameRange{0, 4};
     add_camera(scene, {0.0, 0.0, 3.0}, glm::dvec3(0.0));
     return scene;
 }
@@ -36,8 +36,8 @@ inline RenderSettings planned_settings() {
 }
 
 inline int add_material(Scene& scene, double metallic, double roughness) {
-    scene.materials.push_back(
-        {.base_color = glm::dvec3(metallic > 0.0 ? 0.8 : 0.0), .metallic = metallic, .roughness = roughness});
+    scene.materials.push_back({.base_color = glm::dvec3(metallic > 0.0 ? 0.8 : 0.0),
+                               .gloss = {.metallic = metallic, .roughness = roughness}});
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
@@ -51,7 +51,7 @@ inline TextureRef add_texture(Scene& scene, const glm::u8vec4& texel) {
 }
 
 inline void make_surroundings(Scene& scene, double radiance) {
-    scene.environment = Track<glm::dvec3>(glm::dvec3(radiance));
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(radiance));
 }
 
 /// Names of the effects that a plan does not skip.
@@ -77,7 +77,7 @@ inline double largest_difference(const Scene& scene, const FrameOutput& a, const
     double largest = 0.0;
     for (std::size_t i = 0; i < a.shaded.color.size(); ++i) {
         const double difference = luminance(a.shaded.color.pixels[i]) - luminance(b.shaded.color.pixels[i]);
-        largest = std::max(largest, std::abs(difference) * scene.viewing.display_white);
+        largest = std::max(largest, std::abs(difference) * scene.film.viewing.display_white);
     }
     return largest;
 }

@@ -16,8 +16,10 @@ namespace aleph {
 /// A surface without glossy reflection, whose albedo is exactly `albedo`.
 inline int add_lambert(Scene& scene, const glm::dvec3& albedo, const glm::dvec3& emission = glm::dvec3(0.0),
                        bool double_sided = false) {
-    scene.materials.push_back(
-        {.base_color = albedo, .metallic = 0.0, .emission = emission, .specular = 0.0, .double_sided = double_sided});
+    scene.materials.push_back({.base_color = albedo,
+                               .glow = {.color = emission},
+                               .gloss = {.metallic = 0.0, .specular = 0.0},
+                               .double_sided = double_sided});
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
@@ -62,7 +64,7 @@ inline const glm::dquat z_to_up = glm::angleAxis(-std::numbers::pi / 2, glm::dve
 inline const glm::dquat z_to_down = glm::angleAxis(std::numbers::pi / 2, glm::dvec3(1.0, 0.0, 0.0));
 
 inline int add_node(Scene& scene, const glm::dvec3& translation, const glm::dquat& rotation, int parent = no_index) {
-    scene.nodes.push_back({.parent = parent, .translation = translation, .rotation = rotation});
+    scene.nodes.push_back({.parent = parent, .transform = {.translation = translation, .rotation = rotation}});
     return static_cast<int>(scene.nodes.size()) - 1;
 }
 
@@ -112,8 +114,8 @@ inline void add_surroundings(Scene& scene, const Image<Rgb>& picture) {
     SceneImage image{.floats = Image<glm::vec4>(picture.width, picture.height)};
     for (std::size_t i = 0; i < picture.size(); ++i) image.floats.pixels[i] = glm::vec4(picture.pixels[i], 1.0f);
     scene.images.push_back(std::move(image));
-    scene.environment_image = static_cast<int>(scene.images.size()) - 1;
-    scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
+    scene.environment.image = static_cast<int>(scene.images.size()) - 1;
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
 }
 
 /// A scene at one time, seen by its first camera (or by one at the origin), with everything that shading needs.
@@ -159,7 +161,7 @@ inline SurfaceMaterial make_lambert(float albedo) {
 
 /// A white metal.
 inline SurfaceMaterial make_metal(float alpha) {
-    return {.f0 = Rgb(1.0f), .f90 = 1.0f, .alpha = alpha};
+    return {.gloss = {.f0 = Rgb(1.0f), .f90 = 1.0f, .alpha = alpha}};
 }
 
 /// One pixel sample, uniform accuracy, exposure 1.
@@ -201,8 +203,8 @@ inline Mean mean_of_pixels(const ShadedFrame& frame) {
 
 /// Adds a camera at z = 5 m that looks along -z, by parallel rays; and exposure and range are those of a simple shot.
 inline void add_flat_view(Scene& scene, double half_height, const glm::dvec2& shutter = glm::dvec2(0.0)) {
-    scene.exposure = 1.0;
-    scene.range = FrameRange{0, 100};
+    scene.film.exposure = 1.0;
+    scene.film.range = FrameRange{0, 100};
     add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
     Camera& camera = scene.cameras.back();
     camera.orthographic = true;

@@ -19,7 +19,7 @@ inline Scene make_shot() {
              glm::angleAxis(std::numbers::pi / 2, glm::dvec3(0, 1, 0)));
     add_light(scene, Light::Kind::point, glm::dvec3(8.0), {-1.0, 2.5, -1.0});
     add_camera(scene, {0.5, 1.5, 4.0}, {-0.5, 1.0, -2.0});
-    scene.range = FrameRange{0, shot_frames - 1};
+    scene.film.range = FrameRange{0, shot_frames - 1};
     return scene;
 }
 
@@ -34,14 +34,14 @@ inline Track<glm::dvec3> move_between(const glm::dvec3& from, const glm::dvec3& 
 inline Scene make_shot_with_mover() {
     Scene scene = make_shot();
     const int node = add_mesh(scene, make_box(glm::dvec3(0.3), 0));
-    scene.nodes[node].translation = move_between({1.6, 0.15, -2.6}, {2.2, 0.15, -2.6});
+    scene.nodes[node].transform.translation = move_between({1.6, 0.15, -2.6}, {2.2, 0.15, -2.6});
     return scene;
 }
 
 /// make_shot with a camera that moves to the side.
 inline Scene make_shot_with_moving_camera() {
     Scene scene = make_shot();
-    scene.nodes.back().translation = move_between({0.5, 1.5, 4.0}, {1.5, 1.5, 4.0});
+    scene.nodes.back().transform.translation = move_between({0.5, 1.5, 4.0}, {1.5, 1.5, 4.0});
     return scene;
 }
 

@@ -22,21 +22,21 @@ inline TestCage make_cage(const std::vector<glm::dvec3>& points, const std::vect
     result.cage.scheme = scheme;
     result.points = points;
     for (const auto& face : faces) {
-        result.cage.face_sizes.push_back(static_cast<int>(face.size()));
-        result.cage.face_points.insert(result.cage.face_points.end(), face.begin(), face.end());
+        result.cage.faces.sizes.push_back(static_cast<int>(face.size()));
+        result.cage.faces.points.insert(result.cage.faces.points.end(), face.begin(), face.end());
     }
     return result;
 }
 
 inline void add_crease(Cage& cage, const std::vector<int>& chain, float sharpness) {
-    cage.crease_lengths.push_back(static_cast<int>(chain.size()));
-    cage.crease_points.insert(cage.crease_points.end(), chain.begin(), chain.end());
-    cage.crease_sharpness.push_back(sharpness);
+    cage.creases.lengths.push_back(static_cast<int>(chain.size()));
+    cage.creases.points.insert(cage.creases.points.end(), chain.begin(), chain.end());
+    cage.creases.sharpness.push_back(sharpness);
 }
 
 inline void add_corner(Cage& cage, int point, float sharpness) {
-    cage.corner_points.push_back(point);
-    cage.corner_sharpness.push_back(sharpness);
+    cage.corners.points.push_back(point);
+    cage.corners.sharpness.push_back(sharpness);
 }
 
 /// Edge 2, about the origin. Points by bits: x 1, y 2, z 4. Faces -x, +x, -y, +y, -z, +z.
@@ -106,22 +106,22 @@ inline ReferenceMesh make_reference(const TestCage& from) {
     ReferenceMesh mesh;
     mesh.points = from.points;
     std::size_t begin = 0;
-    for (const int size : from.cage.face_sizes) {
-        const auto first = from.cage.face_points.begin() + static_cast<std::ptrdiff_t>(begin);
+    for (const int size : from.cage.faces.sizes) {
+        const auto first = from.cage.faces.points.begin() + static_cast<std::ptrdiff_t>(begin);
         mesh.faces.emplace_back(first, first + size);
         begin += static_cast<std::size_t>(size);
     }
     begin = 0;
-    for (std::size_t c = 0; c < from.cage.crease_lengths.size(); ++c) {
-        const auto length = static_cast<std::size_t>(from.cage.crease_lengths[c]);
+    for (std::size_t c = 0; c < from.cage.creases.lengths.size(); ++c) {
+        const auto length = static_cast<std::size_t>(from.cage.creases.lengths[c]);
         for (std::size_t i = begin; i + 1 < begin + length; ++i) {
-            mesh.creases[ReferenceMesh::edge(from.cage.crease_points[i], from.cage.crease_points[i + 1])] =
-                static_cast<double>(from.cage.crease_sharpness[c]);
+            mesh.creases[ReferenceMesh::edge(from.cage.creases.points[i], from.cage.creases.points[i + 1])] =
+                static_cast<double>(from.cage.creases.sharpness[c]);
         }
         begin += length;
     }
-    for (std::size_t c = 0; c < from.cage.corner_points.size(); ++c) {
-        mesh.corners[from.cage.corner_points[c]] = static_cast<double>(from.cage.corner_sharpness[c]);
+    for (std::size_t c = 0; c < from.cage.corners.points.size(); ++c) {
+        mesh.corners[from.cage.corners.points[c]] = static_cast<double>(from.cage.corners.sharpness[c]);
     }
     if (from.cage.boundary == Cage::Boundary::edge_and_corner) {
         const auto points = reference_points(mesh);

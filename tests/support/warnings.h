@@ -10,7 +10,7 @@
 namespace aleph {
 
 inline std::ptrdiff_t count_warnings(const Scene& scene, const std::string& words) {
-    return std::ranges::count_if(scene.warnings,
+    return std::ranges::count_if(scene.source.warnings,
                                  [&](const std::string& text) { return text.find(words) != std::string::npos; });
 }
 

@@ -86,9 +86,10 @@ void check_nodes(GltfCheck& check) {
             if (!seen.insert(index).second) root.fail(fmt::format("node {} is listed twice", index));
         }
     });
-    check.root.find_index("scene", check.counts.scenes, "scene");
-    if (check.counts.scenes > 1) {
-        check.warn(check.root, fmt::format("of {} scenes only the default one is read", check.counts.scenes));
+    const std::size_t scenes = count_of(check.root, "scenes");
+    check.root.find_index("scene", scenes, "scene");
+    if (scenes > 1) {
+        check.warn(check.root, fmt::format("of {} scenes only the default one is read", scenes));
     }
 }
 

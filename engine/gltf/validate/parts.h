@@ -24,7 +24,7 @@ struct AccessorInfo {
 /// How many elements of each kind the file has: what indices are checked against.
 struct GltfCounts {
     std::size_t buffers = 0, views = 0, accessors = 0, images = 0, samplers = 0, textures = 0, materials = 0,
-                meshes = 0, nodes = 0, cameras = 0, scenes = 0, skins = 0, lights = 0;
+                meshes = 0, nodes = 0, cameras = 0, skins = 0, lights = 0;
 };
 
 struct GltfCheck {

@@ -86,7 +86,6 @@ GltfCounts count_elements(const JsonRef& root) {
     counts.meshes = count_of(root, "meshes");
     counts.nodes = count_of(root, "nodes");
     counts.cameras = count_of(root, "cameras");
-    counts.scenes = count_of(root, "scenes");
     counts.skins = count_of(root, "skins");
     if (const ExtensionRef lights(root, "KHR_lights_punctual"); lights) counts.lights = count_of(*lights, "lights");
     return counts;

@@ -81,7 +81,7 @@ int explain(const ExplainOptions& options) {
         print_json(explain_moment(scene, options.at));
     } else {
         RenderSettings settings;
-        apply_settings(settings, scene.settings, options.scene);
+        apply_settings(settings, scene.source.settings, options.scene);
         SettingMap given = options.settings;
         set_scene_numbers(scene, given, "--set");
         apply_settings(settings, given, "");

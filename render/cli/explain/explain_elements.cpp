@@ -43,11 +43,12 @@ ordered_json to_json(const Bounds& bounds) {
 }
 
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh) {
-    if (mesh.skin != no_index) return mesh.targets.empty() ? "skin" : "morph targets, skin";
-    if (!mesh.targets.empty()) return "morph targets";
-    const int cache = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
+    if (mesh.deformation.skin != no_index) return mesh.deformation.targets.empty() ? "skin" : "morph targets, skin";
+    if (!mesh.deformation.targets.empty()) return "morph targets";
+    const int cache =
+        mesh.subdivision.cage == no_index ? mesh.deformation.points : scene.cages[mesh.subdivision.cage].points;
     const bool moves = cache != no_index && is_animated(scene.point_caches[cache]);
-    if (moves) return mesh.cage == no_index ? "points" : "cage points";
+    if (moves) return mesh.subdivision.cage == no_index ? "points" : "cage points";
     return nullptr;
 }
 
@@ -61,7 +62,7 @@ bool is_area_light(const Scene& scene, const Node& node) {
 ordered_json describe_node(const Scene& scene, std::size_t index, const NodePaths& paths) {
     const Node& node = scene.nodes[index];
     ordered_json out = {{"path", paths[index]}, {"name", node.name}, {"depth", paths.depth(index)}};
-    if (node.include != no_index) out["from"] = scene.includes[node.include].path;
+    if (node.include != no_index) out["from"] = scene.source.includes[node.include].path;
     if (!node.meshes.empty()) {
         std::size_t triangles = 0;
         ordered_json materials = ordered_json::array();
@@ -75,7 +76,7 @@ ordered_json describe_node(const Scene& scene, std::size_t index, const NodePath
                                                                            static_cast<std::size_t>(material));
             if (std::find(materials.begin(), materials.end(), name) == materials.end()) materials.push_back(name);
             if (const char* how = how_it_deforms(scene, mesh)) deforms = how;
-            if (mesh.cage != no_index) out["subdivision_level"] = scene.cages[mesh.cage].level;
+            if (mesh.subdivision.cage != no_index) out["subdivision_level"] = scene.cages[mesh.subdivision.cage].level;
         }
         out["triangles"] = triangles;
         out["materials"] = std::move(materials);
@@ -112,7 +113,7 @@ ordered_json describe_materials(const Scene& scene) {
         const Material& material = scene.materials[i];
         ordered_json item = {{"name", name_or_number(material.name, "material", i)}};
         for (const auto& field : material_textures) {
-            const int index = (material.*field.member).image;
+            const int index = material.textures[field.slot].image;
             if (index == no_index) continue;
             item["textures"][texture_name(field.key)] = path_or_name(scene, index);
         }
@@ -135,15 +136,15 @@ ordered_json describe_images(const Scene& scene) {
 }
 
 ordered_json describe_environment(const Scene& scene) {
-    if (!scene.environment) return nullptr;
-    const ordered_json radiance = to_json(key_value(*scene.environment, 0));
+    if (!scene.environment.radiance) return nullptr;
+    const ordered_json radiance = to_json(key_value(*scene.environment.radiance, 0));
     ordered_json out = {{"radiance", radiance}};
-    if (scene.environment_image != no_index) {
-        const auto& about_axis = scene.environment_axis_rotation;
+    if (scene.environment.image != no_index) {
+        const auto& about_axis = scene.environment.axis_rotation;
         out = {{"factor", radiance},
-               {"image", path_or_name(scene, scene.environment_image)},
-               {"size", size_of(scene.images[scene.environment_image])},
-               {"rotates", about_axis ? is_animated(about_axis->angle) : is_animated(scene.environment_rotation)}};
+               {"image", path_or_name(scene, scene.environment.image)},
+               {"size", size_of(scene.images[scene.environment.image])},
+               {"rotates", about_axis ? is_animated(about_axis->angle) : is_animated(scene.environment.rotation)}};
     }
     out["animated"] = list_environment_tracks(scene);
     return out;

@@ -27,7 +27,8 @@ ordered_json to_rows(const glm::dmat4& m) {
 /// The points as the file has them: those of the point cache or cage if the mesh has one, else the vertices.
 std::vector<glm::dvec3> source_points(const Scene& scene, const ScenePose& posed_scene, int mesh_index) {
     const Mesh& mesh = scene.meshes[mesh_index];
-    const int cache = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
+    const int cache =
+        mesh.subdivision.cage == no_index ? mesh.deformation.points : scene.cages[mesh.subdivision.cage].points;
     if (cache != no_index) return sample_points(scene.point_caches[cache], posed_scene.seconds);
     const PosedMesh& posed = posed_scene.meshes[mesh_index];
     if (!posed.positions.empty()) return posed.positions;
@@ -42,8 +43,8 @@ ordered_json describe_points(const Scene& scene, const ScenePose& posed_scene, c
     for (const int index : node.meshes) {
         const Mesh& mesh = scene.meshes[index];
         if (mesh.present.key_count() > 1 && evaluate(mesh.present, posed_scene.seconds) == 0.0) continue;
-        const bool own = mesh.cage == no_index && mesh.points == no_index;
-        if (!own && !counted.emplace(std::pair(mesh.cage, mesh.points), true).second) continue;
+        const bool own = mesh.subdivision.cage == no_index && mesh.deformation.points == no_index;
+        if (!own && !counted.emplace(std::pair(mesh.subdivision.cage, mesh.deformation.points), true).second) continue;
         const std::vector<glm::dvec3> points = source_points(scene, posed_scene, index);
         for (std::size_t i = 0; i < points.size() && first.size() < shown_points; ++i)
             first.push_back(to_json(points[i]));

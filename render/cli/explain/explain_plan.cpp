@@ -52,7 +52,7 @@ std::vector<int> choose_planned_frames(const Scene& scene) {
         const std::int64_t offset = steps == 0 ? 0 : length / steps * i + length % steps * i / steps;
         frames.insert(static_cast<int>(range.first + offset));
     }
-    for (const std::int64_t cut : scene.cuts) {
+    for (const std::int64_t cut : scene.film.cuts) {
         if (frames.size() < most_shots && cut >= range.first && cut <= range.last) frames.insert(static_cast<int>(cut));
     }
     return {frames.begin(), frames.end()};

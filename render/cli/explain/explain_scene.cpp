@@ -27,15 +27,15 @@ constexpr std::int64_t max_bounds_frames = 33;
 
 ordered_json describe_frames(const Scene& scene) {
     const FrameRange range = frame_range(scene);
-    const FrameRate& rate = scene.frame_rate;
+    const FrameRate& rate = scene.film.frame_rate;
     return {{"per_second", rate.denominator == 1 ? fmt::format("{}", rate.numerator)
                                                  : fmt::format("{}/{}", rate.numerator, rate.denominator)},
             {"first", range.first},
             {"last", range.last},
-            {"from", scene.range ? "given" : "keys"},
+            {"from", scene.film.range ? "given" : "keys"},
             {"first_second", rate.seconds_of(range.first)},
             {"last_second", rate.seconds_of(range.last)},
-            {"cuts", scene.cuts}};
+            {"cuts", scene.film.cuts}};
 }
 
 ordered_json count_elements(const Scene& scene) {
@@ -70,13 +70,13 @@ ordered_json count_elements(const Scene& scene) {
             {"area_lights", area_lights},
             {"cameras", scene.cameras.size()},
             {"skins", scene.skins.size()},
-            {"includes", scene.includes.size()}};
+            {"includes", scene.source.includes.size()}};
 }
 
 ordered_json describe_bounds(const Scene& scene) {
     const FrameRange range = frame_range(scene);
     const auto at_frame = [&](std::int64_t number, Bounds& bounds) {
-        const ScenePose posed = pose(scene, scene.frame_rate.seconds_of(number));
+        const ScenePose posed = pose(scene, scene.film.frame_rate.seconds_of(number));
         for (std::size_t i = 0; i < posed.instances.size(); ++i)
             if (posed.shown[i] != 0) add_instance(bounds, scene, posed, posed.instances[i]);
     };
@@ -130,11 +130,12 @@ Use find_use(const Scene& scene) {
         use.lights.insert(node.light);
         use.cameras.insert(node.camera);
     }
-    use.images.insert(scene.environment_image);
+    use.images.insert(scene.environment.image);
     for (const int mesh : use.meshes) use.materials.insert(scene.meshes[mesh].material);
     for (const int material : use.materials) {
         if (material == no_index) continue;
-        for (const auto& field : material_textures) use.images.insert((scene.materials[material].*field.member).image);
+        for (const auto& field : material_textures)
+            use.images.insert(scene.materials[material].textures[field.slot].image);
     }
     return use;
 }
@@ -159,14 +160,14 @@ void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& 
                    const std::vector<int>& frames) {
     try {
         Sequence sequence(scene, settings, camera);
-        const ScenePose posed = pose(scene, scene.frame_rate.seconds_of(frame_range(scene).first));
+        const ScenePose posed = pose(scene, scene.film.frame_rate.seconds_of(frame_range(scene).first));
         const std::vector<CameraShot> shots = list_camera_shots(scene, camera);
         const auto name = [&](const CameraShot& shot) { return scene.nodes[posed.cameras[shot.camera].node].name; };
         out["camera"] = name(shots.front());
         for (std::size_t i = 1; i < shots.size(); ++i) {
             out["camera_changes"].push_back({{"frame", shots[i].first}, {"camera", name(shots[i])}});
         }
-        out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.exposure ? "given" : "first frame"}};
+        out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.film.exposure ? "given" : "first frame"}};
         for (const CameraShot& shot : shots) find_lens(scene, posed.cameras[shot.camera]);
         out["plan_frames"] = frames;
         out["plan"] = explain_plan(sequence, frames);
@@ -198,9 +199,9 @@ std::vector<std::size_t> tree_order(const Scene& scene) {
 
 ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, const std::string& camera,
                            const std::vector<int>& frames) {
-    ordered_json out = {{"file", scene.file}, {"name", scene.name}};
+    ordered_json out = {{"file", scene.source.file}, {"name", scene.source.name}};
     out["units"] = {{"length", "m"}, {"time", "s"}, {"angle", "degrees"}, {"axes", "right-handed, y up"}};
-    out["warnings"] = scene.warnings;
+    out["warnings"] = scene.source.warnings;
     out["frames"] = describe_frames(scene);
     describe_view(out, scene, settings, camera, frames);
     out["environment"] = describe_environment(scene);
@@ -221,7 +222,7 @@ ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, c
     out["materials"] = std::move(materials);
     out["images"] = describe_images(scene);
     out["includes"] = ordered_json::array();
-    for (const Include& include : scene.includes) out["includes"].push_back(include.path);
+    for (const Include& include : scene.source.includes) out["includes"].push_back(include.path);
     out["unused"] = list_unused(scene, find_use(scene));
     return out;
 }

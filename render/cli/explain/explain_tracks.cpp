@@ -41,7 +41,7 @@ class TrackList {
 
     template <class Element, class Fields>
     void add_all(const Element& element, const Fields& fields) {
-        for (const auto& field : fields) add(field.key, element.*field.member);
+        for (const auto& field : fields) add(field.key, field.in(element));
     }
 
     void add(const std::string& property, const TimeSampling& sampling, std::size_t samples,
@@ -70,15 +70,16 @@ void add_rotation(TrackList& list, const std::string& key, const Track<glm::dqua
 }
 
 void add_transform(TrackList& list, const Node& node) {
-    if (node.operations) {
-        list.add("operations", node.operations->sampling, sample_count(*node.operations), Interpolation::linear,
-                 is_animated(*node.operations));
-    } else if (node.matrix) {
-        list.add("matrix", *node.matrix);
+    const LocalTransform& local = node.transform;
+    if (local.operations) {
+        list.add("operations", local.operations->sampling, sample_count(*local.operations), Interpolation::linear,
+                 is_animated(*local.operations));
+    } else if (local.matrix) {
+        list.add("matrix", *local.matrix);
     } else {
-        list.add("translation", node.translation);
-        add_rotation(list, "rotation", node.rotation, node.axis_rotation);
-        list.add("scale", node.scale);
+        list.add("translation", local.translation);
+        add_rotation(list, "rotation", local.rotation, local.axis_rotation);
+        list.add("scale", local.scale);
     }
     list.add("inherits", node.inherits);
     list.add("visible", node.visible);
@@ -93,10 +94,12 @@ ordered_json list_tracks(const Scene& scene, const Node& node) {
     for (const int index : node.meshes) {
         const Mesh& mesh = scene.meshes[index];
         list.add("present", mesh.present);
-        for (std::size_t i = 0; i < mesh.target_weights.size(); ++i)
-            list.add(fmt::format("weights[{}]", i), mesh.target_weights[i]);
-        list.add("normals", mesh.normal_sampling, mesh.normal_samples.size(), Interpolation::linear, true);
-        const int points = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
+        for (std::size_t i = 0; i < mesh.deformation.target_weights.size(); ++i)
+            list.add(fmt::format("weights[{}]", i), mesh.deformation.target_weights[i]);
+        list.add("normals", mesh.deformation.normal_sampling, mesh.deformation.normal_samples.size(),
+                 Interpolation::linear, true);
+        const int points =
+            mesh.subdivision.cage == no_index ? mesh.deformation.points : scene.cages[mesh.subdivision.cage].points;
         if (points == no_index || points == points_listed) continue;
         points_listed = points;
         const PointCache& cache = scene.point_caches[points];
@@ -115,8 +118,8 @@ ordered_json list_tracks(const Material& material) {
 
 ordered_json list_environment_tracks(const Scene& scene) {
     TrackList list;
-    if (scene.environment) list.add("environment", *scene.environment);
-    add_rotation(list, "environment_rotation", scene.environment_rotation, scene.environment_axis_rotation);
+    if (scene.environment.radiance) list.add("environment", *scene.environment.radiance);
+    add_rotation(list, "environment_rotation", scene.environment.rotation, scene.environment.axis_rotation);
     return list.take();
 }
 

@@ -37,7 +37,7 @@ void expect_same(const std::string& name, const std::vector<View>& views, int fr
     const std::filesystem::path folder = source_folder() / "tests/assets/abc";
     const Scene archive = load_scene(folder / (name + ".abc"));
     const Scene authored = load_scene(folder / (name + ".scene.json"));
-    EXPECT_EQ(authored.frame_rate, archive.frame_rate);
+    EXPECT_EQ(authored.film.frame_rate, archive.film.frame_rate);
     EXPECT_EQ(frame_range(authored), frame_range(archive));
     double worst_distance = 0.0, worst_motion = 0.0, largest_motion = 0.0;
     for (const View& view : views) {

@@ -90,8 +90,9 @@ TEST(AlembicBadFile, WarningsAreFew) {
     const ScratchFolder folder;
     OgawaDraft draft;
     const Scene scene = load_scene(write_draft(folder / "many.abc", draft.finish(objects)));
-    EXPECT_LT(scene.warnings.size(), 110u);
-    EXPECT_NE(scene.warnings[100].find("and 200 more warnings"), std::string::npos) << scene.warnings[100];
+    EXPECT_LT(scene.source.warnings.size(), 110u);
+    EXPECT_NE(scene.source.warnings[100].find("and 200 more warnings"), std::string::npos)
+        << scene.source.warnings[100];
 }
 
 TEST(AlembicBadFile, TransformsThatDoNotFit) {

@@ -64,13 +64,13 @@ TEST(AlembicDrafts, AnUnfoldedCubeHasAVertexForEachPointAndCoordinate) {
     const Scene scene = load({draft_mesh("cube", {points}, {std::vector<int>(6, 4)}, {faces}, {indexed})});
     const Mesh& cube = mesh_of(scene, "cube");
     EXPECT_EQ(cube.triangles.size(), 12u);
-    ASSERT_EQ(cube.vertex_points.size(), 18u);
+    ASSERT_EQ(cube.deformation.vertex_points.size(), 18u);
     ASSERT_EQ(cube.uv[0].size(), 18u);
     for (std::size_t corner = 0; corner < faces.size(); ++corner) {
         const auto at = static_cast<std::size_t>(coordinates[corner]);
         int found = 0;
         for (std::size_t i = 0; i < 18; ++i)
-            found += cube.vertex_points[i] == static_cast<std::uint32_t>(faces[corner]) &&
+            found += cube.deformation.vertex_points[i] == static_cast<std::uint32_t>(faces[corner]) &&
                      cube.uv[0][i] == glm::vec2(uv[2 * at], 1.0f - uv[2 * at + 1]);
         EXPECT_EQ(found, 1) << corner;
     }
@@ -120,7 +120,7 @@ TEST(AlembicDrafts, CameraWithAFilmBackUnderEvenAcyclicTimes) {
                          draft_scalar<double>(".filmBackChannels", DraftProperty::f64, {{0.5, -0.25, 2, 3}})})},
         {}};
     const Scene scene = load({draft_moved("rig", moves, {camera})}, times);
-    EXPECT_EQ(scene.frame_rate, (FrameRate{24, 1}));
+    EXPECT_EQ(scene.film.frame_rate, (FrameRate{24, 1}));
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 20}));
     ASSERT_EQ(scene.cameras.size(), 1u);
     for (const int i : {0, 7, 19, 20}) {
@@ -151,7 +151,7 @@ TEST(AlembicForeign, WhatThereIsToSee) {
         if (!std::filesystem::exists(archive_path(name))) GTEST_SKIP() << missing_asset(archive_path(name));
     const Scene cube = load("indexedTextureCoordinates");
     EXPECT_EQ(mesh_of(cube, "CubeShape").triangles.size(), 12u);
-    EXPECT_EQ(mesh_of(cube, "CubeShape").vertex_points.size(), mesh_of(cube, "CubeShape").uv[0].size());
+    EXPECT_EQ(mesh_of(cube, "CubeShape").deformation.vertex_points.size(), mesh_of(cube, "CubeShape").uv[0].size());
     const Scene nested = load("nestedInstancing");
     EXPECT_EQ(list_instances(nested).size(), 12u);  // 3 meshes, 4 times each
     EXPECT_EQ(nested.meshes.size(), 3u);
@@ -161,7 +161,7 @@ TEST(AlembicForeign, WhatThereIsToSee) {
             EXPECT_GT(glm::dot(triangle_normal(mesh.positions, t), glm::dvec3(mesh.normals[t.x])), 0.0);
     }
     const Scene camera = load("testAbcCamera");
-    EXPECT_EQ(camera.frame_rate, (FrameRate{24, 1}));  // acyclic, evenly spaced
+    EXPECT_EQ(camera.film.frame_rate, (FrameRate{24, 1}));  // acyclic, evenly spaced
     EXPECT_EQ(frame_range(camera), (FrameRange{0, 20}));
     EXPECT_EQ(camera.cameras.size(), 1u);
     EXPECT_TRUE(is_animated(camera.nodes[pose(camera, 0.0).cameras[0].node].visible) ||

@@ -25,11 +25,11 @@ TEST(AlembicMaterials, AssignmentsToTheMeshAndToFaceSets) {
     };
     EXPECT_EQ(part("red").triangles.size(), 2u);  // face 4: the sides and face 5 are assigned away
     ASSERT_EQ(scene.materials.size(), 3u);
-    for (const Material& material : scene.materials) EXPECT_EQ(material.metallic, Track<double>(0.0));
+    for (const Material& material : scene.materials) EXPECT_EQ(material.gloss.metallic, Track<double>(0.0));
     const auto close = [](const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < 1e-6; };
     const Material& red = scene.materials[part("red").material];
     EXPECT_TRUE(close(red.base_color.values[0], {0.8, 0.1, 0.05}));
-    EXPECT_NEAR(red.roughness.values[0], 0.25, 1e-7);
+    EXPECT_NEAR(red.gloss.roughness.values[0], 0.25, 1e-7);
     // Two are called blue: the sides' own, and one that the archive does not have.
     std::size_t triangles = 0;
     for (const int mesh : node_named(scene, "box").meshes) triangles += scene.meshes[mesh].triangles.size();
@@ -43,33 +43,33 @@ TEST(AlembicSubdivision, CreasesCornersHolesAndRules) {
     const json truth = truth_of("subd_creases");
     const json& object = object_of(truth, "/cage");
     const json& sample = object["subd"]["samples"][0];
-    const Cage& cage = scene.cages[mesh_of(scene, "cage").cage];
+    const Cage& cage = scene.cages[mesh_of(scene, "cage").subdivision.cage];
     EXPECT_EQ(cage.scheme, Cage::Scheme::catmull_clark);
     EXPECT_EQ(cage.boundary, Cage::Boundary::edge_only);          // 2
     EXPECT_EQ(cage.uv_rule, Cage::UvRule::linear_corners_plus1);  // 1, corners not propagated
-    EXPECT_EQ(cage.crease_points, sample["creaseIndices"].get<std::vector<int>>());
-    EXPECT_EQ(cage.crease_lengths, sample["creaseLengths"].get<std::vector<int>>());
-    EXPECT_EQ(cage.crease_sharpness, sample["creaseSharpnesses"].get<std::vector<float>>());
-    EXPECT_EQ(cage.corner_points, sample["cornerIndices"].get<std::vector<int>>());
-    EXPECT_EQ(cage.corner_sharpness, sample["cornerSharpnesses"].get<std::vector<float>>());
-    EXPECT_EQ(cage.holes, sample["holes"].get<std::vector<int>>());
+    EXPECT_EQ(cage.creases.points, sample["creaseIndices"].get<std::vector<int>>());
+    EXPECT_EQ(cage.creases.lengths, sample["creaseLengths"].get<std::vector<int>>());
+    EXPECT_EQ(cage.creases.sharpness, sample["creaseSharpnesses"].get<std::vector<float>>());
+    EXPECT_EQ(cage.corners.points, sample["cornerIndices"].get<std::vector<int>>());
+    EXPECT_EQ(cage.corners.sharpness, sample["cornerSharpnesses"].get<std::vector<float>>());
+    EXPECT_EQ(cage.faces.holes, sample["holes"].get<std::vector<int>>());
 
     // Faces backwards, each with its texture coordinates.
     const auto indices = property_of(object, ".faceIndices")["samples"][0][2].get<std::vector<int>>();
     const auto uv = object["subd"]["uv"]["expanded_samples"][0][1].get<std::vector<float>>();
-    ASSERT_EQ(cage.face_sizes, std::vector<int>(6, 4));
+    ASSERT_EQ(cage.faces.sizes, std::vector<int>(6, 4));
     for (std::size_t f = 0; f < 6; ++f) {
         for (std::size_t i = 0; i < 4; ++i) {
             const std::size_t ours = 4 * f + i, theirs = 4 * f + (4 - i) % 4;
-            EXPECT_EQ(cage.face_points[ours], indices[theirs]);
-            const glm::vec2 found = cage.uv[cage.face_uv[ours]];
+            EXPECT_EQ(cage.faces.points[ours], indices[theirs]);
+            const glm::vec2 found = cage.uv[cage.faces.uv[ours]];
             EXPECT_EQ(found, glm::vec2(uv[2 * theirs], 1.0f - uv[2 * theirs + 1]));
         }
     }
-    const Cage& plain = scene.cages[mesh_of(scene, "tetra").cage];
+    const Cage& plain = scene.cages[mesh_of(scene, "tetra").subdivision.cage];
     EXPECT_EQ(plain.boundary, Cage::Boundary::none);
     EXPECT_EQ(plain.uv_rule, Cage::UvRule::linear_all);
-    EXPECT_TRUE(plain.holes.empty());
+    EXPECT_TRUE(plain.faces.holes.empty());
     for (const char* name : {"cage", "tetra"}) EXPECT_GT(mesh_of(scene, name).triangles.size(), 50u);
 }
 
@@ -130,9 +130,9 @@ TEST(AlembicInclude, HangsBelowANodeOfASceneFile) {
     std::ofstream(folder / "s.json") << R"({"aleph": 1, "fps": 30, "frames": [0, 8], "nodes": [
         {"name": "stage", "translation": [0, 5, 0], "include": "p.abc"}]})";
     const Scene scene = load_scene(folder / "s.json");
-    EXPECT_EQ(scene.frame_rate, (FrameRate{30, 1}));
+    EXPECT_EQ(scene.film.frame_rate, (FrameRate{30, 1}));
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 8}));
-    ASSERT_EQ(scene.includes.size(), 1u);
+    ASSERT_EQ(scene.source.includes.size(), 1u);
     const ScenePose frame = pose(scene, 2.0 / 24.0), own = pose(load("polymesh_anim"), 2.0 / 24.0);
     const Scene alone = load("polymesh_anim");
     for (const char* name : {"wave", "pentagon", "growing"}) {
@@ -143,7 +143,7 @@ TEST(AlembicInclude, HangsBelowANodeOfASceneFile) {
     }
     save_scene(scene, folder / "again.json");
     Scene again = load_scene(folder / "again.json");
-    again.file = scene.file, again.warnings = scene.warnings;
+    again.source.file = scene.source.file, again.source.warnings = scene.source.warnings;
     EXPECT_EQ(again.nodes, scene.nodes);
     EXPECT_EQ(again.meshes, scene.meshes);
     EXPECT_EQ(again.point_caches, scene.point_caches);

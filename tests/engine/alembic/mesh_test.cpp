@@ -28,7 +28,7 @@ TEST(AlembicMeshes, CornersBecomeVertices) {
             const float u = uv[2 * corner].get<float>(), v = 1.0f - uv[2 * corner + 1].get<float>();
             bool found = false;
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-                if (mesh.vertex_points[i] != indices[corner].get<std::uint32_t>()) continue;
+                if (mesh.deformation.vertex_points[i] != indices[corner].get<std::uint32_t>()) continue;
                 if (mesh.uv[0][i] != glm::vec2(u, v) || glm::distance(posed.normals[i], normal) > 1e-6f) continue;
                 found = used[i] = true;
             }
@@ -37,7 +37,7 @@ TEST(AlembicMeshes, CornersBecomeVertices) {
         EXPECT_TRUE(std::ranges::all_of(used, [](bool u) { return u; }));
     }
     EXPECT_EQ(mesh.triangles.size(), 32u);
-    const PointCache& cache = scene.point_caches[mesh.points];
+    const PointCache& cache = scene.point_caches[mesh.deformation.points];
     ASSERT_EQ(cache.velocities.size(), cache.positions.size());
     const json& velocities = property_of(object, ".velocities")["samples"];
     for (std::size_t i = 0; i < cache.velocities.size(); ++i)
@@ -79,7 +79,8 @@ TEST(AlembicMeshes, EveryScopeOfAParameter) {
         std::vector<std::vector<float>> list;  // point, u, v
         const Mesh& mesh = mesh_of(scene, "m");
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            list.push_back({static_cast<float>(mesh.vertex_points[i]), mesh.uv[0][i].x, 1.0f - mesh.uv[0][i].y});
+            list.push_back(
+                {static_cast<float>(mesh.deformation.vertex_points[i]), mesh.uv[0][i].x, 1.0f - mesh.uv[0][i].y});
         std::ranges::sort(list);
         return list;
     };
@@ -129,7 +130,7 @@ TEST(AlembicMeshes, RP15_PointsMoveBetweenChanges) {
         load({draft_mesh("m", {a, b, c, c}, {{3}, {3}, {4}, {4}}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2, 3}, {0, 1, 2, 3}})},
              {0.0, 1.0, 2.0, 3.0});
     ASSERT_EQ(node_named(scene, "m").meshes.size(), 2u);
-    const PointCache& first = scene.point_caches[mesh_of(scene, "m", 0).points];
+    const PointCache& first = scene.point_caches[mesh_of(scene, "m", 0).deformation.points];
     EXPECT_EQ(sample_points(first, 0.5)[0], glm::dvec3(0, 0, 1));
     EXPECT_EQ(sample_points(first, 1.9)[0], glm::dvec3(0, 0, 2));  // holds: not half way to another surface
     EXPECT_EQ(evaluate(mesh_of(scene, "m", 0).present, 1.9), 1.0);

@@ -82,7 +82,7 @@ TEST_P(AlembicScene, OperationsAndLocalTransforms) {
         const Node& node = node_at(scene, path);
         std::vector<Kind> operations;
         for (const json& operation : xform["ops"]) operations.push_back(kinds.at(operation["type"]));
-        const OperationStack stack = node.operations.value_or(OperationStack{});
+        const OperationStack stack = node.transform.operations.value_or(OperationStack{});
         EXPECT_EQ(stack.operations, operations) << path;
         for (const json& sample : xform["samples"]) {
             expect_matrix(evaluate(stack, sample["time"]), sample["matrix"], path + " sample");
@@ -141,7 +141,8 @@ TEST_P(AlembicScene, PointsAtEveryQueryTime) {
                 if (frame.instances[i].node != node || !frame.shown[i]) continue;
                 const auto number = static_cast<std::size_t>(frame.instances[i].mesh);
                 const Mesh& mesh = scene.meshes[number];
-                const int cache = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
+                const int cache = mesh.subdivision.cage == no_index ? mesh.deformation.points
+                                                                    : scene.cages[mesh.subdivision.cage].points;
                 const std::vector<glm::dvec3> points = sample_points(scene.point_caches[cache], seconds);
                 ASSERT_EQ(points.size(), at["count"]) << object["path"] << seconds;
                 const json& first6 = at["first6_positions_lerp"];
@@ -149,11 +150,11 @@ TEST_P(AlembicScene, PointsAtEveryQueryTime) {
                     EXPECT_NEAR(points[k / 3][static_cast<int>(k % 3)], first6[k].get<double>(), 1e-6)
                         << object["path"] << " at " << seconds << " point " << k / 3;
                 ++shown;
-                if (mesh.cage != no_index) continue;
+                if (mesh.subdivision.cage != no_index) continue;
                 const auto& posed = frame.meshes[number].positions;
-                for (std::size_t v = 0; v < mesh.vertex_points.size(); ++v) {
+                for (std::size_t v = 0; v < mesh.deformation.vertex_points.size(); ++v) {
                     const glm::dvec3 p = posed.empty() ? glm::dvec3(mesh.positions[v]) : posed[v];
-                    EXPECT_EQ(p, points[mesh.vertex_points[v]]) << object["path"];
+                    EXPECT_EQ(p, points[mesh.deformation.vertex_points[v]]) << object["path"];
                 }
             }
             EXPECT_GE(shown, 1) << object["path"] << seconds;
@@ -169,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(All, AlembicScene, testing::ValuesIn(all_archives()),
 TEST(AlembicTiming, RateAndRangeAreTheArchives) {
     const auto timing = [](const std::string& name) {
         const Scene scene = load_archive(name);
-        return std::pair{scene.frame_rate, frame_range(scene)};
+        return std::pair{scene.film.frame_rate, frame_range(scene)};
     };
     EXPECT_EQ(timing("xform_uniform"), (std::pair{FrameRate{24, 1}, FrameRange{1, 10}}));
     EXPECT_EQ(timing("camera_anim"), (std::pair{FrameRate{24, 1}, FrameRange{1, 6}}));

@@ -13,18 +13,18 @@ TEST_F(GltfAnimation, KF12_KF13_LinearAndStepAtKeysBetweenAndOutside) {
     draft.animate(0, "translation", {0.5f, 1.0f, 2.0f}, {0, 0, 0, 4, 0, 0, 4, 8, 0});
     draft.animate(0, "scale", {0.0f, 1.0f}, {1, 1, 1, 3, 3, 3}, "STEP");
     const Scene scene = load(draft);
-    const auto& move = scene.nodes[0].translation;
+    const auto& move = scene.nodes[0].transform.translation;
     EXPECT_EQ(evaluate(move, 0.0), glm::dvec3(0, 0, 0));
     EXPECT_EQ(evaluate(move, 0.5), glm::dvec3(0, 0, 0));
     EXPECT_EQ(evaluate(move, 0.625), glm::dvec3(1, 0, 0));
     EXPECT_EQ(evaluate(move, 1.0), glm::dvec3(4, 0, 0));
     EXPECT_EQ(evaluate(move, 1.75), glm::dvec3(4, 6, 0));
     EXPECT_EQ(evaluate(move, 9.0), glm::dvec3(4, 8, 0));
-    const auto& size = scene.nodes[0].scale;
+    const auto& size = scene.nodes[0].transform.scale;
     EXPECT_EQ(size.interpolation, Interpolation::step);
     EXPECT_EQ(evaluate(size, 0.999), glm::dvec3(1.0));
     EXPECT_EQ(evaluate(size, 1.0), glm::dvec3(3.0));
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_TRUE(scene.source.warnings.empty());
 }
 
 TEST_F(GltfAnimation, RotationKeysTurnByTheShorterArc) {
@@ -50,11 +50,11 @@ TEST_F(GltfAnimation, KF06_QuantisedQuaternionsBecomeUnit) {
         }
         draft.json["animations"][0]["samplers"][0]["output"] = draft.add_accessor<C>(keys, "VEC4", 4, true);
         const Scene scene = load(draft);
-        const glm::dquat q = scene.nodes[0].rotation.values[0];
+        const glm::dquat q = scene.nodes[0].transform.rotation.values[0];
         EXPECT_NEAR(glm::length(q), 1.0, 1e-15);
         EXPECT_NEAR(q.x, parts[0], tolerance);
         EXPECT_NEAR(q.w, parts[3], tolerance);
-        EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+        EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
     };
     check(std::int16_t{}, 3e-5);
     check(std::int8_t{}, 8e-3);
@@ -66,7 +66,7 @@ TEST_F(GltfAnimation, KF07_CubicTangentsCountTimesTheInterval) {
     draft.animate(0, "translation", {1.0f, 3.0f}, {0, 0, 0, 0, 0, 0, 1, 1, 0, -1, 0, 0, 4, 0, 0, 0, 0, 0},
                   "CUBICSPLINE");
     const Scene scene = load(draft);
-    const auto& move = scene.nodes[0].translation;
+    const auto& move = scene.nodes[0].transform.translation;
     EXPECT_EQ(move.interpolation, Interpolation::cubic);
     EXPECT_EQ(evaluate(move, 2.0), glm::dvec3(2.0 + 0.5, 0.25, 0));
     const double s = 0.1,
@@ -82,7 +82,7 @@ TEST_F(GltfAnimation, KF09_CubicWithOneKeyIsItsMiddleValue) {
     GltfDraft draft = triangle_draft();
     draft.animate(0, "scale", {1.0f}, {7, 7, 7, 2, 3, 4, 9, 9, 9}, "CUBICSPLINE");
     const Scene scene = load(draft);
-    for (const double t : {0.0, 1.0, 2.0}) EXPECT_EQ(evaluate(scene.nodes[0].scale, t), glm::dvec3(2, 3, 4));
+    for (const double t : {0.0, 1.0, 2.0}) EXPECT_EQ(evaluate(scene.nodes[0].transform.scale, t), glm::dvec3(2, 3, 4));
 }
 
 /// A key of length 2 becomes unit, and its tangents half as long, so that the curve is the same turned to unit length.
@@ -90,7 +90,7 @@ TEST_F(GltfAnimation, CubicRotationTangentsFollowTheirKey) {
     GltfDraft draft = triangle_draft();
     draft.animate(0, "rotation", {0.0f, 1.0f}, {0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0},
                   "CUBICSPLINE");
-    const auto values = load(draft).nodes[0].rotation.values;
+    const auto values = load(draft).nodes[0].transform.rotation.values;
     EXPECT_EQ(values[1], glm::dquat(1, 0, 0, 0));
     EXPECT_EQ(values[2], glm::dquat(0, 0, 0.5, 0));
     EXPECT_EQ(values[4], glm::dquat(0, 0, 1, 0));
@@ -102,8 +102,8 @@ TEST_F(GltfAnimation, NormalizedIntegerRotationKeys) {
     const int keys = draft.add_accessor<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 0}, "VEC4", 4, true);
     draft.json["animations"][0]["samplers"][0]["output"] = keys;
     const Scene scene = load(draft);
-    EXPECT_EQ(scene.nodes[0].rotation.values[0], glm::dquat(1, 0, 0, 0));
-    EXPECT_EQ(scene.nodes[0].rotation.values[1], glm::dquat(0, -1, 0, 0));  // -32768 counts as -1
+    EXPECT_EQ(scene.nodes[0].transform.rotation.values[0], glm::dquat(1, 0, 0, 0));
+    EXPECT_EQ(scene.nodes[0].transform.rotation.values[1], glm::dquat(0, -1, 0, 0));  // -32768 counts as -1
 }
 
 TEST_F(GltfAnimation, FloatsBecomeDoublesExactly) {
@@ -111,8 +111,8 @@ TEST_F(GltfAnimation, FloatsBecomeDoublesExactly) {
     const float time = 0.1f, value = 1e-20f / 3.0f;
     draft.animate(0, "translation", {0.0f, time}, {0, 0, 0, value, -value, 16777217.0f});
     const Scene scene = load(draft);
-    EXPECT_EQ(scene.nodes[0].translation.sampling.times.back(), static_cast<double>(time));
-    EXPECT_EQ(scene.nodes[0].translation.values[1], glm::dvec3(value, -value, 16777216.0));
+    EXPECT_EQ(scene.nodes[0].transform.translation.sampling.times.back(), static_cast<double>(time));
+    EXPECT_EQ(scene.nodes[0].transform.translation.values[1], glm::dvec3(value, -value, 16777216.0));
 }
 
 TEST_F(GltfAnimation, AllAnimationsPlayTogether) {
@@ -133,7 +133,7 @@ TEST_F(GltfAnimation, S12_11_ChannelWithoutNodeIsIgnoredWithAWarning) {
     draft.json["animations"][0]["channels"].insert(draft.json["animations"][0]["channels"].begin(), channel);
     const Scene scene = load(draft);
     EXPECT_TRUE(has_warning(scene, "1 channels animate no node"));
-    EXPECT_EQ(scene.nodes[0].translation.key_count(), 2u);
+    EXPECT_EQ(scene.nodes[0].transform.translation.key_count(), 2u);
 }
 
 TEST_F(GltfAnimation, KF04_QuaternionsOfAnyLengthBecomeUnitWithAWarning) {
@@ -141,24 +141,24 @@ TEST_F(GltfAnimation, KF04_QuaternionsOfAnyLengthBecomeUnitWithAWarning) {
         GltfDraft draft = triangle_draft();
         draft.json["nodes"][0]["rotation"] = {0.6 * length, 0, 0, 0.8 * length};
         const Scene scene = load(draft);
-        const glm::dquat q = scene.nodes[0].rotation.values[0];
+        const glm::dquat q = scene.nodes[0].transform.rotation.values[0];
         EXPECT_NEAR(q.x, 0.6, 1e-15);
         EXPECT_NEAR(q.w, 0.8, 1e-15);
         EXPECT_TRUE(has_warning(scene, "normalized")) << length;
     }
     GltfDraft draft = triangle_draft();
     draft.json["nodes"][0]["rotation"] = {0.6f, 0.0f, 0.0f, 0.8f};  // off by float rounding only
-    EXPECT_TRUE(load(draft).warnings.empty());
+    EXPECT_TRUE(load(draft).source.warnings.empty());
 }
 
 TEST_F(GltfAnimation, KF04_KeysOfAnyLengthGiveOneWarningPerChannel) {
     GltfDraft draft = triangle_draft();
     draft.animate(0, "rotation", {0, 1, 2}, {0, 0, 0, 1, 0, 0, 3e-10f, 4e-10f, 6e17f, 0, 0, 8e17f});
     const Scene scene = load(draft);
-    EXPECT_NEAR(scene.nodes[0].rotation.values[1].z, 0.6, 1e-7);
-    EXPECT_NEAR(scene.nodes[0].rotation.values[2].x, 0.6, 1e-7);
+    EXPECT_NEAR(scene.nodes[0].transform.rotation.values[1].z, 0.6, 1e-7);
+    EXPECT_NEAR(scene.nodes[0].transform.rotation.values[2].x, 0.6, 1e-7);
     EXPECT_TRUE(has_warning(scene, "node 0 \"node0\": 2 rotation keys are not of length 1"));
-    EXPECT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.source.warnings.size(), 1u);
 }
 
 TEST_F(GltfAnimation, RP08_KeysFarApartAreWarnedOf) {
@@ -174,8 +174,8 @@ TEST_F(GltfAnimation, RP08_KeysFarApartAreWarnedOf) {
     near.animate(0, "rotation", {0.0f, 1.0f}, about_y(169.0));
     stepped.animate(0, "rotation", {0.0f, 1.0f}, about_y(175.0), "STEP");
     EXPECT_TRUE(has_warning(load(far), "node 0 \"fan\": rotation keys 0 and 1 are 175.0 degrees apart"));
-    EXPECT_TRUE(load(near).warnings.empty());
-    EXPECT_TRUE(load(stepped).warnings.empty());
+    EXPECT_TRUE(load(near).source.warnings.empty());
+    EXPECT_TRUE(load(stepped).source.warnings.empty());
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ TEST_P(GltfFiles, LoadOrAreRefused) {
     try {
         const Scene scene = load_model(path);
         EXPECT_EQ(refused_for, "");
-        EXPECT_EQ(scene.warnings.size(), warnings.size()) << testing::PrintToString(scene.warnings);
+        EXPECT_EQ(scene.source.warnings.size(), warnings.size()) << testing::PrintToString(scene.source.warnings);
         for (const std::string& word : warnings) {
             EXPECT_TRUE(has_warning(scene, word)) << word;
         }
@@ -52,12 +52,12 @@ TEST(GltfModels, TruckHasItsWheelsTwiceAndTurning) {
     EXPECT_EQ(scene.images[0].bytes.width, 4);
     EXPECT_EQ(scene.images[0].bytes(0, 0), glm::u8vec4(30, 60, 220, 255));
     EXPECT_EQ(scene.images[0].bytes(0, 1), glm::u8vec4(255, 255, 255, 255));
-    EXPECT_EQ(scene.materials[0].base_color_texture.image, 0);
-    EXPECT_EQ(scene.materials[0].base_color_texture.wrap_u, Wrap::repeat);
-    EXPECT_EQ(scene.materials[1].base_color_texture.image, no_index);
-    EXPECT_EQ(scene.materials[1].metallic, Track<double>(0.0));
-    EXPECT_EQ(scene.materials[3].base_color_texture.image, 0);
-    EXPECT_EQ(scene.materials[3].base_color_texture.wrap_u, Wrap::clamp);
+    EXPECT_EQ(scene.materials[0].textures[TextureSlot::base_color].image, 0);
+    EXPECT_EQ(scene.materials[0].textures[TextureSlot::base_color].wrap_u, Wrap::repeat);
+    EXPECT_EQ(scene.materials[1].textures[TextureSlot::base_color].image, no_index);
+    EXPECT_EQ(scene.materials[1].gloss.metallic, Track<double>(0.0));
+    EXPECT_EQ(scene.materials[3].textures[TextureSlot::base_color].image, 0);
+    EXPECT_EQ(scene.materials[3].textures[TextureSlot::base_color].wrap_u, Wrap::clamp);
 
     std::vector<int> wheels;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -65,7 +65,7 @@ TEST(GltfModels, TruckHasItsWheelsTwiceAndTurning) {
         if (scene.nodes[i].meshes == std::vector<int>{3}) wheels.push_back(static_cast<int>(i));
     }
     ASSERT_EQ(wheels.size(), 2u);
-    const Track<glm::dquat>& turn = scene.nodes[wheels[0]].rotation;
+    const Track<glm::dquat>& turn = scene.nodes[wheels[0]].transform.rotation;
     EXPECT_EQ(turn.key_count(), 31u);
     EXPECT_EQ(turn.sampling.times.front(), 0.0);
     EXPECT_EQ(turn.sampling.times.back(), 1.25);
@@ -90,19 +90,19 @@ TEST(GltfModels, LampBoxHasItsLampAndColours) {
     ASSERT_EQ(scene.meshes.size(), 6u);
     EXPECT_EQ(scene.nodes[3].meshes, (std::vector<int>{3, 4, 5}));
     ASSERT_EQ(scene.materials.size(), 5u);
-    EXPECT_EQ(scene.materials[0].emission, Track<glm::dvec3>(glm::dvec3(1.0)));
-    EXPECT_EQ(scene.materials[0].emission_strength, Track<double>(20.0));
+    EXPECT_EQ(scene.materials[0].glow.color, Track<glm::dvec3>(glm::dvec3(1.0)));
+    EXPECT_EQ(scene.materials[0].glow.strength, Track<double>(20.0));
     EXPECT_TRUE(scene.materials[0].double_sided);
     EXPECT_EQ(scene.materials[2].base_color, Track<glm::dvec3>(glm::dvec3(0.5, 0.0, 0.0)));
     EXPECT_FALSE(scene.materials[2].double_sided);
-    EXPECT_EQ(scene.materials[4].metallic, Track<double>(1.0));
-    EXPECT_EQ(scene.materials[4].roughness, Track<double>(0.25));
+    EXPECT_EQ(scene.materials[4].gloss.metallic, Track<double>(1.0));
+    EXPECT_EQ(scene.materials[4].gloss.roughness, Track<double>(0.25));
     const Mesh& lamp = scene.meshes[0];
     EXPECT_EQ(lamp.colors, (std::vector<glm::vec4>{{1, 1, 1, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 0, 0}}));
     EXPECT_EQ(lamp.uv[0], (std::vector<glm::vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
     EXPECT_EQ(lamp.uv[1], (std::vector<glm::vec2>{{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}));
     EXPECT_TRUE(scene.meshes[1].colors.empty());
-    EXPECT_EQ(scene.nodes[0].translation, Track<glm::dvec3>(glm::dvec3(0, 1.9375, -0.25)));
+    EXPECT_EQ(scene.nodes[0].transform.translation, Track<glm::dvec3>(glm::dvec3(0, 1.9375, -0.25)));
 }
 
 TEST(GltfModels, RoomHasLambertSurfacesLampAndCamera) {
@@ -110,10 +110,10 @@ TEST(GltfModels, RoomHasLambertSurfacesLampAndCamera) {
     EXPECT_EQ(scene.nodes.size(), 60u);
     EXPECT_EQ(scene.meshes.size(), 83u);  // 58 in the file, some of several primitives
     ASSERT_EQ(scene.materials.size(), 24u);
-    EXPECT_EQ(scene.materials[0].specular, Track<double>(0.0));
+    EXPECT_EQ(scene.materials[0].gloss.specular, Track<double>(0.0));
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_TRUE(std::ranges::any_of(
-        scene.materials, [](const Material& material) { return material.emission.values[0] != glm::dvec3(0.0); }));
+        scene.materials, [](const Material& material) { return material.glow.color.values[0] != glm::dvec3(0.0); }));
     for (const Mesh& mesh : scene.meshes) EXPECT_TRUE(mesh.normals.empty());
 }
 
@@ -145,7 +145,7 @@ TEST(GltfModels, SparseValuesOnABaseOnZerosAndOfKeys) {
     const Scene scene = load_model(own_model("sparse.glb"));
     const Mesh& mesh = scene.meshes.at(0);
     EXPECT_EQ(mesh.positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {2, 2, 0}, {0, 1, 0}}));
-    const Track<double>& weight = mesh.target_weights.at(0);
+    const Track<double>& weight = mesh.deformation.target_weights.at(0);
     EXPECT_EQ(weight.sampling.times, (std::vector<double>{1.0, 2.0}));
     EXPECT_EQ(weight.values, (std::vector<double>{0.0, 1.0}));
     const std::vector<glm::dvec3> lifted = pose(scene, 1.5).meshes[0].positions;
@@ -161,8 +161,8 @@ TEST(GltfModels, PicturesBesideTheFileAndInsideItAndTheirTransform) {
     EXPECT_EQ(squares(0, 1), glm::u8vec4(0, 0, 255, 255));
     EXPECT_EQ(scene.images[1].bytes(0, 0), glm::u8vec4(0, 64, 255, 255));
     EXPECT_EQ(scene.images[1].bytes(1, 0), glm::u8vec4(0, 255, 0, 255));
-    const TextureRef &moved = scene.materials.at(0).base_color_texture,
-                     &plain = scene.materials[0].metallic_roughness_texture;
+    const TextureRef &moved = scene.materials.at(0).textures[TextureSlot::base_color],
+                     &plain = scene.materials[0].textures[TextureSlot::metallic_roughness];
     EXPECT_EQ(moved, (TextureRef{0, 1, Wrap::clamp, Wrap::mirror, true, {0.25, -0.5}, {2, 3}, 0.5}));
     EXPECT_EQ(plain, TextureRef{.image = 1});
     EXPECT_EQ(scene.meshes.at(0).uv[1].at(1), glm::vec2(2, 2));
@@ -189,8 +189,8 @@ TEST(GltfModels, ARotationOfAnotherLengthIsMadeUnit) {
     const ScratchFolder folder;
     write_text(folder / "turned.gltf", draft.to_text());
     const Scene scene = load_model(folder / "turned.gltf");
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("the rotation quaternion has length 0.948683"), std::string::npos);
+    ASSERT_EQ(scene.source.warnings.size(), 1u);
+    EXPECT_NE(scene.source.warnings[0].find("the rotation quaternion has length 0.948683"), std::string::npos);
     const glm::dvec4 right = pose(scene, 0.0).world[0][0];  // the turn has a tangent of a half of 1 / 3
     EXPECT_NEAR(right.x, 0.8, 1e-15);
     EXPECT_NEAR(right.y, 0.6, 1e-15);
@@ -241,10 +241,10 @@ TEST(GltfModels, SkinWithoutIndicesAndNormals) {
     const Scene scene = load_model(own_model("skin.glb"));
     ASSERT_EQ(scene.skins.size(), 1u);
     EXPECT_EQ(scene.skins[0].joints.size(), 3u);
-    EXPECT_EQ(scene.meshes[0].joints_per_vertex, 4);
+    EXPECT_EQ(scene.meshes[0].deformation.joints_per_vertex, 4);
     EXPECT_EQ(scene.meshes[0].triangles.size(), 32u);
     EXPECT_TRUE(scene.meshes[0].normals.empty());
-    const Track<glm::dquat>& knee = std::ranges::find(scene.nodes, "knee", &Node::name)->rotation;
+    const Track<glm::dquat>& knee = std::ranges::find(scene.nodes, "knee", &Node::name)->transform.rotation;
     EXPECT_EQ(knee.sampling.times.back(), 2.0);
 }
 

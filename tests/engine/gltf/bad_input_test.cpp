@@ -18,8 +18,8 @@ TEST(GltfBadInput, TheDraftsThemselvesLoad) {
         Scene scene;
         append_gltf(path, scene, no_index, 0);
         // The keys turn by 180 degrees on purpose; there is no other warning.
-        ASSERT_EQ(scene.warnings.size(), 1u);
-        EXPECT_NE(scene.warnings[0].find("180.0 degrees"), std::string::npos) << scene.warnings[0];
+        ASSERT_EQ(scene.source.warnings.size(), 1u);
+        EXPECT_NE(scene.source.warnings[0].find("180.0 degrees"), std::string::npos) << scene.source.warnings[0];
     }
 }
 

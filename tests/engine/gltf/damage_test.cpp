@@ -51,7 +51,7 @@ TEST_F(GltfDamage, TheDraftOfDeformationsItselfLoads) {
     write_text(folder_ / "draft.gltf", deform_draft().to_text());
     Scene scene;
     append_gltf(folder_ / "draft.gltf", scene, no_index, 0);
-    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
     EXPECT_EQ(scene.nodes.size(), 7u);
     EXPECT_EQ(scene.meshes.size(), 4u);  // the skinned one, and the morphed one for each of three nodes
 }

@@ -12,25 +12,25 @@ TEST_F(GltfDeform, MorphTargetsAndTheirWeights) {
     GltfDraft draft = morph_draft();
     const Scene plain = load(draft);
     const Mesh& mesh = plain.meshes[0];
-    ASSERT_EQ(mesh.targets.size(), 2u);
-    EXPECT_EQ(mesh.targets[0].positions, (std::vector<glm::vec3>{{0, 0, 1}, {0, 0, 2}, {0, 0, 3}}));
-    EXPECT_EQ(mesh.targets[0].normals, (std::vector<glm::vec3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}));
-    EXPECT_EQ(mesh.targets[1].positions, (std::vector<glm::vec3>{{4, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
-    EXPECT_TRUE(mesh.targets[1].normals.empty());
-    EXPECT_EQ(mesh.target_weights, (std::vector<Track<double>>{0.0, 0.0}));
-    EXPECT_TRUE(plain.warnings.empty());
+    ASSERT_EQ(mesh.deformation.targets.size(), 2u);
+    EXPECT_EQ(mesh.deformation.targets[0].positions, (std::vector<glm::vec3>{{0, 0, 1}, {0, 0, 2}, {0, 0, 3}}));
+    EXPECT_EQ(mesh.deformation.targets[0].normals, (std::vector<glm::vec3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}));
+    EXPECT_EQ(mesh.deformation.targets[1].positions, (std::vector<glm::vec3>{{4, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
+    EXPECT_TRUE(mesh.deformation.targets[1].normals.empty());
+    EXPECT_EQ(mesh.deformation.target_weights, (std::vector<Track<double>>{0.0, 0.0}));
+    EXPECT_TRUE(plain.source.warnings.empty());
 
     draft.json["meshes"][0]["weights"] = {0.25, -0.5};
-    EXPECT_EQ(load(draft).meshes[0].target_weights, (std::vector<Track<double>>{0.25, -0.5}));
+    EXPECT_EQ(load(draft).meshes[0].deformation.target_weights, (std::vector<Track<double>>{0.25, -0.5}));
     draft.json["nodes"][0]["weights"] = {1, 2};  // the node's own come first
-    EXPECT_EQ(load(draft).meshes[0].target_weights, (std::vector<Track<double>>{1.0, 2.0}));
+    EXPECT_EQ(load(draft).meshes[0].deformation.target_weights, (std::vector<Track<double>>{1.0, 2.0}));
 }
 
 TEST_F(GltfDeform, AnimatedWeightsAreOneTrackEach) {
     GltfDraft draft = morph_draft();
     draft.animate(0, "weights", {0, 1, 3}, {0, 10, 1, 20, 2, 30});
     const Scene scene = load(draft);
-    const auto& weights = scene.meshes[0].target_weights;
+    const auto& weights = scene.meshes[0].deformation.target_weights;
     EXPECT_EQ(weights[0].values, (std::vector<double>{0, 1, 2}));
     EXPECT_EQ(weights[1].values, (std::vector<double>{10, 20, 30}));
     EXPECT_EQ(evaluate(weights[1], 2.0), 25.0);
@@ -40,7 +40,7 @@ TEST_F(GltfDeform, CubicWeightsKeepTheirTangents) {
     GltfDraft draft = morph_draft();
     // Per key: in-tangents of both targets, values of both, out-tangents of both.
     draft.animate(0, "weights", {0, 2}, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, "CUBICSPLINE");
-    const auto weights = load(draft).meshes[0].target_weights;
+    const auto weights = load(draft).meshes[0].deformation.target_weights;
     EXPECT_EQ(weights[0].interpolation, Interpolation::cubic);
     EXPECT_EQ(weights[0].values, (std::vector<double>{1, 3, 5, 7, 9, 11}));
     EXPECT_EQ(weights[1].values, (std::vector<double>{2, 4, 6, 8, 10, 12}));
@@ -51,7 +51,7 @@ TEST_F(GltfDeform, NormalizedIntegerWeights) {
     draft.animate(0, "weights", {0, 1}, {0, 0, 0, 0});
     draft.json["animations"][0]["samplers"][0]["output"] =
         draft.add_accessor<std::uint8_t>({0, 51, 255, 102}, "SCALAR", 1, true);
-    const auto weights = load(draft).meshes[0].target_weights;
+    const auto weights = load(draft).meshes[0].deformation.target_weights;
     EXPECT_EQ(weights[0].values, (std::vector<double>{0, 1}));
     EXPECT_EQ(weights[1].values, (std::vector<double>{0.2, 0.4}));
 }
@@ -65,9 +65,9 @@ TEST_F(GltfDeform, MorphedMeshOfTwoNodesIsStoredForEach) {
     ASSERT_EQ(scene.meshes.size(), 2u);
     EXPECT_EQ(scene.nodes[0].meshes, std::vector<int>{0});
     EXPECT_EQ(scene.nodes[1].meshes, std::vector<int>{1});
-    EXPECT_EQ(scene.meshes[0].target_weights, (std::vector<Track<double>>{1.0, 0.0}));
-    EXPECT_EQ(scene.meshes[1].target_weights[0].key_count(), 2u);
-    EXPECT_EQ(scene.meshes[0].targets, scene.meshes[1].targets);
+    EXPECT_EQ(scene.meshes[0].deformation.target_weights, (std::vector<Track<double>>{1.0, 0.0}));
+    EXPECT_EQ(scene.meshes[1].deformation.target_weights[0].key_count(), 2u);
+    EXPECT_EQ(scene.meshes[0].deformation.targets, scene.meshes[1].deformation.targets);
     EXPECT_EQ(scene.meshes[0].positions, scene.meshes[1].positions);
 }
 
@@ -75,7 +75,7 @@ TEST_F(GltfDeform, FlatMeshTakesNoTargetNormals) {
     GltfDraft draft = morph_draft();
     draft.primitive()["attributes"]["NORMAL"] = draft.add_accessor(std::vector<float>(9, 0.0f), "VEC3", 3);
     const Scene scene = load(draft);
-    EXPECT_TRUE(scene.meshes[0].targets[0].normals.empty());
+    EXPECT_TRUE(scene.meshes[0].deformation.targets[0].normals.empty());
     EXPECT_TRUE(has_warning(scene, "morph targets' normals are not used"));
 }
 
@@ -89,13 +89,13 @@ TEST_F(GltfDeform, SkinWithJointsWeightsAndBinds) {
     EXPECT_EQ(skin.inverse_binds[1][3], glm::dvec4(0, -1, 0, 1));
     EXPECT_EQ(skin.include, 0);
     const Mesh& mesh = scene.meshes[0];
-    EXPECT_EQ(mesh.skin, 0);
-    EXPECT_EQ(mesh.joints_per_vertex, 4);
-    ASSERT_EQ(mesh.joint_weights.size(), 12u);
-    EXPECT_EQ(mesh.joint_weights[0], (JointWeight{0, 1.0f}));
-    EXPECT_EQ(mesh.joint_weights[4], (JointWeight{0, 0.25f}));
-    EXPECT_EQ(mesh.joint_weights[5], (JointWeight{1, 0.75f}));
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(mesh.deformation.skin, 0);
+    EXPECT_EQ(mesh.deformation.joints_per_vertex, 4);
+    ASSERT_EQ(mesh.deformation.joint_weights.size(), 12u);
+    EXPECT_EQ(mesh.deformation.joint_weights[0], (JointWeight{0, 1.0f}));
+    EXPECT_EQ(mesh.deformation.joint_weights[4], (JointWeight{0, 0.25f}));
+    EXPECT_EQ(mesh.deformation.joint_weights[5], (JointWeight{1, 0.75f}));
+    EXPECT_TRUE(scene.source.warnings.empty());
 }
 
 TEST_F(GltfDeform, S12_11_BindsAreOptional) {
@@ -112,11 +112,12 @@ TEST_F(GltfDeform, EightJointsPerVertex) {
         draft.add_accessor<std::uint16_t>({65535, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4", 4, true);
     const Scene scene = load(draft);
     const Mesh& mesh = scene.meshes[0];
-    EXPECT_EQ(mesh.joints_per_vertex, 8);
-    ASSERT_EQ(mesh.joint_weights.size(), 24u);
-    EXPECT_EQ(mesh.joint_weights[0], (JointWeight{0, 0.5f}));  // 1 of set 0 and 1 of set 1, brought to a sum of 1
-    EXPECT_EQ(mesh.joint_weights[4], (JointWeight{1, 0.5f}));
-    EXPECT_EQ(mesh.joint_weights[8], (JointWeight{0, 0.25f}));
+    EXPECT_EQ(mesh.deformation.joints_per_vertex, 8);
+    ASSERT_EQ(mesh.deformation.joint_weights.size(), 24u);
+    EXPECT_EQ(mesh.deformation.joint_weights[0],
+              (JointWeight{0, 0.5f}));  // 1 of set 0 and 1 of set 1, brought to a sum of 1
+    EXPECT_EQ(mesh.deformation.joint_weights[4], (JointWeight{1, 0.5f}));
+    EXPECT_EQ(mesh.deformation.joint_weights[8], (JointWeight{0, 0.25f}));
     EXPECT_TRUE(has_warning(scene, "the joint weights of 1 vertices do not sum to 1"));
 }
 
@@ -126,12 +127,12 @@ TEST_F(GltfDeform, WeightsAreNormalizedAndNoneIsCarriedByTheFirstJoint) {
         draft.add_accessor<float>({3, 1, 0, 0, 0, 0, 0, 0, 0.2502f, 0.7502f, 0, 0}, "VEC4", 4);
     const Scene scene = load(draft);
     const Mesh& mesh = scene.meshes[0];
-    EXPECT_EQ(mesh.joint_weights[0].weight, 0.75f);
-    EXPECT_EQ(mesh.joint_weights[1].weight, 0.25f);
-    EXPECT_EQ(mesh.joint_weights[4].weight, 1.0f);
+    EXPECT_EQ(mesh.deformation.joint_weights[0].weight, 0.75f);
+    EXPECT_EQ(mesh.deformation.joint_weights[1].weight, 0.25f);
+    EXPECT_EQ(mesh.deformation.joint_weights[4].weight, 1.0f);
     for (int v = 0; v < 3; ++v) {
         double sum = 0.0;
-        for (int k = 0; k < 4; ++k) sum += mesh.joint_weights[4 * v + k].weight;
+        for (int k = 0; k < 4; ++k) sum += mesh.deformation.joint_weights[4 * v + k].weight;
         EXPECT_NEAR(sum, 1.0, 1e-7);
     }
     EXPECT_TRUE(has_warning(scene, "the joint weights of 2 vertices"));  // the third is off by rounding only
@@ -150,11 +151,11 @@ TEST_F(GltfDeform, SkinnedMeshBelongsToItsNodeAndRigidNodesShareAnother) {
     EXPECT_EQ(scene.nodes[3].meshes, std::vector<int>{1});
     EXPECT_EQ(scene.nodes[4].meshes, std::vector<int>{1});
     EXPECT_EQ(scene.nodes[5].meshes, std::vector<int>{2});
-    EXPECT_EQ(scene.meshes[0].skin, 0);
-    EXPECT_EQ(scene.meshes[1].skin, no_index);
-    EXPECT_TRUE(scene.meshes[1].joint_weights.empty());
-    EXPECT_EQ(scene.meshes[2].skin, 0);
-    EXPECT_EQ(scene.meshes[2].joint_weights, scene.meshes[0].joint_weights);
+    EXPECT_EQ(scene.meshes[0].deformation.skin, 0);
+    EXPECT_EQ(scene.meshes[1].deformation.skin, no_index);
+    EXPECT_TRUE(scene.meshes[1].deformation.joint_weights.empty());
+    EXPECT_EQ(scene.meshes[2].deformation.skin, 0);
+    EXPECT_EQ(scene.meshes[2].deformation.joint_weights, scene.meshes[0].deformation.joint_weights);
     EXPECT_EQ(scene.skins.size(), 1u);
 }
 
@@ -163,8 +164,8 @@ TEST_F(GltfDeform, SkinWithoutUseIsNotRead) {
     draft.json["nodes"][0].erase("skin");
     const Scene scene = load(draft);
     EXPECT_TRUE(scene.skins.empty());
-    EXPECT_TRUE(scene.meshes[0].joint_weights.empty());
-    EXPECT_EQ(scene.meshes[0].joints_per_vertex, 0);
+    EXPECT_TRUE(scene.meshes[0].deformation.joint_weights.empty());
+    EXPECT_EQ(scene.meshes[0].deformation.joints_per_vertex, 0);
 }
 
 TEST_F(GltfDeform, IncludedSkinsCountFromTheirOwnElements) {
@@ -174,7 +175,7 @@ TEST_F(GltfDeform, IncludedSkinsCountFromTheirOwnElements) {
     scene.nodes.resize(2);
     scene.skins.resize(3);
     append_gltf(folder_ / "scene.gltf", scene, 1, 4);
-    EXPECT_EQ(scene.meshes[0].skin, 3);
+    EXPECT_EQ(scene.meshes[0].deformation.skin, 3);
     EXPECT_EQ(scene.skins[3].joints, (std::vector<int>{3, 4}));
     EXPECT_EQ(scene.skins[3].include, 4);
 }

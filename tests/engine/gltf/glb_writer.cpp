@@ -55,7 +55,8 @@ int GlbWriter::add_vectors(const std::vector<V>& vectors, int type, bool with_bo
 }
 
 gltf::Primitive GlbWriter::make_primitive(const Mesh& mesh) {
-    if (mesh.points != no_index || !mesh.targets.empty() || mesh.skin != no_index || mesh.cage != no_index) {
+    if (mesh.deformation.points != no_index || !mesh.deformation.targets.empty() || mesh.deformation.skin != no_index ||
+        mesh.subdivision.cage != no_index) {
         refuse("deforming meshes");
     }
     gltf::Primitive primitive;
@@ -165,15 +166,16 @@ void GlbWriter::animate(int node, const char* path, const Track<T>& track) {
 
 void GlbWriter::add_node(const Node& source) {
     const int index = static_cast<int>(model_.nodes.size());
-    if (source.operations || source.matrix) refuse("matrices");
+    if (source.transform.operations || source.transform.matrix) refuse("matrices");
     if (source.visible.key_count() != 1 || source.visible.values[0] != 1.0) refuse("visibility");
     gltf::Node node;
     node.name = source.name;
     node.camera = source.camera;
-    const Track<glm::dquat> rotation = source.axis_rotation ? as_quaternions(*source.axis_rotation) : source.rotation;
-    node.translation = numbers(key_value(source.translation, 0));
+    const Track<glm::dquat> rotation =
+        source.transform.axis_rotation ? as_quaternions(*source.transform.axis_rotation) : source.transform.rotation;
+    node.translation = numbers(key_value(source.transform.translation, 0));
     node.rotation = numbers(glm::normalize(key_value(rotation, 0)));
-    node.scale = numbers(key_value(source.scale, 0));
+    node.scale = numbers(key_value(source.transform.scale, 0));
     if (source.light != no_index) {
         node.extensions["KHR_lights_punctual"] = gltf::Value(gltf::Value::Object{{"light", gltf::Value(source.light)}});
     }
@@ -192,9 +194,9 @@ void GlbWriter::add_node(const Node& source) {
     } else {
         model_.nodes[source.parent].children.push_back(index);
     }
-    animate(index, "translation", source.translation);
+    animate(index, "translation", source.transform.translation);
     animate(index, "rotation", rotation);
-    animate(index, "scale", source.scale);
+    animate(index, "scale", source.transform.scale);
 }
 
 gltf::Model GlbWriter::write() {

@@ -28,7 +28,7 @@ TEST_F(Gltf, Triangle) {
     EXPECT_EQ(scene.meshes[0].triangles, (std::vector<glm::uvec3>{{0, 1, 2}}));
     EXPECT_TRUE(scene.meshes[0].normals.empty());
     EXPECT_EQ(scene.meshes[0].material, no_index);
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_TRUE(scene.source.warnings.empty());
 }
 
 TEST_F(Gltf, S12_11_EmptyBinaryChunk) {
@@ -87,7 +87,7 @@ TEST_F(Gltf, MatricesAreColumnsAndParentsComeFirst) {
     EXPECT_EQ(scene.nodes[1].parent, 0);
     EXPECT_EQ(scene.nodes[2].name, "leaf");
     EXPECT_EQ(scene.nodes[2].parent, 1);
-    ASSERT_TRUE(scene.nodes[1].matrix.has_value());
+    ASSERT_TRUE(scene.nodes[1].transform.matrix.has_value());
     expect_near(pose(scene, 0.0).world[2], glm::dmat4(0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 15, 6, 9, 1), 0.0);
 }
 
@@ -226,7 +226,7 @@ TEST_F(Gltf, InstancesBecomeChildNodes) {
     EXPECT_EQ(scene.meshes.size(), 1u);
     EXPECT_EQ(scene.nodes[3].name, "child");
     EXPECT_EQ(scene.nodes[3].parent, 0);
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_TRUE(scene.source.warnings.empty());
     // Half a turn about z, then the instance's place, then the node's.
     expect_near(pose(scene, 0.0).world[2], glm::dmat4(-2, 0, 0, 0, 0, -3, 0, 0, 0, 0, 4, 0, 5, 0, 10, 1), 1e-15);
 }
@@ -277,7 +277,7 @@ TEST_F(Gltf, S13_10_RefusedFileLeavesTheSceneAsItWas) {
     write_text(folder_ / "scene.gltf", draft.to_text());
     Scene scene;
     scene.nodes.resize(2);
-    scene.warnings = {"one"};
+    scene.source.warnings = {"one"};
     const Scene before = scene;
     EXPECT_THROW(append_gltf(folder_ / "scene.gltf", scene, 1, 0), InputError);
     EXPECT_EQ(scene, before);

@@ -38,11 +38,11 @@ TEST_F(GltfMaterialExtensions, Volume) {
                                                                             {"attenuationDistance", 0.25},
                                                                             {"attenuationColor", {0.1, 0.2, 0.3}}})));
     const Material& material = scene.materials[0];
-    EXPECT_EQ(material.thickness, Track<double>(0.5));
-    expect_info(material.thickness_texture, 1);
-    EXPECT_EQ(material.attenuation_distance, Track<double>(0.25));
-    EXPECT_EQ(material.attenuation_color, Track<glm::dvec3>(glm::dvec3(0.1, 0.2, 0.3)));
-    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_EQ(material.glass.thickness, Track<double>(0.5));
+    expect_info(material.textures[TextureSlot::thickness], 1);
+    EXPECT_EQ(material.glass.attenuation_distance, Track<double>(0.25));
+    EXPECT_EQ(material.glass.attenuation_color, Track<glm::dvec3>(glm::dvec3(0.1, 0.2, 0.3)));
+    EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
 }
 
 TEST_F(GltfMaterialExtensions, ClearcoatWithThreeTextures) {
@@ -54,14 +54,14 @@ TEST_F(GltfMaterialExtensions, ClearcoatWithThreeTextures) {
                                                                                {"clearcoatRoughnessTexture", info(2)},
                                                                                {"clearcoatNormalTexture", normal}})));
     const Material& material = scene.materials[0];
-    EXPECT_EQ(material.clearcoat, Track<double>(0.75));
-    expect_info(material.clearcoat_texture, 1);
-    EXPECT_EQ(material.clearcoat_roughness, Track<double>(0.125));
-    expect_info(material.clearcoat_roughness_texture, 2);
-    expect_info(material.clearcoat_normal_texture, 3);
-    EXPECT_EQ(material.clearcoat_normal_scale, 0.5);
-    EXPECT_EQ(material.normal_scale, 1.0);
-    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_EQ(material.layers.clearcoat, Track<double>(0.75));
+    expect_info(material.textures[TextureSlot::clearcoat], 1);
+    EXPECT_EQ(material.layers.clearcoat_roughness, Track<double>(0.125));
+    expect_info(material.textures[TextureSlot::clearcoat_roughness], 2);
+    expect_info(material.textures[TextureSlot::clearcoat_normal], 3);
+    EXPECT_EQ(material.textures.clearcoat_normal_scale, 0.5);
+    EXPECT_EQ(material.textures.normal_scale, 1.0);
+    EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
 }
 
 TEST_F(GltfMaterialExtensions, SheenAndAnisotropy) {
@@ -73,14 +73,14 @@ TEST_F(GltfMaterialExtensions, SheenAndAnisotropy) {
         {"anisotropyStrength", 0.6}, {"anisotropyRotation", -7}, {"anisotropyTexture", info(3)}};
     const Scene scene = load(draft_with(both));
     const Material& material = scene.materials[0];
-    EXPECT_EQ(material.sheen_color, Track<glm::dvec3>(glm::dvec3(0.25, 0.5, 0.75)));
-    expect_info(material.sheen_color_texture, 1);
-    EXPECT_EQ(material.sheen_roughness, Track<double>(0.3));
-    expect_info(material.sheen_roughness_texture, 2);
-    EXPECT_EQ(material.anisotropy, Track<double>(0.6));
-    EXPECT_EQ(material.anisotropy_rotation, Track<double>(-7.0));
-    expect_info(material.anisotropy_texture, 3);
-    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_EQ(material.layers.sheen_color, Track<glm::dvec3>(glm::dvec3(0.25, 0.5, 0.75)));
+    expect_info(material.textures[TextureSlot::sheen_color], 1);
+    EXPECT_EQ(material.layers.sheen_roughness, Track<double>(0.3));
+    expect_info(material.textures[TextureSlot::sheen_roughness], 2);
+    EXPECT_EQ(material.layers.anisotropy, Track<double>(0.6));
+    EXPECT_EQ(material.layers.anisotropy_rotation, Track<double>(-7.0));
+    expect_info(material.textures[TextureSlot::anisotropy], 3);
+    EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
 }
 
 TEST_F(GltfMaterialExtensions, NormalMapWithItsScaleAndATangentThatIsIgnored) {
@@ -90,10 +90,10 @@ TEST_F(GltfMaterialExtensions, NormalMapWithItsScaleAndATangentThatIsIgnored) {
     draft.primitive()["attributes"]["TANGENT"] =
         draft.add_accessor<float>({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4", 4);
     const Scene scene = load(draft);
-    expect_info(scene.materials[0].normal_texture, 1);
-    EXPECT_EQ(scene.materials[0].normal_scale, -2.0);
+    expect_info(scene.materials[0].textures[TextureSlot::normal], 1);
+    EXPECT_EQ(scene.materials[0].textures.normal_scale, -2.0);
     EXPECT_EQ(scene.images.size(), 1u);
-    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
 }
 
 TEST_F(GltfMaterialExtensions, DefaultsAreThoseOfTheSpecifications) {
@@ -104,26 +104,26 @@ TEST_F(GltfMaterialExtensions, DefaultsAreThoseOfTheSpecifications) {
         material["name"] = "m";
         EXPECT_EQ(load(draft_with(material)).materials[0], plain) << name;
     }
-    EXPECT_EQ(plain.attenuation_distance, Track<double>(0.0)) << "glTF's infinite distance";
+    EXPECT_EQ(plain.glass.attenuation_distance, Track<double>(0.0)) << "glTF's infinite distance";
 }
 
 TEST_F(GltfMaterialExtensions, S13_8_FactorsOutOfRangeAreClampedWithAWarning) {
     const auto expect_clamped = [&](const char* extension, const Json& members, const char* warning) {
         const Scene scene = load(draft_with(extensions(extension, members)));
         EXPECT_EQ(count_warnings(scene, std::string("/materials/0: ") + warning), 1) << warning;
-        EXPECT_EQ(scene.warnings.size(), 1u) << warning;
+        EXPECT_EQ(scene.source.warnings.size(), 1u) << warning;
         return scene.materials[0];
     };
     EXPECT_EQ(expect_clamped("KHR_materials_volume", {{"thicknessFactor", -1}}, "thicknessFactor -1 is clamped to 0")
-                  .thickness,
+                  .glass.thickness,
               Track<double>(0.0));
     EXPECT_EQ(
         expect_clamped("KHR_materials_volume", {{"attenuationColor", {2, 1, 0}}}, "attenuationColor 2 is clamped to 1")
-            .attenuation_color,
+            .glass.attenuation_color,
         Track<glm::dvec3>(glm::dvec3(1, 1, 0)));
     EXPECT_EQ(
         expect_clamped("KHR_materials_clearcoat", {{"clearcoatFactor", 1.5}}, "clearcoatFactor 1.5 is clamped to 1")
-            .clearcoat,
+            .layers.clearcoat,
         Track<double>(1.0));
     expect_clamped("KHR_materials_clearcoat", {{"clearcoatRoughnessFactor", -1}}, "clearcoatRoughnessFactor -1 is");
     expect_clamped("KHR_materials_sheen", {{"sheenColorFactor", {0, 0, 3}}}, "sheenColorFactor 3 is clamped to 1");
@@ -137,7 +137,7 @@ TEST_F(GltfMaterialExtensions, FilesMayRequireThem) {
         GltfDraft draft = draft_with(extensions(name, Json::object()));
         draft.json["extensionsUsed"] = {name};
         draft.json["extensionsRequired"] = {name};
-        EXPECT_TRUE(load(draft).warnings.empty()) << name;
+        EXPECT_TRUE(load(draft).source.warnings.empty()) << name;
     }
 }
 
@@ -155,7 +155,7 @@ TEST_F(GltfMaterialExtensions, WhatIsMissingIsSaidOncePerFile) {
         draft.json["materials"].push_back(draft.json["materials"][0]);
         draft.json["extensions"][name] = Json::object();
         const Scene scene = load(draft);
-        EXPECT_EQ(scene.warnings.size(), 1u) << name;
+        EXPECT_EQ(scene.source.warnings.size(), 1u) << name;
         EXPECT_TRUE(has_warning(scene, std::string("the extension ") + name + " is not supported: ")) << name;
         EXPECT_FALSE(has_warning(scene, ": : ")) << "the warning is of the whole file";
         EXPECT_TRUE(has_warning(scene, words)) << name;

@@ -44,7 +44,7 @@ TEST_F(GltfMesh, PointsAndLinesAreLeftOutWithOneWarning) {
         EXPECT_EQ(scene.nodes[0].meshes, std::vector<int>{0});
         EXPECT_TRUE(
             has_warning(scene, "/meshes/0/primitives/0: points and lines are not drawn (2 primitives left out)"));
-        EXPECT_EQ(scene.warnings.size(), 1u);
+        EXPECT_EQ(scene.source.warnings.size(), 1u);
     }
 }
 
@@ -70,7 +70,7 @@ TEST_F(GltfMesh, S12_10_SparseIsAppliedOnZeros) {
     GltfDraft draft = triangle_draft();
     make_sparse(draft, 1, {2}, {7, 8, 9}, false);
     EXPECT_EQ(load(draft).meshes[0].positions, (std::vector<glm::vec3>{{0, 0, 0}, {0, 0, 0}, {7, 8, 9}}));
-    EXPECT_TRUE(load(draft).warnings.empty());
+    EXPECT_TRUE(load(draft).source.warnings.empty());
     draft.json["accessors"][1]["byteOffset"] = 0;  // as in box_sparse.glb
     EXPECT_TRUE(has_warning(load(draft), "/accessors/1: byteOffset means nothing without a bufferView"));
 }

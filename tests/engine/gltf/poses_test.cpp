@@ -125,7 +125,7 @@ TEST_P(GltfSkins, PointsFollowTheirJoints) {
 TEST_P(GltfMorphs, PointsAndNormalsFollowTheWeights) {
     const gltf::Primitive& primitive = raw.model.meshes.at(0).primitives.at(0);
     const std::size_t count = primitive.targets.size();
-    ASSERT_EQ(scene.meshes.at(0).targets.size(), count);
+    ASSERT_EQ(scene.meshes.at(0).deformation.targets.size(), count);
     const gltf::Animation& animation = raw.model.animations.at(0);
     const gltf::AnimationChannel& channel = animation.channels.at(0);
     ASSERT_EQ(channel.target_path, "weights");
@@ -139,7 +139,7 @@ TEST_P(GltfMorphs, PointsAndNormalsFollowTheWeights) {
         std::vector<double> points = rest, turned = normals;
         for (std::size_t t = 0; t < count; ++t) {
             largest_weight = std::max(largest_weight, w[t]);
-            EXPECT_NEAR(evaluate(scene.meshes[0].target_weights[t], seconds), w[t], 1e-12) << seconds;
+            EXPECT_NEAR(evaluate(scene.meshes[0].deformation.target_weights[t], seconds), w[t], 1e-12) << seconds;
             const std::vector<double> moves = raw.floats(primitive.targets[t].at("POSITION"));
             for (std::size_t i = 0; i < points.size(); ++i) points[i] += w[t] * moves[i];
             if (flat) continue;

@@ -20,7 +20,7 @@ const fs::path folder = build_folder() / "round_trip";
 
 SeenMotion look(const Scene& scene, std::int64_t frame) {
     const FrameRate rate;
-    return {scene, rate.seconds_of(frame), rate.seconds_of(frame + 1), 320, 240, find_camera(scene, scene.camera)};
+    return {scene, rate.seconds_of(frame), rate.seconds_of(frame + 1), 320, 240, find_camera(scene, scene.film.camera)};
 }
 
 /// Nodes may come in another order: objects are compared by node name and position of the mesh under the node.
@@ -108,8 +108,8 @@ TEST_F(PoolRoundTrip, ElementsAndFrameRange) {
     const ScenePose at_a = pose(a, 0.0), at_b = pose(b, 0.0);
     for (std::size_t i = 0; i < a.materials.size(); ++i) {
         EXPECT_EQ(a.materials[i].name, b.materials[i].name);
-        TextureRef texture = a.materials[i].base_color_texture;
-        const TextureRef& loaded = b.materials[i].base_color_texture;
+        TextureRef texture = a.materials[i].textures[TextureSlot::base_color];
+        const TextureRef& loaded = b.materials[i].textures[TextureSlot::base_color];
         ASSERT_EQ(texture.image == no_index, loaded.image == no_index);
         if (texture.image != no_index) {
             EXPECT_EQ(a.images[texture.image].bytes, b.images[loaded.image].bytes);
@@ -128,20 +128,20 @@ TEST(GltfRoundTrip, EveryPropertyOfAMaterial) {
     fs::create_directories(folder);
     write_png(folder / "dot.png", Image<Rgb>(1, 1, Rgb(0.5f)));
     Scene scene;
-    scene.file = (folder / "materials.json").string();
+    scene.source.file = (folder / "materials.json").string();
     scene.images.push_back({.name = "dot", .path = "dot.png", .bytes = {}, .floats = {}});
     Material m{.name = "all"};
     double value = 0.0;  // another one for each property
     const auto next = [&] { return value += 0.03125; };
-    for (const auto& field : material_numbers) m.*field.member = next();
-    for (const auto& field : material_angles) m.*field.member = next();
-    for (const auto& field : material_colors) m.*field.member = glm::dvec3(next(), next(), next());
-    m.emission_strength = 2.0;
-    m.ior = 1.25;
-    m.normal_scale = 0.25;
-    m.clearcoat_normal_scale = -0.75;
+    for (const auto& field : material_numbers) field.in(m) = next();
+    for (const auto& field : material_angles) field.in(m) = next();
+    for (const auto& field : material_colors) field.in(m) = glm::dvec3(next(), next(), next());
+    m.glow.strength = 2.0;
+    m.gloss.ior = 1.25;
+    m.textures.normal_scale = 0.25;
+    m.textures.clearcoat_normal_scale = -0.75;
     int set = 0;
-    for (const auto& field : material_textures) m.*field.member = TextureRef{.image = 0, .uv_set = set++ % 2};
+    for (const auto& field : material_textures) m.textures[field.slot] = TextureRef{.image = 0, .uv_set = set++ % 2};
     scene.materials = {m};
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -177,8 +177,8 @@ TEST(GltfRoundTrip, LightsAndCameras) {
     for (int i = 0; i < 3; ++i) {
         scene.nodes.push_back({.name = std::string("n").append(std::to_string(i)),
                                .parent = i - 1,
-                               .translation = glm::dvec3(0.1, 0.2, 0.3 * i),
-                               .rotation = glm::normalize(glm::dquat(1.0, 0.1, 0.2, 0.3)),
+                               .transform = {.translation = glm::dvec3(0.1, 0.2, 0.3 * i),
+                                             .rotation = glm::normalize(glm::dquat(1.0, 0.1, 0.2, 0.3))},
                                .camera = i < 2 ? i : no_index,
                                .light = i});
     }

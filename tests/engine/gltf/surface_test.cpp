@@ -127,16 +127,16 @@ TEST_F(GltfSurface, FactorsAndExtensions) {
     const Material& material = scene.materials[0];
     EXPECT_EQ(material.name, "lamp");
     EXPECT_EQ(material.base_color, Track<glm::dvec3>(glm::dvec3(0.1, 0.2, 0.3)));
-    EXPECT_EQ(material.alpha, Track<double>(0.4));
-    EXPECT_EQ(material.metallic, Track<double>(0.25));
-    EXPECT_EQ(material.roughness, Track<double>(0.75));
-    EXPECT_EQ(material.emission, Track<glm::dvec3>(glm::dvec3(1, 0.5, 0)));
-    EXPECT_EQ(material.emission_strength, Track<double>(5e9));
-    EXPECT_EQ(material.ior, Track<double>(1.33));
-    EXPECT_EQ(material.specular, Track<double>(0.0));
-    EXPECT_EQ(material.specular_color, Track<glm::dvec3>(glm::dvec3(0.5, 2, 1)));
+    EXPECT_EQ(material.opacity.alpha, Track<double>(0.4));
+    EXPECT_EQ(material.gloss.metallic, Track<double>(0.25));
+    EXPECT_EQ(material.gloss.roughness, Track<double>(0.75));
+    EXPECT_EQ(material.glow.color, Track<glm::dvec3>(glm::dvec3(1, 0.5, 0)));
+    EXPECT_EQ(material.glow.strength, Track<double>(5e9));
+    EXPECT_EQ(material.gloss.ior, Track<double>(1.33));
+    EXPECT_EQ(material.gloss.specular, Track<double>(0.0));
+    EXPECT_EQ(material.gloss.specular_color, Track<glm::dvec3>(glm::dvec3(0.5, 2, 1)));
     EXPECT_TRUE(material.double_sided);
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_TRUE(scene.source.warnings.empty());
 }
 
 TEST_F(GltfSurface, S13_8_FactorsOutOfRangeAreClampedWithAWarning) {
@@ -144,11 +144,11 @@ TEST_F(GltfSurface, S13_8_FactorsOutOfRangeAreClampedWithAWarning) {
     draft.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1.5}, {"roughnessFactor", -1}}},
                                 {"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}}};
     const Scene scene = load(draft);
-    EXPECT_EQ(scene.materials[0].metallic, Track<double>(1.0));
-    EXPECT_EQ(scene.materials[0].roughness, Track<double>(0.0));
-    EXPECT_EQ(scene.materials[0].ior, Track<double>(1.0));
+    EXPECT_EQ(scene.materials[0].gloss.metallic, Track<double>(1.0));
+    EXPECT_EQ(scene.materials[0].gloss.roughness, Track<double>(0.0));
+    EXPECT_EQ(scene.materials[0].gloss.ior, Track<double>(1.0));
     EXPECT_EQ(count_warnings(scene, "/materials/0: metallicFactor 1.5 is clamped to 1"), 1);
-    EXPECT_EQ(scene.warnings.size(), 3u);
+    EXPECT_EQ(scene.source.warnings.size(), 3u);
 }
 
 TEST_F(GltfSurface, TexturesWithSamplersUvSetsAndOneSharedImage) {
@@ -174,11 +174,11 @@ TEST_F(GltfSurface, TexturesWithSamplersUvSetsAndOneSharedImage) {
     const TextureRef sampled{0, 0, Wrap::clamp, Wrap::mirror, true}, plain{0, 0, Wrap::repeat, Wrap::repeat, false};
     TextureRef second = plain, sampled_second = sampled;
     second.uv_set = sampled_second.uv_set = 1;
-    EXPECT_EQ(material.base_color_texture, sampled);
-    EXPECT_EQ(material.metallic_roughness_texture, plain);
-    EXPECT_EQ(material.emission_texture, second);
-    EXPECT_EQ(material.specular_texture, sampled_second);
-    EXPECT_EQ(material.specular_color_texture, plain);
+    EXPECT_EQ(material.textures[TextureSlot::base_color], sampled);
+    EXPECT_EQ(material.textures[TextureSlot::metallic_roughness], plain);
+    EXPECT_EQ(material.textures[TextureSlot::emission], second);
+    EXPECT_EQ(material.textures[TextureSlot::specular], sampled_second);
+    EXPECT_EQ(material.textures[TextureSlot::specular_color], plain);
 }
 
 TEST_F(GltfSurface, ImagesFromFilesAndDataUris) {
@@ -202,7 +202,7 @@ TEST_F(GltfSurface, OcclusionTexturesGiveOneWarningAndAreNotDecoded) {
     const Json material = {{"occlusionTexture", {{"index", 0}}}};
     draft.json["materials"] = {material, material};
     const Scene scene = load(draft);
-    EXPECT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.source.warnings.size(), 1u);
     EXPECT_EQ(count_warnings(scene, "materials: occlusion textures (2) are not used"), 1);
     EXPECT_TRUE(scene.images.empty());
 }
@@ -212,12 +212,12 @@ TEST_F(GltfSurface, AlphaModesAndCutoff) {
     draft.json["materials"] = {
         {{"alphaMode", "MASK"}, {"alphaCutoff", 0.3}}, {{"alphaMode", "BLEND"}}, {{"alphaMode", "OPAQUE"}}};
     const Scene scene = load(draft);
-    EXPECT_EQ(scene.materials[0].alpha_mode, Material::AlphaMode::mask);
-    EXPECT_EQ(scene.materials[0].alpha_cutoff, 0.3);
-    EXPECT_EQ(scene.materials[1].alpha_mode, Material::AlphaMode::blend);
-    EXPECT_EQ(scene.materials[2].alpha_mode, Material::AlphaMode::opaque);
-    EXPECT_EQ(scene.materials[2].alpha_cutoff, 0.5);
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(scene.materials[0].opacity.mode, Opacity::Mode::mask);
+    EXPECT_EQ(scene.materials[0].opacity.cutoff, 0.3);
+    EXPECT_EQ(scene.materials[1].opacity.mode, Opacity::Mode::blend);
+    EXPECT_EQ(scene.materials[2].opacity.mode, Opacity::Mode::opaque);
+    EXPECT_EQ(scene.materials[2].opacity.cutoff, 0.5);
+    EXPECT_TRUE(scene.source.warnings.empty());
 }
 
 TEST_F(GltfSurface, TextureTransformsOfEveryTexture) {
@@ -242,18 +242,18 @@ TEST_F(GltfSurface, TextureTransformsOfEveryTexture) {
             {{"transmissionFactor", 0.25}, {"transmissionTexture", info(1.25, Json::object())}}}}}}};
     const Scene scene = load(draft);
     const Material& material = scene.materials[0];
-    EXPECT_EQ(material.base_color_texture.uv_offset, glm::dvec2(0.25, -0.25));
-    EXPECT_EQ(material.base_color_texture.uv_scale, glm::dvec2(1.0));
-    EXPECT_EQ(material.base_color_texture.uv_rotation, 0.5);
-    EXPECT_EQ(material.base_color_texture.uv_set, 1);
-    EXPECT_EQ(material.metallic_roughness_texture.uv_scale, glm::dvec2(2.0, -3.0));
-    EXPECT_EQ(material.metallic_roughness_texture.uv_rotation, 0.0);
-    EXPECT_EQ(material.emission_texture.uv_offset, glm::dvec2(0.75, -0.75));
-    EXPECT_EQ(material.specular_texture.uv_offset, glm::dvec2(1.0, -1.0));
-    EXPECT_EQ(material.specular_color_texture.uv_offset, glm::dvec2(0.0));
-    EXPECT_EQ(material.transmission, Track<double>(0.25));
-    EXPECT_EQ(material.transmission_texture.uv_offset, glm::dvec2(1.25, -1.25));
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(material.textures[TextureSlot::base_color].uv_offset, glm::dvec2(0.25, -0.25));
+    EXPECT_EQ(material.textures[TextureSlot::base_color].uv_scale, glm::dvec2(1.0));
+    EXPECT_EQ(material.textures[TextureSlot::base_color].uv_rotation, 0.5);
+    EXPECT_EQ(material.textures[TextureSlot::base_color].uv_set, 1);
+    EXPECT_EQ(material.textures[TextureSlot::metallic_roughness].uv_scale, glm::dvec2(2.0, -3.0));
+    EXPECT_EQ(material.textures[TextureSlot::metallic_roughness].uv_rotation, 0.0);
+    EXPECT_EQ(material.textures[TextureSlot::emission].uv_offset, glm::dvec2(0.75, -0.75));
+    EXPECT_EQ(material.textures[TextureSlot::specular].uv_offset, glm::dvec2(1.0, -1.0));
+    EXPECT_EQ(material.textures[TextureSlot::specular_color].uv_offset, glm::dvec2(0.0));
+    EXPECT_EQ(material.glass.transmission, Track<double>(0.25));
+    EXPECT_EQ(material.textures[TextureSlot::transmission].uv_offset, glm::dvec2(1.25, -1.25));
+    EXPECT_TRUE(scene.source.warnings.empty());
 }
 
 TEST_F(GltfSurface, UnlitTransmissionAndIor) {
@@ -264,12 +264,12 @@ TEST_F(GltfSurface, UnlitTransmissionAndIor) {
           {{"KHR_materials_transmission", {{"transmissionFactor", 2}}}, {"KHR_materials_ior", {{"ior", 0}}}}}}};
     const Scene scene = load(draft);
     EXPECT_TRUE(scene.materials[0].unlit);
-    EXPECT_EQ(scene.materials[0].transmission, Track<double>(0.0));
+    EXPECT_EQ(scene.materials[0].glass.transmission, Track<double>(0.0));
     EXPECT_FALSE(scene.materials[1].unlit);
-    EXPECT_EQ(scene.materials[1].transmission, Track<double>(1.0));
-    EXPECT_EQ(scene.materials[1].ior, Track<double>(0.0));  // allowed: reflects everything
+    EXPECT_EQ(scene.materials[1].glass.transmission, Track<double>(1.0));
+    EXPECT_EQ(scene.materials[1].gloss.ior, Track<double>(0.0));  // allowed: reflects everything
     EXPECT_EQ(count_warnings(scene, "transmissionFactor 2 is clamped to 1"), 1);
-    EXPECT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.source.warnings.size(), 1u);
 }
 
 }  // namespace

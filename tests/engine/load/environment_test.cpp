@@ -15,7 +15,7 @@ void write_sky(const fs::path& path, const Image<float>& red) {
 }
 
 Scene without_path(Scene scene) {
-    scene.file.clear();
+    scene.source.file.clear();
     return scene;
 }
 
@@ -26,15 +26,15 @@ TEST_F(LoadEnvironment, APictureIsLightAndIsDecodedAsItIs) {
     red(2, 0) = float_nan;
     write_sky(folder_ / "lib/sky.exr", red);
     const Scene scene = load_scene(write_scene(R"("environment_image": "lib/sky.exr")"));
-    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
     ASSERT_EQ(scene.images.size(), 1u);
-    const SceneImage& sky = scene.images[scene.environment_image];
+    const SceneImage& sky = scene.images[scene.environment.image];
     EXPECT_TRUE(sky.bytes.empty());
     ASSERT_EQ(sky.floats.width, 4);
     EXPECT_EQ(sky.floats(0, 0), glm::vec4(-3.0f, 2.0f, -3.0f, 1.0f));
     EXPECT_EQ(sky.floats(1, 0).x, 60000.0f);
     EXPECT_TRUE(std::isnan(sky.floats(2, 0).x));
-    EXPECT_EQ(scene.environment, Track<glm::dvec3>(glm::dvec3(1.0)));
+    EXPECT_EQ(scene.environment.radiance, Track<glm::dvec3>(glm::dvec3(1.0)));
 }
 
 TEST_F(LoadEnvironment, SaveKeepsThePictureAndItsRotation) {
@@ -45,7 +45,7 @@ TEST_F(LoadEnvironment, SaveKeepsThePictureAndItsRotation) {
     EXPECT_TRUE(without_path(load_scene(folder_ / "again.json")) == without_path(scene));
     save_scene(scene, folder_ / "lib/moved.json");
     const Scene moved = load_scene(folder_ / "lib/moved.json");
-    EXPECT_EQ(moved.images[moved.environment_image].path, "../sky.exr");
+    EXPECT_EQ(moved.images[moved.environment.image].path, "../sky.exr");
     EXPECT_EQ(moved.images[0].floats, scene.images[0].floats);
 }
 
@@ -54,7 +54,7 @@ TEST_F(LoadEnvironment, ColoursOfEightBitsBecomeRadiance) {
     picture(1, 0) = Rgb(0.0f, 0.5f, 1.0f);
     write_png(folder_ / "sky.png", picture);
     const Scene scene = load_scene(write_scene(R"("environment_image": "sky.png")"));
-    const SceneImage& sky = scene.images[scene.environment_image];
+    const SceneImage& sky = scene.images[scene.environment.image];
     EXPECT_TRUE(sky.bytes.empty());
     EXPECT_EQ(sky.floats(0, 0), glm::vec4(1.0f));
     EXPECT_EQ(sky.floats(1, 0).x, 0.0f);
@@ -67,11 +67,11 @@ TEST_F(LoadEnvironment, APictureThatIsATextureTooIsThereTwice) {
     const Scene scene = load_scene(write_scene(R"("images": {"sky": "sky.png"}, "environment_image": "sky",
         "materials": {"m": {"metallic_roughness_texture": "sky", "base_color_texture": "sky.png"}})"));
     ASSERT_EQ(scene.images.size(), 2u);
-    EXPECT_EQ(scene.environment_image, 1);
+    EXPECT_EQ(scene.environment.image, 1);
     EXPECT_EQ(scene.images[1].name, "sky 2");
     EXPECT_EQ(scene.images[1].path, "sky.png");
     EXPECT_FALSE(scene.images[1].floats.empty());
-    EXPECT_EQ(scene.materials[0].metallic_roughness_texture.image, 0);
+    EXPECT_EQ(scene.materials[0].textures[TextureSlot::metallic_roughness].image, 0);
     EXPECT_EQ(scene.images[0].bytes(0, 0), glm::u8vec4(188, 188, 188, 255));
     save_scene(scene, folder_ / "again.json");
     EXPECT_TRUE(without_path(load_scene(folder_ / "again.json")) == without_path(scene));
@@ -97,7 +97,7 @@ TEST_F(LoadEnvironment, RotationKeysFarApartAreSaid) {
     EXPECT_TRUE(has_warning(load(R"({"keys": [[0, [0, 0, 0, 1]], [5, [0, 1, 0, 0]]]})"),
                             "environment_rotation: neighbouring rotation keys are 180 degrees apart"));
     EXPECT_TRUE(has_warning(load("[0, 0, 0, 2]"), "environment_rotation: rotation key 0 has length 2"));
-    EXPECT_TRUE(load(R"({"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [5, 720]]}})").warnings.empty());
+    EXPECT_TRUE(load(R"({"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [5, 720]]}})").source.warnings.empty());
 }
 
 class LoadDirections : public LoadScene {
@@ -109,7 +109,7 @@ class LoadDirections : public LoadScene {
                                       R"(}}, "nodes": [{"name": "leaf", "material": "m", "shape": {"type": "mesh",
                                       "positions": [0, 0, 0, 1, 0, 0, 0, 1, 0], "triangles": [0, 1, 2])" +
                                       mesh + "}}]"))
-            .warnings;
+            .source.warnings;
     }
     static constexpr const char* uv = ", \"uv\": [0, 0, 1, 0, 0, 1]";
 };

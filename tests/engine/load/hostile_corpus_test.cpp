@@ -24,7 +24,7 @@ void use(const fs::path& path) {
     const FrameRange range = frame_range(scene);
     RayScene rays(scene);
     for (const std::int64_t frame : {range.first, range.last})
-        rays.update(pose(scene, scene.frame_rate.seconds_of(frame)), glm::dvec3(0.0));
+        rays.update(pose(scene, scene.film.frame_rate.seconds_of(frame)), glm::dvec3(0.0));
 }
 
 struct Tally {

@@ -34,12 +34,13 @@ class IncludeOptions : public LoadScene {
     }
     /// Which of the two nodes are animated.
     static std::pair<bool, bool> animated(const Scene& scene) {
-        return {is_animated(scene.nodes.at(0).translation), is_animated(scene.nodes.at(1).translation)};
+        return {is_animated(scene.nodes.at(0).transform.translation),
+                is_animated(scene.nodes.at(1).transform.translation)};
     }
     void expect_written_again(const Scene& scene) const {
         save_scene(scene, folder_ / "again.json");
         Scene again = load_scene(folder_ / "again.json");
-        again.file = scene.file;
+        again.source.file = scene.source.file;
         EXPECT_TRUE(again == scene);
     }
 };
@@ -86,7 +87,7 @@ TEST_F(IncludeOptions, AnIncludeIsShownAgainAndIsAParent) {
          "children": [{"name": "hat", "translation": [0, 3, 0], "shape": {"type": "box"}}]},
         {"name": "second", "translation": [4, 0, 0], "instance": "first"},
         {"name": "own animation", "include": {"file": "two.gltf", "animation": []}}])"));
-    ASSERT_EQ(scene.includes.size(), 3u);
+    ASSERT_EQ(scene.source.includes.size(), 3u);
     EXPECT_EQ(scene.meshes.size(), 1u + 2u + 2u) << "the first two includes share their meshes";
     const ScenePose posed = pose(scene, 1.0);
     std::vector<glm::dvec3> movers, hats;

@@ -22,7 +22,7 @@ constexpr const char* moving_triangle = R"({"asset": {"version": "2.0"}, "scene"
     "animations": [{"samplers": [{"input": 1, "output": 2}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]})";
 
 Scene without_file(Scene scene) {
-    scene.file.clear();
+    scene.source.file.clear();
     return scene;
 }
 
@@ -44,7 +44,7 @@ TEST_F(LoadScene, PicturesAreDecoded) {
     EXPECT_TRUE(scene.images[1].bytes.empty());
     EXPECT_EQ(scene.images[1].floats.height, 2);
     EXPECT_EQ(scene.images[1].floats(0, 1), glm::vec4(4.0f, 5.0f, 6.0f, 1.0f));
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_TRUE(scene.source.warnings.empty());
     save_scene(scene, folder_ / "again.json");
     EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
 }
@@ -54,7 +54,7 @@ TEST_F(LoadScene, IncludesFollowTheScenesOwnElementsAndStayIncludes) {
     const Scene scene = load_scene(write_scene(R"("camera": "eye", "environment": [1, 1, 1], "nodes": [
         {"name": "left", "translation": [-5, 0, 0], "include": ["lib/triangle.gltf", "lib/../lib/triangle.gltf"]},
         {"name": "mover", "shape": {"type": "box"}, "material": {}}, {"name": "eye", "camera": {}}], "include": "lib/triangle.gltf")"));
-    ASSERT_EQ(scene.includes.size(), 3u);
+    ASSERT_EQ(scene.source.includes.size(), 3u);
     ASSERT_EQ(scene.meshes.size(), 3u);  // the same path twice shares its mesh
     EXPECT_EQ(scene.meshes[0].include, no_index);
     std::vector<int> includes;
@@ -78,7 +78,7 @@ TEST_F(LoadScene, PathsChangeWithTheFolder) {
         R"("materials": {"m": {"base_color_texture": "dot.png"}}, "include": "lib/triangle.gltf", "environment": [1, 1, 1])"));
     save_scene(scene, folder_ / "lib/moved.json");
     const Scene moved = load_scene(folder_ / "lib/moved.json");
-    EXPECT_EQ(moved.includes[0].path, "triangle.gltf");
+    EXPECT_EQ(moved.source.includes[0].path, "triangle.gltf");
     EXPECT_EQ(moved.images[0].path, "../dot.png");
     EXPECT_EQ(moved.nodes, scene.nodes);
     EXPECT_EQ(moved.images[0].bytes, scene.images[0].bytes);
@@ -87,14 +87,14 @@ TEST_F(LoadScene, PathsChangeWithTheFolder) {
 TEST_F(LoadScene, GltfWithoutCameraGetsOneThatSeesEverythingAllTheTime) {
     const Scene scene = load_scene(write("moving.gltf", moving_triangle));
     EXPECT_TRUE(has_warning(scene, "no camera"));
-    EXPECT_EQ(scene.name, "moving");
+    EXPECT_EQ(scene.source.name, "moving");
     ASSERT_EQ(scene.nodes.size(), 2u);
     EXPECT_EQ(scene.nodes[0].camera, 0);
     EXPECT_EQ(scene.nodes[1].name, "mover");
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 30}));
     double widest = 0.0;
     for (int frame = 0; frame <= 30; ++frame) {
-        const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const ScenePose now = pose(scene, scene.film.frame_rate.seconds_of(frame));
         const CameraView view = make_camera_view(now.cameras.at(0), 640, 480);
         EXPECT_GT(view.position.y, 0.5);  // above the middle
         EXPECT_GT(view.position.z, 1.0);
@@ -111,8 +111,8 @@ TEST_F(LoadScene, GltfWithoutCameraGetsOneThatSeesEverythingAllTheTime) {
 
     save_scene(scene, folder_ / "again.json");
     Scene again = load_scene(folder_ / "again.json");
-    again.file = scene.file;
-    again.warnings = scene.warnings;
+    again.source.file = scene.source.file;
+    again.source.warnings = scene.source.warnings;
     EXPECT_TRUE(again == scene);
 }
 
@@ -172,12 +172,12 @@ TEST_F(LoadScene, EndingsOfNamesCountInAnyCase) {
 
 TEST_F(LoadScene, SaveIsAllOrNothing) {
     Scene scene;
-    scene.name = "first";
+    scene.source.name = "first";
     save_scene(scene, folder_ / "s.json");
-    scene.exposure = not_a_number;
+    scene.film.exposure = not_a_number;
     EXPECT_THROW(save_scene(scene, folder_ / "s.json"), InputError);
-    EXPECT_EQ(load_scene(folder_ / "s.json").name, "first");
-    scene.exposure.reset();
+    EXPECT_EQ(load_scene(folder_ / "s.json").source.name, "first");
+    scene.film.exposure.reset();
     EXPECT_THROW(save_scene(scene, folder_ / "no/such/folder/s.json"), OutputError);
     EXPECT_THROW(save_scene(scene, folder_ / "s.glb"), InputError);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2);  // lib and s.json: nothing left over
@@ -205,7 +205,7 @@ TEST_F(LoadScene, ModelsLoadAsScenesAndAsIncludes) {
         EXPECT_EQ(included.meshes.size(), scene.meshes.size()) << name;
         save_scene(included, folder_ / "again.json");
         Scene again = load_scene(folder_ / "again.json");
-        again.warnings = included.warnings;
+        again.source.warnings = included.source.warnings;
         EXPECT_TRUE(without_file(again) == without_file(included)) << name;
     }
 }

@@ -62,8 +62,8 @@ class SceneFormatRow : public LoadScene {
 TEST_F(SceneFormatRow, IsLoadedAlone) {
     const Scene scene = load_scene(folder_ / "one.tri", {}, formats_);
     ASSERT_EQ(scene.meshes.size(), 1u);
-    EXPECT_EQ(scene.name, "one");
-    EXPECT_EQ(scene.frame_rate, (FrameRate{12, 1}));
+    EXPECT_EQ(scene.source.name, "one");
+    EXPECT_EQ(scene.film.frame_rate, (FrameRate{12, 1}));
     EXPECT_EQ(scene.cameras.size(), 1u) << "a camera is added, as for the other formats";
 }
 
@@ -71,7 +71,7 @@ TEST_F(SceneFormatRow, IsIncluded) {
     const Scene scene = load_scene(
         write_scene(R"("nodes": [{"include": "one.tri"}, {"include": {"file": "one.tri", "up": "z", "scale": 2}}])"),
         {}, formats_);
-    EXPECT_EQ(scene.includes.size(), 2u);
+    EXPECT_EQ(scene.source.includes.size(), 2u);
     EXPECT_EQ(scene.meshes.size(), 2u);
     const std::string reason =
         refused(write_scene(R"("nodes": [{"include": {"file": "one.tri", "animation": "walk"}}])"));

@@ -37,9 +37,9 @@ class SilentFiles : public testing::Test {
     }
     void expect_one_warning(GltfDraft draft, const std::string& place, const std::string& words) {
         const Scene scene = load(std::move(draft));
-        ASSERT_EQ(scene.warnings.size(), 1u) << testing::PrintToString(scene.warnings);
-        EXPECT_THAT(scene.warnings[0], HasSubstr(path_.string() + ": " + place));
-        EXPECT_THAT(scene.warnings[0], HasSubstr(words));
+        ASSERT_EQ(scene.source.warnings.size(), 1u) << testing::PrintToString(scene.source.warnings);
+        EXPECT_THAT(scene.source.warnings[0], HasSubstr(path_.string() + ": " + place));
+        EXPECT_THAT(scene.source.warnings[0], HasSubstr(words));
     }
     void expect_refused(GltfDraft draft, const std::string& place, const std::string& words) {
         expect_refusal([&] { load(std::move(draft)); }, path_.string(), place, words);
@@ -50,7 +50,7 @@ class SilentFiles : public testing::Test {
 };
 
 TEST_F(SilentFiles, TheDraftLoadsWithoutAWarning) {
-    EXPECT_THAT(load(quiet_draft(folder_)).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(quiet_draft(folder_)).source.warnings, testing::IsEmpty());
 }
 
 TEST_F(SilentFiles, MeshesWithoutAnArea) {
@@ -84,18 +84,18 @@ TEST_F(SilentFiles, SmallOrThinOrMovingMeshesAreNoReasonToWarn) {
          {std::vector<float>{0, 0, 0, 1e-20f, 0, 0, 0, 1e-20f, 0}, {0, 0, 0, 1, 0, 0, 1, 1e-6f, 0}}) {
         GltfDraft draft = quiet_draft(folder_);
         set_corners(draft, corners);
-        EXPECT_THAT(load(draft).warnings, testing::IsEmpty());
+        EXPECT_THAT(load(draft).source.warnings, testing::IsEmpty());
     }
     GltfDraft morph = quiet_draft(folder_);
     const int moves = morph.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
     set_corners(morph, std::vector<float>(9, 0.0f));
     morph.primitive()["targets"] = {{{"POSITION", moves}}};
-    EXPECT_THAT(load(morph).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(morph).source.warnings, testing::IsEmpty());
     GltfDraft unused = quiet_draft(folder_);
     Json flat = unused.json["meshes"][0];
     flat["primitives"][0]["indices"] = unused.add_accessor<std::uint16_t>({1, 1, 1}, "SCALAR", 1);
     unused.json["meshes"].push_back(flat);
-    EXPECT_THAT(load(unused).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(unused).source.warnings, testing::IsEmpty());
 }
 
 TEST_F(SilentFiles, ASceneWithoutAMesh) {
@@ -106,9 +106,9 @@ TEST_F(SilentFiles, ASceneWithoutAMesh) {
     elsewhere.json["nodes"][0]["children"] = {2};
     elsewhere.json["scenes"].push_back({{"nodes", {1}}});
     const Scene scene = load(elsewhere);
-    ASSERT_EQ(scene.warnings.size(), 2u);
-    EXPECT_THAT(scene.warnings[0], HasSubstr("of 2 scenes only the default one is read"));
-    EXPECT_THAT(scene.warnings[1], HasSubstr("/scenes/0: no node of the scene has a mesh"));
+    ASSERT_EQ(scene.source.warnings.size(), 2u);
+    EXPECT_THAT(scene.source.warnings[0], HasSubstr("of 2 scenes only the default one is read"));
+    EXPECT_THAT(scene.source.warnings[1], HasSubstr("/scenes/0: no node of the scene has a mesh"));
 }
 
 TEST_F(SilentFiles, NodesThatShrinkTheirMeshesToAPoint) {
@@ -123,19 +123,20 @@ TEST_F(SilentFiles, NodesThatShrinkTheirMeshesToAPoint) {
     }
     GltfDraft flat = quiet_draft(folder_);
     flat.json["nodes"][1]["scale"] = {1, 1, 0};
-    EXPECT_THAT(load(flat).warnings, testing::ElementsAre(HasSubstr("the scale is 0, or next to it, along an axis")));
+    EXPECT_THAT(load(flat).source.warnings,
+                testing::ElementsAre(HasSubstr("the scale is 0, or next to it, along an axis")));
     // Small, without a mesh, or keyed: no reason to warn.
     GltfDraft small = quiet_draft(folder_);
     small.json["nodes"][1]["scale"] = {1e-6, 1e-6, 1e-6};
-    EXPECT_THAT(load(small).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(small).source.warnings, testing::IsEmpty());
     GltfDraft empty = quiet_draft(folder_);
     empty.json["nodes"].push_back({{"scale", {0, 0, 0}}});
     empty.json["nodes"][0]["children"].push_back(3);
-    EXPECT_THAT(load(empty).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(empty).source.warnings, testing::IsEmpty());
     GltfDraft keyed = quiet_draft(folder_);
     keyed.json["nodes"][1]["scale"] = {0, 0, 0};
     keyed.animate(1, "scale", {0, 1}, {0, 0, 0, 1, 1, 1});
-    EXPECT_THAT(load(keyed).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(keyed).source.warnings, testing::IsEmpty());
 }
 
 TEST_F(SilentFiles, TexturesWithoutTheirCoordinates) {
@@ -174,13 +175,13 @@ TEST_F(SilentFiles, CamerasWithoutADirectionAreRefused) {
     // A scale does not matter to a camera as long as its axes can be told, or as it moves away from 0.
     GltfDraft small = quiet_draft(folder_);
     small.json["nodes"][2]["scale"] = {1e-20, 1e-20, 1e-20};
-    EXPECT_THAT(load(small).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(small).source.warnings, testing::IsEmpty());
     GltfDraft flat = quiet_draft(folder_);
     flat.json["nodes"][2]["scale"] = {1, 0, 1};
-    EXPECT_THAT(load(flat).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(flat).source.warnings, testing::IsEmpty());
     GltfDraft keyed = quiet_draft(folder_);
     keyed.animate(2, "scale", {0, 1}, {0, 0, 0, 1, 1, 1});
-    EXPECT_THAT(load(keyed).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(keyed).source.warnings, testing::IsEmpty());
 
     write_text(folder_ / "scene.json", R"({"aleph": 1, "environment": [1, 1, 1], "nodes": [
         {"name": "rig", "scale": 0, "children": [{"name": "eye", "camera": {"fov": 45}}]}]})");
@@ -193,7 +194,7 @@ TEST_F(SilentFiles, FieldsOfViewThatSinglePrecisionCannotUseAreRefused) {
     draft.json["cameras"][0]["perspective"]["yfov"] = 1e-9;
     expect_refused(draft, "/cameras/0/perspective/yfov", "must be at least 1e-06 radians, found 1e-09");
     draft.json["cameras"][0]["perspective"]["yfov"] = 1e-6;
-    EXPECT_THAT(load(draft).warnings, testing::IsEmpty());
+    EXPECT_THAT(load(draft).source.warnings, testing::IsEmpty());
 }
 
 }  // namespace

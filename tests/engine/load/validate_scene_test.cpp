@@ -17,13 +17,13 @@ Scene make_full_scene() {
     scene.meshes = {make_shape_mesh(quad, 0, "rigid"), make_shape_mesh(quad, 0, "skinned"),
                     make_shape_mesh(quad, 0, "cached")};
     Mesh& skinned = scene.meshes[1];
-    skinned.skin = 0;
-    skinned.joints_per_vertex = 1;
-    skinned.joint_weights.resize(skinned.positions.size(), {0, 1.0f});
-    skinned.targets.resize(1);
-    skinned.targets[0].positions.resize(skinned.positions.size());
-    skinned.target_weights = {Track<double>(0.5)};
-    scene.meshes[2].points = 0;
+    skinned.deformation.skin = 0;
+    skinned.deformation.joints_per_vertex = 1;
+    skinned.deformation.joint_weights.resize(skinned.positions.size(), {0, 1.0f});
+    skinned.deformation.targets.resize(1);
+    skinned.deformation.targets[0].positions.resize(skinned.positions.size());
+    skinned.deformation.target_weights = {Track<double>(0.5)};
+    scene.meshes[2].deformation.points = 0;
     scene.point_caches.resize(1);
     scene.point_caches[0].positions = {scene.meshes[2].positions, scene.meshes[2].positions};
     scene.skins.resize(1);
@@ -38,8 +38,8 @@ Scene make_full_scene() {
     scene.nodes[1].name = "eye";
     scene.nodes[1].parent = 0;
     scene.nodes[1].camera = 0;
-    scene.environment = glm::dvec3(1.0);
-    scene.environment_image = 0;
+    scene.environment.radiance = glm::dvec3(1.0);
+    scene.environment.image = 0;
     return scene;
 }
 
@@ -69,25 +69,27 @@ TEST(ValidateScene, IndicesNameElements) {
              {R"(node 1 "eye": refers to camera 1, but there is only 1)", [](Scene& s) { s.nodes[1].camera = 1; }},
              {R"(node 0 "ball": refers to light -2, but there is only 1)", [](Scene& s) { s.nodes[0].light = -2; }},
              {R"(material 0: refers to image 3, but there is only 1)",
-              [](Scene& s) { s.materials[0].emission_texture.image = 3; }},
+              [](Scene& s) { s.materials[0].textures[TextureSlot::emission].image = 3; }},
              {R"(material 0: base_color_texture: texture coordinates 0 and 1 exist, not 2)",
-              [](Scene& s) { s.materials[0].base_color_texture.uv_set = 2; }},
+              [](Scene& s) { s.materials[0].textures[TextureSlot::base_color].uv_set = 2; }},
              {R"(mesh 0 "rigid": refers to material 5, but there is only 1)",
               [](Scene& s) { s.meshes[0].material = 5; }},
              {R"(mesh 0 "rigid": a triangle has vertex 400, but there are 4)",
               [](Scene& s) { s.meshes[0].triangles[0].y = 400; }},
-             {R"(mesh 0 "rigid": refers to cage 0, but there are none)", [](Scene& s) { s.meshes[0].cage = 0; }},
-             {R"(mesh 1 "skinned": refers to skin 2, but there is only 1)", [](Scene& s) { s.meshes[1].skin = 2; }},
+             {R"(mesh 0 "rigid": refers to cage 0, but there are none)",
+              [](Scene& s) { s.meshes[0].subdivision.cage = 0; }},
+             {R"(mesh 1 "skinned": refers to skin 2, but there is only 1)",
+              [](Scene& s) { s.meshes[1].deformation.skin = 2; }},
              {R"(mesh 1 "skinned": refers to joint 1, but there is only 1)",
-              [](Scene& s) { s.meshes[1].joint_weights[2].joint = 1; }},
+              [](Scene& s) { s.meshes[1].deformation.joint_weights[2].joint = 1; }},
              {R"(mesh 2 "cached": refers to point cache 1, but there is only 1)",
-              [](Scene& s) { s.meshes[2].points = 1; }},
+              [](Scene& s) { s.meshes[2].deformation.points = 1; }},
              {R"(mesh 2 "cached": a vertex uses point 9, but the cache has 4)",
               [](Scene& s) {
-                  s.meshes[2].vertex_points = {0, 1, 2, 9};
+                  s.meshes[2].deformation.vertex_points = {0, 1, 2, 9};
               }},
              {R"(skin 0: refers to node 2, but there are only 2)", [](Scene& s) { s.skins[0].joints[0] = 2; }},
-             {R"(environment 0: refers to image 1, but there is only 1)", [](Scene& s) { s.environment_image = 1; }}}) {
+             {R"(environment 0: refers to image 1, but there is only 1)", [](Scene& s) { s.environment.image = 1; }}}) {
         expect_refused(fault);
     }
 }
@@ -96,20 +98,20 @@ TEST(ValidateScene, NumbersAreFiniteAndInRange) {
     for (const Fault& fault : std::vector<Fault>{
              {R"(node 0 "ball": the axis of its rotation has length 2; it has to be a unit vector)",
               [](Scene& s) {
-                  s.nodes[0].axis_rotation = AxisRotation{{0.0, 2.0, 0.0}, 0.0};
+                  s.nodes[0].transform.axis_rotation = AxisRotation{{0.0, 2.0, 0.0}, 0.0};
               }},
              {R"(node 0 "ball": the axis of its rotation has length 0; it has to be a unit vector)",
               [](Scene& s) {
-                  s.nodes[0].axis_rotation = AxisRotation{{0.0, 0.0, 0.0}, 0.0};
+                  s.nodes[0].transform.axis_rotation = AxisRotation{{0.0, 0.0, 0.0}, 0.0};
               }},
-             {R"(frame rate: both numbers have to be above 0)", [](Scene& s) { s.frame_rate.denominator = 0; }},
+             {R"(frame rate: both numbers have to be above 0)", [](Scene& s) { s.film.frame_rate.denominator = 0; }},
              {R"(range: its last frame is before its first)",
               [](Scene& s) {
-                  s.range = FrameRange{3, 2};
+                  s.film.range = FrameRange{3, 2};
               }},
-             {R"(exposure: has to be above 0)", [](Scene& s) { s.exposure = not_a_number; }},
+             {R"(exposure: has to be above 0)", [](Scene& s) { s.film.exposure = not_a_number; }},
              {R"(viewing: pixels per degree have to be above 0)",
-              [](Scene& s) { s.viewing.pixels_per_degree = -31.0; }},
+              [](Scene& s) { s.film.viewing.pixels_per_degree = -31.0; }},
              {R"(camera 0: its near plane has to be above 0)", [](Scene& s) { s.cameras[0].near_plane = 0.0; }},
              {R"(camera 0: its shutter has to close when it opens or later)",
               [](Scene& s) {
@@ -130,11 +132,11 @@ TEST(ValidateScene, ArraysFitEachOther) {
              {R"(mesh 0 "rigid": needs as many texture coordinates as positions, or none)",
               [](Scene& s) { s.meshes[0].uv[1].resize(1); }},
              {R"(mesh 1 "skinned": needs one weight track for each morph target)",
-              [](Scene& s) { s.meshes[1].target_weights.clear(); }},
+              [](Scene& s) { s.meshes[1].deformation.target_weights.clear(); }},
              {R"(mesh 1 "skinned": needs joints_per_vertex weights for each vertex)",
-              [](Scene& s) { s.meshes[1].joint_weights.pop_back(); }},
+              [](Scene& s) { s.meshes[1].deformation.joint_weights.pop_back(); }},
              {R"(mesh 1 "skinned": a morph target needs as many displacements as the mesh has positions, or none)",
-              [](Scene& s) { s.meshes[1].targets[0].positions.pop_back(); }},
+              [](Scene& s) { s.meshes[1].deformation.targets[0].positions.pop_back(); }},
              {R"(point cache 0: its samples have different numbers of points)",
               [](Scene& s) { s.point_caches[0].positions[1].pop_back(); }},
              {R"(point cache 0: has no samples)", [](Scene& s) { s.point_caches[0].positions.clear(); }},
@@ -154,22 +156,22 @@ TEST(ValidateScene, TracksHaveKeysAndFiniteValues) {
         return find_refusal([&] { validate(scene); }).message;
     };
     const std::vector<std::pair<std::string, std::function<void(Scene&)>>> faults{
-        {R"(node 0 "ball": )", [](Scene& s) { s.nodes[0].translation.values.clear(); }},
-        {R"(node 0 "ball": )", [](Scene& s) { s.nodes[0].translation = glm::dvec3(0.0, not_a_number, 0.0); }},
-        {R"(node 0 "ball": )", [](Scene& s) { s.nodes[0].rotation = glm::dquat(0.0, 0.0, 0.0, 0.0); }},
-        {R"(node 1 "eye": )", [](Scene& s) { s.nodes[1].matrix = glm::dmat4(0.0); }},
+        {R"(node 0 "ball": )", [](Scene& s) { s.nodes[0].transform.translation.values.clear(); }},
+        {R"(node 0 "ball": )", [](Scene& s) { s.nodes[0].transform.translation = glm::dvec3(0.0, not_a_number, 0.0); }},
+        {R"(node 0 "ball": )", [](Scene& s) { s.nodes[0].transform.rotation = glm::dquat(0.0, 0.0, 0.0, 0.0); }},
+        {R"(node 1 "eye": )", [](Scene& s) { s.nodes[1].transform.matrix = glm::dmat4(0.0); }},
         {R"(node 1 "eye": )",
          [](Scene& s) {
-             s.nodes[1].operations = OperationStack{{OperationStack::Kind::translate}, {}, {1.0, 2.0}};
+             s.nodes[1].transform.operations = OperationStack{{OperationStack::Kind::translate}, {}, {1.0, 2.0}};
          }},
         {R"(material 0: )",
          [](Scene& s) {
-             s.materials[0].roughness.values = {0.1, not_a_number};
+             s.materials[0].gloss.roughness.values = {0.1, not_a_number};
          }},
         {R"(light 0: )", [](Scene& s) { s.lights[0].intensity.values.clear(); }},
         {R"(camera 0: )", [](Scene& s) { s.cameras[0].fov = not_a_number; }},
         {R"(mesh 0 "rigid": )", [](Scene& s) { s.meshes[0].present.values.clear(); }},
-        {R"(environment 0: )", [](Scene& s) { s.environment->values.clear(); }}};
+        {R"(environment 0: )", [](Scene& s) { s.environment.radiance->values.clear(); }}};
     for (const auto& [place, make] : faults) EXPECT_EQ(reason_of(make).find(place), 0u) << reason_of(make);
 }
 

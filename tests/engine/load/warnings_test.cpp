@@ -15,7 +15,7 @@ TEST_F(LoadWarnings, SceneWithoutLightGetsAWhiteEnvironment) {
     const Scene dark = load_scene(
         write_scene(R"("materials": {"unused": {"emission": [1, 1, 1]}}, "lights": {"unused": {"type": "point"}},
         "nodes": [{"shape": {"type": "box"}, "material": {"emission": [1, 0, 0], "emission_strength": 0}}])"));
-    EXPECT_EQ(dark.environment, Track<glm::dvec3>(glm::dvec3(1.0)));
+    EXPECT_EQ(dark.environment.radiance, Track<glm::dvec3>(glm::dvec3(1.0)));
     EXPECT_TRUE(has_warning(dark, "no light"));
     for (
         const char* light :
@@ -24,7 +24,7 @@ TEST_F(LoadWarnings, SceneWithoutLightGetsAWhiteEnvironment) {
          R"("nodes": [{"shape": {"type": "quad"}, "material": {"emission": {"keys": [[0, [0, 0, 0]], [9, [0, 1, 0]]]}}}])"}) {
         const Scene lit = load_scene(write_scene(light));
         EXPECT_FALSE(has_warning(lit, "no light")) << light;
-        EXPECT_NE(lit.environment, Track<glm::dvec3>(glm::dvec3(1.0))) << light;
+        EXPECT_NE(lit.environment.radiance, Track<glm::dvec3>(glm::dvec3(1.0))) << light;
     }
 }
 
@@ -32,7 +32,7 @@ TEST_F(LoadWarnings, TransmissionAndBlendingGiveNone) {
     const Scene scene = load_scene(write_scene(R"("environment": [1, 1, 1], "nodes": [
         {"shape": {"type": "quad"}, "material": {"alpha_mode": "blend", "alpha": 0.5}},
         {"shape": {"type": "box"}, "material": {"transmission": 1, "thickness": 1}}])"));
-    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
 }
 
 TEST_F(LoadWarnings, RP08_RotationKeysMoreThan170DegreesApartAreSaid) {
@@ -46,15 +46,15 @@ TEST_F(LoadWarnings, RP08_RotationKeysMoreThan170DegreesApartAreSaid) {
                std::to_string(std::cos(half)) + "]]]" + more + "}";
     };
     const Scene scene = load(keys(171.0, ""));
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("\"arm\": neighbouring rotation keys are 171"), std::string::npos)
-        << scene.warnings[0];
+    ASSERT_EQ(scene.source.warnings.size(), 1u);
+    EXPECT_NE(scene.source.warnings[0].find("\"arm\": neighbouring rotation keys are 171"), std::string::npos)
+        << scene.source.warnings[0];
     EXPECT_TRUE(has_warning(load(keys(180.0, "")), "180 degrees"));
     EXPECT_TRUE(has_warning(load(keys(185.0, "")), "185 degrees"));
     EXPECT_TRUE(has_warning(load(keys(270.0, "")), "270 degrees")) << "although the rotation takes the 90 back";
-    EXPECT_TRUE(load(keys(169.0, "")).warnings.empty());
-    EXPECT_TRUE(load(keys(180.0, ", \"interpolation\": \"step\"")).warnings.empty());
-    EXPECT_TRUE(load(R"({"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [5, 720]]}})").warnings.empty());
+    EXPECT_TRUE(load(keys(169.0, "")).source.warnings.empty());
+    EXPECT_TRUE(load(keys(180.0, ", \"interpolation\": \"step\"")).source.warnings.empty());
+    EXPECT_TRUE(load(R"({"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [5, 720]]}})").source.warnings.empty());
 }
 
 TEST_F(LoadWarnings, KF04_RotationsThatAreNotUnitAreSaid) {
@@ -64,7 +64,7 @@ TEST_F(LoadWarnings, KF04_RotationsThatAreNotUnitAreSaid) {
     };
     EXPECT_TRUE(has_warning(load("[0, 0, 0, 2]"), "\"arm\": rotation key 0 has length 2"));
     EXPECT_TRUE(has_warning(load("[0, 1.002, 0, 0]"), "length 1.002"));
-    EXPECT_TRUE(load("[0, 0.70711, 0, 0.70711]").warnings.empty());
+    EXPECT_TRUE(load("[0, 0.70711, 0, 0.70711]").source.warnings.empty());
     const Scene tiny = load("[0, 1e-20, 0, 1e-20]");
     EXPECT_NEAR(pose(tiny, 0.0).world[0][0].z, -1.0, 1e-12);  // a quarter turn about y takes x to -z
 }
@@ -78,8 +78,8 @@ TEST_F(UnlikelyValues, FieldsOfViewInRadians) {
     };
     EXPECT_TRUE(has_warning(load("0.7"), "0.7 degrees looks like radians; 0.7 radians are 40.11 degrees"));
     EXPECT_TRUE(has_warning(load(R"({"keys": [[0, 0.7], [9, 1.2]]})"), "radians"));
-    EXPECT_TRUE(load("2").warnings.empty()) << "a long focal length";
-    EXPECT_TRUE(load(R"({"keys": [[0, 1], [9, 40]]})").warnings.empty()) << "a zoom";
+    EXPECT_TRUE(load("2").source.warnings.empty()) << "a long focal length";
+    EXPECT_TRUE(load(R"({"keys": [[0, 1], [9, 40]]})").source.warnings.empty()) << "a zoom";
 }
 
 TEST_F(UnlikelyValues, RotationsInRadians) {
@@ -94,7 +94,7 @@ TEST_F(UnlikelyValues, RotationsInRadians) {
             << radians;
     }
     for (const char* degrees : {"0", "1.5", "-3", "45", "1.571", R"({"keys": [[0, 0], [9, 1.5708], [12, 2]]})"}) {
-        EXPECT_TRUE(load(degrees).warnings.empty()) << degrees;
+        EXPECT_TRUE(load(degrees).source.warnings.empty()) << degrees;
     }
 }
 
@@ -111,7 +111,7 @@ TEST_F(UnlikelyValues, OperationsInRadians) {
     }
     const char* mixed = R"({"rotate_y": 1.5708}, {"rotate_x": {"keys": [[0, 1.5708], [9, 30]]}})";
     for (const char* degrees : {R"({"rotate_y": 90})", R"({"translate": [1.5708, 0, 0]})", mixed, ""}) {
-        EXPECT_TRUE(load(degrees).warnings.empty()) << degrees;
+        EXPECT_TRUE(load(degrees).source.warnings.empty()) << degrees;
     }
 }
 
@@ -121,7 +121,7 @@ TEST_F(UnlikelyValues, CutsOutsideTheFrames) {
     };
     EXPECT_TRUE(has_warning(load("[7, 50]"), "cut at frame 50 lies outside the frames 5 to 20"));
     EXPECT_TRUE(has_warning(load("[4]"), "cut at frame 4"));
-    EXPECT_TRUE(load("[6, 20]").warnings.empty());
+    EXPECT_TRUE(load("[6, 20]").source.warnings.empty());
 }
 
 TEST_F(UnlikelyValues, CamerasThatJumpWithoutACut) {
@@ -135,9 +135,10 @@ TEST_F(UnlikelyValues, CamerasThatJumpWithoutACut) {
     EXPECT_TRUE(
         has_warning(load("[]", "step", own), "camera of node \"dolly\": step keys move it at frame 10 and at 1 more"));
     EXPECT_TRUE(has_warning(load("[10]", "step", below), "\"eye\": step keys move it at frame 15, which"));
-    EXPECT_TRUE(load("[10, 15]", "step", own).warnings.empty());
-    EXPECT_TRUE(load("[]", "linear", own).warnings.empty());
-    EXPECT_TRUE(load("[]", "step", R"(, "shape": {"type": "box"}}, {"name": "eye", "camera": {}}])").warnings.empty());
+    EXPECT_TRUE(load("[10, 15]", "step", own).source.warnings.empty());
+    EXPECT_TRUE(load("[]", "linear", own).source.warnings.empty());
+    EXPECT_TRUE(
+        load("[]", "step", R"(, "shape": {"type": "box"}}, {"name": "eye", "camera": {}}])").source.warnings.empty());
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ Scene make_sheet(double distance, double height_of_waves = 0.3) {
     }
     Scene scene = make_cage_scene(test, {test.points}, 0);
     scene.cages[0].max_level = 8;
-    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, distance);
+    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, distance);
     return scene;
 }
 
@@ -81,7 +81,7 @@ TEST(CageLevel, FlatAndStraightFacesStayWhole) {
                                {{0, 1, 3, 2}, {2, 3, 5, 4}});
     add_crease(board.cage, {2, 3}, 10.0f);
     Scene scene = make_cage_scene(board, {board.points}, 1);
-    scene.nodes[1].translation = glm::dvec3(2.5, 0.1, 0.3);
+    scene.nodes[1].transform.translation = glm::dvec3(2.5, 0.1, 0.3);
     EXPECT_EQ(level_of(scene), 1);
 }
 
@@ -97,13 +97,13 @@ TEST(CageLevel, AsksForMoreAsTheCameraNears) {
 
 TEST(CageLevel, NearestFrameOfTheShotDecidesForAll) {
     Scene scene = make_sheet(0.0);
-    scene.range = FrameRange{0, 100};
-    Track<glm::dvec3>& path = scene.nodes[1].translation;
+    scene.film.range = FrameRange{0, 100};
+    Track<glm::dvec3>& path = scene.nodes[1].transform.translation;
     path.sampling.kind = TimeSampling::Kind::acyclic;
     path.sampling.times = {0.0, 50.0 / 30.0, 100.0 / 30.0};
     path.values = {{0.0, 0.0, 40.0}, {0.0, 0.0, 1.0}, {0.0, 0.0, 40.0}};
     EXPECT_EQ(level_of(scene), level_of(make_sheet(1.0)));
-    scene.range = FrameRange{0, 10};
+    scene.film.range = FrameRange{0, 10};
     EXPECT_LT(level_of(scene), level_of(make_sheet(1.0)));
 }
 
@@ -112,13 +112,13 @@ TEST(CageLevel, PictureSizeScaleAndDeformationCount) {
     const int level = level_of(scene);
     EXPECT_GE(choose_cage_levels(scene, 0, 4 * width, 4 * height).at(0), level + 1);  // + 2 by edges, + 1 by bends
     Scene scaled = make_sheet(6.0);
-    scaled.nodes[0].scale = glm::dvec3(5.0);
+    scaled.nodes[0].transform.scale = glm::dvec3(5.0);
     EXPECT_GT(level_of(scaled), level);
     Scene stretched = make_sheet(6.0);
     PointCache& cache = stretched.point_caches[0];
     cache.positions.push_back(cache.positions[0]);
     for (glm::vec3& p : cache.positions[1]) p *= glm::vec3(2.0f, 2.0f, 20.0f);
-    stretched.range = FrameRange{0, 1};
+    stretched.film.range = FrameRange{0, 1};
     EXPECT_GT(level_of(stretched), level);
 }
 
@@ -128,7 +128,7 @@ TEST(CageLevel, OrthographicCamerasDoNotNear) {
     scene.cameras[0].half_height = 2.0;
     const int level = level_of(scene);
     EXPECT_GT(level, 2);
-    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, 60.0);
+    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, 60.0);
     EXPECT_EQ(level_of(scene), level);
     scene.cameras[0].half_height = 0.25;
     EXPECT_GT(level_of(scene), level);
@@ -136,7 +136,7 @@ TEST(CageLevel, OrthographicCamerasDoNotNear) {
 
 TEST(CageLevel, WhatIsNotInViewKeepsItsLevel) {
     Scene beside = make_sheet(3.0);
-    beside.nodes[0].translation = glm::dvec3(100.0, 0.0, 0.0);
+    beside.nodes[0].transform.translation = glm::dvec3(100.0, 0.0, 0.0);
     EXPECT_EQ(level_of(beside), 0);
     Scene behind = make_sheet(-3.0);
     EXPECT_EQ(level_of(behind), 0);
@@ -159,7 +159,7 @@ TEST(CageLevel, ViewsEndAtThePicturesSidesAndTheNearPlane) {
         const double top = orthographic ? 3.0 : 10.0 * std::tan(std::numbers::pi / 8.0), right = 1.6 * top;
         for (const double side : {-1.0, 1.0}) {
             const auto level_at = [&](double x, double y) {
-                scene.nodes[0].translation = glm::dvec3(side * x, side * y, 0.0);
+                scene.nodes[0].transform.translation = glm::dvec3(side * x, side * y, 0.0);
                 return level_of(scene);
             };
             EXPECT_GT(level_at(right + 1.6, 0.0), 0) << orthographic << side;
@@ -167,7 +167,7 @@ TEST(CageLevel, ViewsEndAtThePicturesSidesAndTheNearPlane) {
             EXPECT_GT(level_at(0.0, top + 1.6), 0) << orthographic << side;
             EXPECT_EQ(level_at(0.0, top + 2.4), 0) << orthographic << side;
         }
-        scene.nodes[0].translation = glm::dvec3(0.0);
+        scene.nodes[0].transform.translation = glm::dvec3(0.0);
         scene.cameras[0].near_plane = 9.0;
         EXPECT_GT(level_of(scene), 0) << orthographic;
         scene.cameras[0].near_plane = 11.0;
@@ -194,7 +194,7 @@ TEST(CageLevel, StaysWithinTheCagesAndTheScenesLimits) {
 TEST(CageLevel, CameraInTheSurfaceIsNoHarm) {
     for (const double tilt : {0.0, 0.5, 1.5}) {
         Scene through = make_sheet(0.0);
-        through.nodes[0].rotation = glm::angleAxis(tilt, glm::dvec3(1.0, 0.0, 0.0));
+        through.nodes[0].transform.rotation = glm::angleAxis(tilt, glm::dvec3(1.0, 0.0, 0.0));
         EXPECT_LE(level_of(through), 8);
     }
 }
@@ -207,14 +207,14 @@ TEST(CageLevel, ScenesAreRemadeOnlyWhereALevelDiffers) {
     ASSERT_NE(copy, nullptr);
     EXPECT_EQ(copy->meshes[0].triangles.size(), 16u * 2u * 256u);
     EXPECT_EQ(scene.meshes[0].triangles.size(), 16u * 2u);
-    EXPECT_EQ(copy->meshes[0].limit.surface->level(), 4);
+    EXPECT_EQ(copy->meshes[0].subdivision.limit.surface->level(), 4);
     EXPECT_EQ(make_scene_at_levels(scene, beyond_all)->cages[0].level, 8);
 }
 
 TEST(CageLevel, SequencesTakeItAndTheSettingFixesIt) {
     Scene scene = make_sheet(20.0, 0.01);
-    scene.environment = glm::dvec3(1.0);
-    scene.exposure = 1.0;
+    scene.environment.radiance = glm::dvec3(1.0);
+    scene.film.exposure = 1.0;
     RenderSettings settings;
     settings.picture.width = 32;
     settings.picture.height = 20;

@@ -52,7 +52,7 @@ TEST(Deform, VerticesFindTheirPoints) {
         return p + glm::vec3(0.0f, static_cast<float>(sample), 0.0f);
     });
     Mesh& mesh = scene.meshes[0];
-    std::vector<std::uint32_t>& to = mesh.vertex_points;
+    std::vector<std::uint32_t>& to = mesh.deformation.vertex_points;
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
         to.push_back(static_cast<std::uint32_t>(mesh.positions.size()) - 1 - v);
     const ScenePose frame = pose(scene, 1.0);
@@ -66,12 +66,12 @@ TEST(Deform, WhatNeverMovesIsRigid) {
     EXPECT_TRUE(pose(scene, 0.5).meshes[0].positions.empty());
     EXPECT_TRUE(make_pose_plan(scene).deformers.empty());
     EXPECT_TRUE(make_pose_plan(scene).instances.empty());
-    scene.meshes[0].targets.resize(1);
-    scene.meshes[0].targets[0].positions.assign(scene.meshes[0].positions.size(), glm::vec3(1.0f));
-    scene.meshes[0].points = no_index;
-    scene.meshes[0].target_weights = {Track<double>(0.0)};
+    scene.meshes[0].deformation.targets.resize(1);
+    scene.meshes[0].deformation.targets[0].positions.assign(scene.meshes[0].positions.size(), glm::vec3(1.0f));
+    scene.meshes[0].deformation.points = no_index;
+    scene.meshes[0].deformation.target_weights = {Track<double>(0.0)};
     EXPECT_TRUE(pose(scene, 0.5).meshes[0].positions.empty());
-    scene.meshes[0].target_weights = {Track<double>(0.5)};  // posed, though always alike
+    scene.meshes[0].deformation.target_weights = {Track<double>(0.5)};  // posed, though always alike
     EXPECT_EQ(pose(scene, 0.5).meshes[0].positions[0], glm::dvec3(scene.meshes[0].positions[0]) + 0.5);
     EXPECT_TRUE(make_pose_plan(scene).instances.empty());
 }
@@ -101,7 +101,7 @@ TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
     Mesh mesh;  // a hinge of two squares; the points of its axis are shared, the vertices are not
     mesh.positions = {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
     mesh.triangles = {{2, 0, 1}, {2, 1, 3}, {4, 6, 7}, {4, 7, 5}};
-    mesh.vertex_points = {0, 1, 2, 3, 0, 1, 4, 5};
+    mesh.deformation.vertex_points = {0, 1, 2, 3, 0, 1, 4, 5};
     mesh.normals.assign(8, glm::vec3(0.0f, 0.0f, 1.0f));
     scene.meshes = {mesh};
     PointCache cache;
@@ -109,7 +109,7 @@ TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
     cache.positions = {{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {1, 0, 0}, {1, 1, 0}},
                        {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 1}, {0, 1, 1}}};
     scene.point_caches = {cache};
-    scene.meshes[0].points = 0;
+    scene.meshes[0].deformation.points = 0;
     const ScenePose smooth = pose(scene, 1.0);  // the right square stands up and faces -x
     expect_near(smooth.meshes[0].normals[2], {0.0, 0.0, 1.0}, 1e-6);
     expect_near(smooth.meshes[0].normals[6], {-1.0, 0.0, 0.0}, 1e-6);
@@ -147,8 +147,8 @@ TEST(Deform, NormalSamplesAreTakenWhereGiven) {
     add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t) { return p; });
     const std::size_t count = scene.meshes[0].positions.size();
     scene.meshes[0].normals.assign(count, glm::vec3(0.0f, 0.0f, 1.0f));
-    scene.meshes[0].normal_sampling.period = 2.0;
-    scene.meshes[0].normal_samples = {scene.meshes[0].normals, {count, glm::vec3(1.0f, 0.0f, 0.0f)}};
+    scene.meshes[0].deformation.normal_sampling.period = 2.0;
+    scene.meshes[0].deformation.normal_samples = {scene.meshes[0].normals, {count, glm::vec3(1.0f, 0.0f, 0.0f)}};
     const ScenePose frame = pose(scene, 1.0);  // the points stand still, the normals do not
     EXPECT_EQ(frame.meshes[0].normals[3], glm::vec3(0.5f, 0.0f, 0.5f));
     EXPECT_EQ(frame.meshes[0].positions[3], glm::dvec3(scene.meshes[0].positions[3]));
@@ -158,11 +158,11 @@ TEST(Deform, MorphTargetsAddUp) {
     Scene scene = make_sheet_scene();
     Mesh& mesh = scene.meshes[0];
     mesh.normals.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 1.0f));
-    mesh.targets.resize(2);
-    mesh.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 2.0f, 0.0f));
-    mesh.targets[0].normals.assign(mesh.positions.size(), glm::vec3(2.0f, 0.0f, 0.0f));
-    mesh.targets[1].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, -4.0f));
-    mesh.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0}), Track<double>(0.25)};
+    mesh.deformation.targets.resize(2);
+    mesh.deformation.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 2.0f, 0.0f));
+    mesh.deformation.targets[0].normals.assign(mesh.positions.size(), glm::vec3(2.0f, 0.0f, 0.0f));
+    mesh.deformation.targets[1].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, -4.0f));
+    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0}), Track<double>(0.25)};
     const PosedMesh posed = pose(scene, 0.5).meshes[0];
     EXPECT_EQ(posed.positions[0], glm::dvec3(mesh.positions[0]) + glm::dvec3(0.0, 1.0, -1.0));
     expect_near(posed.normals[0], glm::normalize(glm::dvec3(1.0, 0.0, 1.0)), 1e-7);
@@ -171,14 +171,14 @@ TEST(Deform, MorphTargetsAddUp) {
 TEST(Deform, SkinFollowsItsJointsWhateverItsOwnNodeDoes) {
     Scene scene = make_skin_scene();
     for (const double angle : {0.0, 30.0, 90.0, 210.0}) {
-        scene.nodes[2].rotation = glm::angleAxis(angle * pi / 180.0, glm::dvec3(0.0, 0.0, 1.0));
+        scene.nodes[2].transform.rotation = glm::angleAxis(angle * pi / 180.0, glm::dvec3(0.0, 0.0, 1.0));
         const ScenePose frame = pose(scene, 0.0);
         for (std::size_t v = 0; v < scene.meshes[0].positions.size(); ++v) {
             const glm::dvec3 world(frame.world[0] * glm::dvec4(frame.meshes[0].positions[v], 1.0));
             expect_near(world, bent_by(scene.meshes[0].positions[v], angle * pi / 180.0), 1e-6);
         }
     }
-    scene.nodes[0].scale = glm::dvec3(1.0, 0.0, 1.0);
+    scene.nodes[0].transform.scale = glm::dvec3(1.0, 0.0, 1.0);
     const ScenePose flat = pose(scene, 0.0);
     for (const glm::dvec3& p : flat.meshes[0].positions) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
 }
@@ -187,7 +187,7 @@ TEST(Deform, VerticesWithoutWeightsStayAtRest) {
     Scene scene = make_skin_scene();
     Mesh& mesh = scene.meshes[0];
     mesh.normals.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 1.0f));
-    mesh.joint_weights[0].weight = mesh.joint_weights[1].weight = 0.0f;
+    mesh.deformation.joint_weights[0].weight = mesh.deformation.joint_weights[1].weight = 0.0f;
     const PosedMesh posed = pose(scene, 0.0).meshes[0];
     EXPECT_EQ(posed.positions[0], glm::dvec3(mesh.positions[0]));
     EXPECT_EQ(posed.normals[0], mesh.normals[0]);

@@ -13,7 +13,7 @@ constexpr int width = 64, height = 48;
 /// A camera at +z that sees the sheet.
 int add_camera(Scene& scene, double distance = 4.0) {
     scene.cameras.emplace_back();
-    scene.nodes.push_back({.translation = glm::dvec3(0.1, -0.2, distance), .camera = 0});
+    scene.nodes.push_back({.transform = {.translation = glm::dvec3(0.1, -0.2, distance)}, .camera = 0});
     return static_cast<int>(scene.nodes.size()) - 1;
 }
 
@@ -59,7 +59,7 @@ TEST(Deforming, RP14_MovingAllVerticesIsMovingTheObject) {
     Scene deforming = make_sheet_scene(), rigid = make_sheet_scene();
     add_cache(deforming, 0, {0.0, 1.0},
               [&](const glm::vec3& p, std::size_t sample) { return p + shift * static_cast<float>(sample); });
-    rigid.nodes[0].translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(shift)});
+    rigid.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(shift)});
     add_camera(deforming);
     add_camera(rigid);
     for (const double from : {0.0, 0.3}) {
@@ -101,7 +101,7 @@ TEST(Deforming, RP15_NoMotionAcrossAChangeOfTopology) {
     scene.nodes[0].meshes = {0, 1};
     scene.meshes[0].present = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
     scene.meshes[1].present = keyed<double>({0.0, 1.0}, {0.0, 1.0}, Interpolation::step);
-    scene.nodes[0].translation = keyed<glm::dvec3>({0.0, 2.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+    scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, 2.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
     add_camera(scene);
     const Observed across = observe(scene, 0.9, 1.1), before = observe(scene, 0.5, 0.9),
                    after = observe(scene, 1.0, 1.5);
@@ -123,7 +123,7 @@ TEST(Deforming, RP15_NoMotionAcrossAChangeOfTopology) {
 TEST(Deforming, SkinnedPointsTurnWithTheirJoint) {
     Scene scene = make_skin_scene();
     Track<double> angle = keyed<double>({0.0, 1.0}, {0.0, std::numbers::pi / 2.0});
-    scene.nodes[2].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, angle};
+    scene.nodes[2].transform.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, angle};
     add_camera(scene);
     const double from = 0.1, to = 0.25;  // 13.5 degrees
     const Observed seen = observe(scene, from, to);
@@ -140,9 +140,9 @@ TEST(Deforming, KF19_SkinsOnNodesOfTinyAndHugeScale) {
     for (const double s : {1e-30, 1e-14, 1e-6, 1.0, 1e6, 1e14, 1e30}) {
         for (const glm::dvec3& shape : {glm::dvec3(1.0), glm::dvec3(-2.0, 1.0, 0.5)}) {
             Scene scene = make_skin_scene();
-            scene.nodes[0].translation = std::min(s, 1.0) * glm::dvec3(5.0, -3.0, 2.0);
-            scene.nodes[0].rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, -1.0)));
-            scene.nodes[0].scale = s * shape;
+            scene.nodes[0].transform.translation = std::min(s, 1.0) * glm::dvec3(5.0, -3.0, 2.0);
+            scene.nodes[0].transform.rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, -1.0)));
+            scene.nodes[0].transform.scale = s * shape;
             const ScenePose posed = pose(scene, 0.0);
             ASSERT_EQ(posed.meshes[0].positions.size(), scene.meshes[0].positions.size());
             for (std::size_t v = 0; v < posed.meshes[0].positions.size(); ++v) {
@@ -155,7 +155,7 @@ TEST(Deforming, KF19_SkinsOnNodesOfTinyAndHugeScale) {
 
 TEST(Deforming, RP07_PathsOfTurningJointsAreArcs) {
     Scene scene = make_skin_scene();
-    scene.nodes[2].axis_rotation =
+    scene.nodes[2].transform.axis_rotation =
         AxisRotation{{0.0, 0.0, 1.0}, keyed<double>({0.0, 1.0}, {0.0, 2.0 * std::numbers::pi})};
     add_camera(scene);
     const Observed seen = observe(scene, 0.0, 1.0);  // once around
@@ -180,9 +180,10 @@ TEST(Deforming, RP07_PathsOfTurningJointsAreArcs) {
 TEST(Deforming, MorphedPointsMoveByTheirTargets) {
     Scene scene = make_sheet_scene();
     Mesh& mesh = scene.meshes[0];
-    mesh.targets.resize(1);
-    for (const glm::vec3& p : mesh.positions) mesh.targets[0].positions.emplace_back(p.y, 0.5f * p.x, p.x * p.y);
-    mesh.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
+    mesh.deformation.targets.resize(1);
+    for (const glm::vec3& p : mesh.positions)
+        mesh.deformation.targets[0].positions.emplace_back(p.y, 0.5f * p.x, p.x * p.y);
+    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
     add_camera(scene);
     const Observed seen = observe(scene, 0.25, 0.5);
     EXPECT_GT(count_hits(seen), 400u);
@@ -202,7 +203,7 @@ TEST(Deforming, HiddenPointsAreFoundWhereTheyHaveMoved) {
     });
     scene.meshes.push_back(make_sheet(1));
     Node screen{.meshes = {1}};
-    screen.translation = glm::dvec3(1.3, 0.0, -1.0);  // before the sheet only once that has gone back
+    screen.transform.translation = glm::dvec3(1.3, 0.0, -1.0);  // before the sheet only once that has gone back
     scene.nodes.push_back(screen);
     add_camera(scene);
     Observed seen = observe(scene, 0.0, 1.0);

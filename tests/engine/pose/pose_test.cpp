@@ -12,8 +12,8 @@ namespace {
 TEST(Pose, LocalTransformIsTranslationRotationScale) {
     Scene scene;
     scene.nodes.push_back(child_of(no_index, {1.0, 2.0, 3.0}));
-    scene.nodes[0].rotation = glm::angleAxis(pi / 2.0, glm::dvec3(0.0, 0.0, 1.0));
-    scene.nodes[0].scale = glm::dvec3(2.0, 3.0, 4.0);
+    scene.nodes[0].transform.rotation = glm::angleAxis(pi / 2.0, glm::dvec3(0.0, 0.0, 1.0));
+    scene.nodes[0].transform.scale = glm::dvec3(2.0, 3.0, 4.0);
     scene.nodes.push_back(child_of(0, {1.0, 1.0, 1.0}));
     const ScenePose frame = pose(scene, 0.0);
     expect_near(frame.world[0] * glm::dvec4(1.0, 1.0, 1.0, 1.0), {-2.0, 4.0, 7.0}, 1e-14);
@@ -25,7 +25,7 @@ TEST(Pose, MatrixStandsForTheWholeTransform) {
     Scene scene;
     scene.nodes.push_back(child_of(no_index, {9.0, 9.0, 9.0}));
     const glm::dmat4 m(1.0, 2.0, 3.0, 0.0, -4.0, 5.0, 6.0, 0.0, 7.0, -8.0, 9.0, 0.0, 1.0, 2.0, 3.0, 1.0);
-    scene.nodes[0].matrix = m;
+    scene.nodes[0].transform.matrix = m;
     EXPECT_EQ(pose(scene, 0.0).world[0], m);
 }
 
@@ -33,7 +33,7 @@ TEST(Pose, AxisRotationSpinsMoreThanOnce) {
     Scene scene;
     scene.nodes.push_back(child_of(no_index));
     AxisRotation spin{.axis = {0.0, 2.0, 0.0}, .angle = keyed<double>({0.0, 1.0}, {0.0, 4.0 * pi})};
-    scene.nodes[0].axis_rotation = spin;
+    scene.nodes[0].transform.axis_rotation = spin;
     for (double t = 0.0; t <= 1.0; t += 0.0625)
         expect_near(pose(scene, t).world[0][0], {std::cos(4.0 * pi * t), 0.0, -std::sin(4.0 * pi * t)}, 1e-13);
 }
@@ -69,8 +69,8 @@ TEST(Pose, LightsShineAlongMinusZWithoutTheirScale) {
                 .intensity = keyed<double>({0.0, 1.0}, {10.0, 20.0})};
     scene.lights = {light};
     scene.nodes = {child_of(no_index, {1.0, 2.0, 3.0}), child_of(no_index)};
-    scene.nodes[0].rotation = glm::angleAxis(-pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));  // -z to -y
-    scene.nodes[0].scale = glm::dvec3(1e-3, 5.0, 1e-20);
+    scene.nodes[0].transform.rotation = glm::angleAxis(-pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));  // -z to -y
+    scene.nodes[0].transform.scale = glm::dvec3(1e-3, 5.0, 1e-20);
     scene.nodes[0].light = 0;
     scene.nodes[1].light = 0;
     scene.nodes[1].visible = 0.0;
@@ -79,7 +79,7 @@ TEST(Pose, LightsShineAlongMinusZWithoutTheirScale) {
     expect_near(frame.lights[0].direction, {0.0, -1.0, 0.0}, 1e-14);
     expect_near(frame.lights[0].position, {1.0, 2.0, 3.0}, 1e-14);
     EXPECT_EQ(frame.lights[0].intensity, Rgb(15.0f, 7.5f, 3.75f));
-    scene.nodes[0].scale = glm::dvec3(0.0);
+    scene.nodes[0].transform.scale = glm::dvec3(0.0);
     EXPECT_EQ(pose(scene, 0.5).lights[0].direction, glm::dvec3(0.0, 0.0, -1.0));
 }
 
@@ -91,36 +91,36 @@ TEST(Pose, CamerasAreOrthonormalWhateverTheScale) {
     scene.nodes[1].camera = 0;
     scene.nodes[1].visible = 0.0;  // a hidden camera still sees
     const glm::dquat rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, -1.0)));
-    scene.nodes[1].rotation = rotation;
+    scene.nodes[1].transform.rotation = rotation;
     for (const glm::dvec3 scale :
          {glm::dvec3(1.0), glm::dvec3(2.0, 0.1, 1e-20), glm::dvec3(1e30), glm::dvec3(-1, 1, 1)}) {
-        scene.nodes[1].scale = scale;
+        scene.nodes[1].transform.scale = scale;
         const CameraValues camera = pose(scene, 0.0).cameras.at(0);
         const glm::dmat3 expected = glm::mat3_cast(rotation);
         for (int i = 0; i < 3; ++i) expect_near(camera.axes[i], expected[i], 1e-14);
         expect_near(camera.position, {0.0, 0.0, 10.0}, 1e-14);
         EXPECT_EQ(camera.shutter, glm::dvec2(-0.25, 0.25));
     }
-    scene.nodes[0].scale = glm::dvec3(1.0, 3.0, 1.0);  // with the rotation below it: a shear
+    scene.nodes[0].transform.scale = glm::dvec3(1.0, 3.0, 1.0);  // with the rotation below it: a shear
     const CameraValues sheared = pose(scene, 0.0).cameras.at(0);
     const glm::dmat3 product = glm::transpose(sheared.axes) * sheared.axes;
     for (int i = 0; i < 3; ++i) expect_near(product[i], glm::dmat3(1.0)[i], 1e-14);
     EXPECT_GT(glm::determinant(sheared.axes), 0.99);
-    scene.nodes[1].scale = glm::dvec3(0.0);
+    scene.nodes[1].transform.scale = glm::dvec3(0.0);
     EXPECT_EQ(pose(scene, 0.0).cameras[0].axes, glm::dmat3(1.0));
 }
 
 TEST(Pose, MaterialsStayInRangeWhereCubicKeysOvershoot) {
     Scene scene;
-    Material material{.roughness = keyed<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic),
-                      .emission = glm::dvec3(1.0, 2.0, 3.0),
-                      .emission_strength = 4.0};
+    Material material{
+        .glow = {.color = glm::dvec3(1.0, 2.0, 3.0), .strength = 4.0},
+        .gloss = {.roughness = keyed<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic)}};
     scene.materials = {material};
-    scene.environment = Track<glm::dvec3>(keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(2.0)}));
+    scene.environment.radiance = Track<glm::dvec3>(keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(2.0)}));
     const ScenePose frame = pose(scene, 0.5);
-    EXPECT_EQ(frame.materials[0].roughness, 1.0f);  // the curve is at 3.25
+    EXPECT_EQ(frame.materials[0].gloss.roughness, 1.0f);  // the curve is at 3.25
     EXPECT_EQ(frame.materials[0].emission, Rgb(4.0f, 8.0f, 12.0f));
-    EXPECT_EQ(frame.materials[0].ior, 1.5f);
+    EXPECT_EQ(frame.materials[0].gloss.ior, 1.5f);
     EXPECT_EQ(frame.environment, Rgb(1.0f));
     EXPECT_EQ(frame.seconds, 0.5);
 }
@@ -130,31 +130,33 @@ TEST(Pose, VolumesCoatsSheenAndAnisotropyStayInRange) {
     const auto below = keyed<double>({0.0, 1.0}, {0.0, 0.0, -9.0, 9.0, 0.0, 0.0}, Interpolation::cubic);
     Scene scene;
     Material material;
-    material.thickness = material.attenuation_distance = below;
-    material.clearcoat = material.clearcoat_roughness = material.sheen_roughness = material.anisotropy = overshoot;
-    material.anisotropy_rotation = below;
-    material.attenuation_color = material.sheen_color = keyed<glm::dvec3>(
+    material.glass.thickness = material.glass.attenuation_distance = below;
+    material.layers.clearcoat = material.layers.clearcoat_roughness = material.layers.sheen_roughness =
+        material.layers.anisotropy = overshoot;
+    material.layers.anisotropy_rotation = below;
+    material.glass.attenuation_color = material.layers.sheen_color = keyed<glm::dvec3>(
         {0.0, 1.0}, {{0, 0, 0}, {1, 0, 0.5}, {9, -9, 0}, {-9, 9, 0}, {1, 0, 0.5}, {0, 0, 0}}, Interpolation::cubic);
     scene.materials = {material};
     const MaterialValues half = pose(scene, 0.5).materials[0];  // the curves are at 3.25, -2.25 and (3.25, -2.25, 0.5)
-    EXPECT_EQ(half.thickness, 0.0f);
-    EXPECT_EQ(half.attenuation_distance, 0.0f);
-    for (const float value : {half.clearcoat, half.clearcoat_roughness, half.sheen_roughness, half.anisotropy})
+    EXPECT_EQ(half.glass.thickness, 0.0f);
+    EXPECT_EQ(half.glass.attenuation_distance, 0.0f);
+    for (const float value :
+         {half.layers.clearcoat, half.layers.clearcoat_roughness, half.layers.sheen_roughness, half.layers.anisotropy})
         EXPECT_EQ(value, 1.0f);
-    EXPECT_EQ(half.attenuation_color, Rgb(1.0f, 0.0f, 0.5f));
-    EXPECT_EQ(half.sheen_color, Rgb(1.0f, 0.0f, 0.5f));
-    EXPECT_EQ(half.anisotropy_rotation, -2.25f);
+    EXPECT_EQ(half.glass.attenuation_color, Rgb(1.0f, 0.0f, 0.5f));
+    EXPECT_EQ(half.layers.sheen_color, Rgb(1.0f, 0.0f, 0.5f));
+    EXPECT_EQ(half.layers.anisotropy_rotation, -2.25f);
 }
 
 TEST(Pose, TheEnvironmentTurnsByQuaternionsOrAboutAnAxis) {
     Scene scene;
-    scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
-    scene.environment_rotation = keyed<glm::dquat>(
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
+    scene.environment.rotation = keyed<glm::dquat>(
         {0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::angleAxis(pi / 2.0, glm::dvec3(0.0, 0.0, 1.0))});
     EXPECT_TRUE(is_world_animated(scene));
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 30}));
     expect_near(pose(scene, 0.5).environment_rotation[0], {std::sqrt(0.5), std::sqrt(0.5), 0.0}, 1e-14);
-    scene.environment_axis_rotation = AxisRotation{{0.0, 2.0, 0.0}, keyed<double>({0.0, 2.0}, {0.0, 4.0 * pi})};
+    scene.environment.axis_rotation = AxisRotation{{0.0, 2.0, 0.0}, keyed<double>({0.0, 2.0}, {0.0, 4.0 * pi})};
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 60}));
     const PosePlan plan = make_pose_plan(scene);
     ScenePose updated = pose(scene, 0.0);
@@ -163,7 +165,7 @@ TEST(Pose, TheEnvironmentTurnsByQuaternionsOrAboutAnAxis) {
         EXPECT_EQ(updated.environment_rotation, pose(scene, t).environment_rotation);
         expect_near(updated.environment_rotation[0], {std::cos(2.0 * pi * t), 0.0, -std::sin(2.0 * pi * t)}, 1e-13);
     }
-    scene.environment_axis_rotation->angle = Track<double>(0.5);
+    scene.environment.axis_rotation->angle = Track<double>(0.5);
     EXPECT_FALSE(is_world_animated(scene)) << "the quaternions do not count beside an axis";
 }
 
@@ -171,17 +173,17 @@ TEST(FrameRange, SpansTheKeysRoundedInwards) {
     Scene scene;
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 0}));
     scene.nodes = {child_of(no_index)};
-    scene.nodes[0].translation = keyed<glm::dvec3>({3.0}, {glm::dvec3(0.0)});  // one key is no animation
+    scene.nodes[0].transform.translation = keyed<glm::dvec3>({3.0}, {glm::dvec3(0.0)});  // one key is no animation
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 0}));
-    scene.nodes[0].translation = keyed<glm::dvec3>({0.05, 1.05}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.05, 1.05}, {glm::dvec3(0.0), glm::dvec3(1.0)});
     EXPECT_EQ(frame_range(scene), (FrameRange{2, 31}));  // 1.5 to 31.5
     scene.cameras.resize(1);
     scene.cameras[0].fov = keyed<double>({-1.0, 0.0}, {1.0, 1.0});
     EXPECT_EQ(frame_range(scene), (FrameRange{-30, 31}));
     scene.materials.resize(1);
-    scene.materials[0].ior = keyed<double>({0.0, 4.0}, {1.0, 1.0});
+    scene.materials[0].gloss.ior = keyed<double>({0.0, 4.0}, {1.0, 1.0});
     EXPECT_EQ(frame_range(scene), (FrameRange{-30, 120}));
-    scene.range = FrameRange{5, 6};
+    scene.film.range = FrameRange{5, 6};
     EXPECT_EQ(frame_range(scene), (FrameRange{5, 6}));
 }
 
@@ -201,7 +203,7 @@ TEST(FrameRange, TakesTheNoiseOfSinglePrecisionTimes) {
 
 TEST(FindCamera, ByNodeThenByCameraThenTheScenesChoice) {
     Scene scene;
-    scene.file = "room.json";
+    scene.source.file = "room.json";
     EXPECT_THROW(find_camera(scene, ""), InputError);
     scene.cameras.resize(2);
     scene.cameras[0].name = "wide";
@@ -216,7 +218,7 @@ TEST(FindCamera, ByNodeThenByCameraThenTheScenesChoice) {
     EXPECT_EQ(find_camera(scene, "left"), 0);
     EXPECT_EQ(find_camera(scene, "wide"), 1);
     EXPECT_EQ(find_camera(scene, "near"), 1);
-    scene.camera = "near";
+    scene.film.camera = "near";
     EXPECT_EQ(find_camera(scene, ""), 1);
     EXPECT_EQ(find_refusal([&] { find_camera(scene, "wall"); }).message,
               "room.json: camera: there is no camera 'wall'; there is 'left', 'wide'");
@@ -232,7 +234,7 @@ TEST(IsWorldAnimated, CamerasDoNotCount) {
     scene.nodes[1].meshes = {0};
     scene.nodes[3].camera = 0;
     EXPECT_FALSE(is_world_animated(scene));
-    scene.nodes[2].translation = moving;  // the camera's rig
+    scene.nodes[2].transform.translation = moving;  // the camera's rig
     scene.cameras[0].fov = keyed<double>({0.0, 1.0}, {1.0, 2.0});
     EXPECT_FALSE(is_world_animated(scene));
 
@@ -240,19 +242,19 @@ TEST(IsWorldAnimated, CamerasDoNotCount) {
     other.nodes[3].light = 0;  // a lamp on the rig
     EXPECT_TRUE(is_world_animated(other));
     other = scene;
-    other.nodes[0].translation = moving;
+    other.nodes[0].transform.translation = moving;
     EXPECT_TRUE(is_world_animated(other));
-    other.nodes[0].matrix = glm::dmat4(1.0);  // which replaces the translation
+    other.nodes[0].transform.matrix = glm::dmat4(1.0);  // which replaces the translation
     EXPECT_FALSE(is_world_animated(other));
     other = scene;
     other.nodes[1].visible = keyed<double>({0.0, 1.0}, {1.0, 0.0});
     EXPECT_TRUE(is_world_animated(other));
     other = scene;
     other.materials.resize(1);
-    other.materials[0].emission_strength = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    other.materials[0].glow.strength = keyed<double>({0.0, 1.0}, {1.0, 0.0});
     EXPECT_TRUE(is_world_animated(other));
     other = scene;
-    other.environment = moving;
+    other.environment.radiance = moving;
     EXPECT_TRUE(is_world_animated(other));
 }
 

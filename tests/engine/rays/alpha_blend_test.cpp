@@ -17,11 +17,12 @@ constexpr std::size_t ray_count = 40'000;
 Scene make_blended(double alpha, std::size_t layers) {
     Scene scene = make_sheet_scene(2);
     scene.materials.resize(1);
-    scene.materials[0].alpha_mode = Material::AlphaMode::blend;
-    scene.materials[0].alpha = alpha;
+    scene.materials[0].opacity.mode = Opacity::Mode::blend;
+    scene.materials[0].opacity.alpha = alpha;
     scene.meshes[0].material = 0;
     scene.nodes.resize(layers, scene.nodes[0]);
-    for (std::size_t i = 0; i < layers; ++i) scene.nodes[i].translation = glm::dvec3(0.0, 0.0, -static_cast<double>(i));
+    for (std::size_t i = 0; i < layers; ++i)
+        scene.nodes[i].transform.translation = glm::dvec3(0.0, 0.0, -static_cast<double>(i));
     return scene;
 }
 
@@ -140,8 +141,8 @@ TEST(AlphaBlend, TextureVertexColourAndFactorMultiply) {
     SceneImage image{.bytes = Image<glm::u8vec4>(2, 1, glm::u8vec4(255))};
     image.bytes(0, 0).w = 51;  // .2 on the left, 1 on the right
     scene.images = {image};
-    scene.materials[0].base_color_texture.image = 0;
-    scene.materials[0].base_color_texture.nearest = true;
+    scene.materials[0].textures[TextureSlot::base_color].image = 0;
+    scene.materials[0].textures[TextureSlot::base_color].nearest = true;
     Mesh& mesh = scene.meshes[0];
     for (const glm::vec3& p : mesh.positions) mesh.uv[0].emplace_back(0.5f * (p.x + 1.0f), 0.5f * (1.0f - p.y));
     mesh.colors.assign(mesh.positions.size(), glm::vec4(1.0f, 1.0f, 1.0f, 0.5f));
@@ -164,8 +165,8 @@ TEST(AlphaBlend, TextureVertexColourAndFactorMultiply) {
 TEST(AlphaBlend, OneRayHasOneAnswer) {
     // Alone, in packets of any kind and place, on any thread, twice; for first hits and for occlusion.
     Scene scene = make_blended(0.5, 3);
-    scene.nodes[1].rotation = glm::dquat(std::cos(0.2), std::sin(0.2), 0.0, 0.0);
-    scene.nodes[1].scale = glm::dvec3(1.3, 0.7, 2.0);
+    scene.nodes[1].transform.rotation = glm::dquat(std::cos(0.2), std::sin(0.2), 0.0, 0.0);
+    scene.nodes[1].transform.scale = glm::dvec3(1.3, 0.7, 2.0);
     const Placed placed(scene);
     const std::vector<Ray> rays = make_rays(4001);
     const std::vector<Hit> hits = cast(placed.rays, rays);
@@ -206,7 +207,7 @@ TEST(AlphaBlend, CutoutsAndMasksAreNotRandom) {
         Scene scene = make_blended(alpha, 2);
         EXPECT_EQ(share_on(cast(Placed(scene).rays, rays, Blend::cutout), 0), met);
         scene.materials.push_back(scene.materials[0]);  // a mask beside a blended surface
-        scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+        scene.materials[0].opacity.mode = Opacity::Mode::mask;
         scene.meshes.push_back(scene.meshes[0]);
         scene.meshes[1].material = 1;
         scene.nodes[1].meshes = {1};
@@ -220,7 +221,7 @@ TEST(AlphaBlend, OnlySurfacesThatLetRaysPassCount) {
     Scene scene = make_blended(1.0, 1);
     EXPECT_FALSE(has_blended(scene));
     EXPECT_FALSE(has_cutout(scene, scene.meshes[0]));
-    scene.materials[0].alpha = keyed<double>({0.0, 1.0}, {1.0, 0.5});
+    scene.materials[0].opacity.alpha = keyed<double>({0.0, 1.0}, {1.0, 0.5});
     EXPECT_TRUE(has_blended(scene));
     scene.nodes[0].meshes.clear();  // not drawn
     EXPECT_FALSE(has_blended(scene));
@@ -232,17 +233,17 @@ TEST(AlphaBlend, OnlySurfacesThatLetRaysPassCount) {
     scene = make_blended(1.0, 1);
     scene.images.resize(1);
     scene.images[0].floats = Image<glm::vec4>(2, 2, glm::vec4(1.0f));
-    scene.materials[0].base_color_texture.image = 0;
+    scene.materials[0].textures[TextureSlot::base_color].image = 0;
     EXPECT_FALSE(has_blended(scene));
     scene.images[0].floats(1, 1).w = 0.9f;
     EXPECT_TRUE(has_blended(scene));
-    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+    scene.materials[0].opacity.mode = Opacity::Mode::mask;
     EXPECT_FALSE(has_blended(scene));
     EXPECT_TRUE(has_cutout(scene, scene.meshes[0]));
     scene = make_blended(1.0, 1);
-    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+    scene.materials[0].opacity.mode = Opacity::Mode::mask;
     EXPECT_FALSE(has_cutout(scene, scene.meshes[0]));
-    scene.materials[0].alpha_cutoff = 1.1;  // nothing is there
+    scene.materials[0].opacity.cutoff = 1.1;  // nothing is there
     EXPECT_TRUE(has_cutout(scene, scene.meshes[0]));
 }
 

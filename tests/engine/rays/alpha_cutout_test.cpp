@@ -10,15 +10,15 @@ namespace aleph {
 namespace {
 
 /// Two by two texels: only the left column is opaque.
-Scene make_masked_scene(Material::AlphaMode mode) {
+Scene make_masked_scene(Opacity::Mode mode) {
     Scene scene = make_sheet_scene(1);
     SceneImage image{.bytes = Image<glm::u8vec4>(2, 2, glm::u8vec4(255))};
     image.bytes(1, 0).w = image.bytes(1, 1).w = 0;
     scene.images = {image};
     scene.materials.resize(1);
-    scene.materials[0].alpha_mode = mode;
-    scene.materials[0].base_color_texture.image = 0;
-    scene.materials[0].base_color_texture.nearest = true;
+    scene.materials[0].opacity.mode = mode;
+    scene.materials[0].textures[TextureSlot::base_color].image = 0;
+    scene.materials[0].textures[TextureSlot::base_color].nearest = true;
     Mesh& mesh = scene.meshes[0];
     mesh.material = 0;
     for (const glm::vec3& p : mesh.positions) mesh.uv[0].emplace_back(0.5f * (p.x + 1.0f), 0.5f * (1.0f - p.y));
@@ -30,23 +30,22 @@ bool is_met(const RayScene& scene, float x, float y) {
 }
 
 TEST(AlphaCutout, RaysPassThroughHoles) {
-    for (const Material::AlphaMode mode :
-         {Material::AlphaMode::mask, Material::AlphaMode::blend, Material::AlphaMode::opaque}) {
+    for (const Opacity::Mode mode : {Opacity::Mode::mask, Opacity::Mode::blend, Opacity::Mode::opaque}) {
         const Scene scene = make_masked_scene(mode);
         RayScene rays(scene);
         rays.update(pose(scene, 0.0), glm::dvec3(0.0));
         EXPECT_TRUE(is_met(rays, -0.5f, 0.3f));
-        EXPECT_EQ(is_met(rays, 0.5f, 0.3f), mode == Material::AlphaMode::opaque);
-        EXPECT_EQ(is_met(rays, 0.3f, -0.9f), mode == Material::AlphaMode::opaque);
+        EXPECT_EQ(is_met(rays, 0.5f, 0.3f), mode == Opacity::Mode::opaque);
+        EXPECT_EQ(is_met(rays, 0.3f, -0.9f), mode == Opacity::Mode::opaque);
     }
 }
 
 TEST(AlphaCutout, WhatLiesBehindAHoleIsMet) {
-    Scene scene = make_masked_scene(Material::AlphaMode::mask);
+    Scene scene = make_masked_scene(Opacity::Mode::mask);
     scene.meshes.push_back(make_sheet(1));
     scene.nodes.resize(2);
     scene.nodes[1].meshes = {1};
-    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, -1.0);
+    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, -1.0);
     RayScene rays(scene);
     rays.update(pose(scene, 0.0), glm::dvec3(0.0));
     EXPECT_EQ(Tracer(rays).intersect(ray_down(-0.5f, 0.25f)).instance, 0);
@@ -56,9 +55,9 @@ TEST(AlphaCutout, WhatLiesBehindAHoleIsMet) {
 }
 
 TEST(AlphaCutout, FactorVertexColourAndCutoffCount) {
-    Scene scene = make_masked_scene(Material::AlphaMode::mask);
-    scene.materials[0].alpha = keyed<double>({0.0, 1.0}, {1.0, 0.0});
-    scene.materials[0].alpha_cutoff = 0.25;
+    Scene scene = make_masked_scene(Opacity::Mode::mask);
+    scene.materials[0].opacity.alpha = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    scene.materials[0].opacity.cutoff = 0.25;
     RayScene rays(scene), moving(scene);
     for (const auto& [seconds, met] : {std::pair(0.0, true), {0.7, true}, {0.8, false}, {0.1, true}}) {
         rays.update(pose(scene, seconds), glm::dvec3(0.0));
@@ -66,7 +65,7 @@ TEST(AlphaCutout, FactorVertexColourAndCutoffCount) {
         EXPECT_EQ(is_met(rays, -0.5f, 0.3f), met) << seconds;
         EXPECT_EQ(is_met(moving, -0.5f, 0.3f), met) << seconds;
     }
-    scene.materials[0].alpha = 1.0;
+    scene.materials[0].opacity.alpha = 1.0;
     scene.meshes[0].colors.assign(4, glm::vec4(1.0f, 1.0f, 1.0f, 0.2f));
     RayScene tinted(scene);
     tinted.update(pose(scene, 0.0), glm::dvec3(0.0));
@@ -74,7 +73,7 @@ TEST(AlphaCutout, FactorVertexColourAndCutoffCount) {
 }
 
 TEST(AlphaCutout, HolesMoveWithADeformingMesh) {
-    Scene scene = make_masked_scene(Material::AlphaMode::mask);
+    Scene scene = make_masked_scene(Opacity::Mode::mask);
     add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t sample) {
         return p + glm::vec3(sample == 1 ? 1.0f : 0.0f, 0.0f, 0.0f);
     });
@@ -87,8 +86,8 @@ TEST(AlphaCutout, HolesMoveWithADeformingMesh) {
 }
 
 TEST(AlphaCutout, TexturesAreReadAsTheirReferenceSays) {
-    Scene scene = make_masked_scene(Material::AlphaMode::mask);
-    TextureRef reference = scene.materials[0].base_color_texture;
+    Scene scene = make_masked_scene(Opacity::Mode::mask);
+    TextureRef reference = scene.materials[0].textures[TextureSlot::base_color];
     const auto at = [&](float u, float v) { return make_alpha_texture(scene, reference).sample({u, v}); };
     EXPECT_EQ(at(0.25f, 0.5f), 1.0f);
     EXPECT_EQ(at(0.75f, 0.5f), 0.0f);
@@ -109,7 +108,7 @@ TEST(AlphaCutout, TexturesAreReadAsTheirReferenceSays) {
     EXPECT_FLOAT_EQ(at(0.9f, 0.75f), 0.0f);
     reference.uv_offset = {0.5, 0.0};
     EXPECT_FLOAT_EQ(at(0.9f, 0.25f), 0.0f);
-    reference = scene.materials[0].base_color_texture;
+    reference = scene.materials[0].textures[TextureSlot::base_color];
     EXPECT_EQ(at(float_nan, 0.0f), at(0.0f, 0.0f));
 }
 

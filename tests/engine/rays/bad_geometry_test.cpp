@@ -14,8 +14,8 @@ TEST(BadGeometry, RC02_KF18_InstancesWithoutVolumeAreLeftOutAndCounted) {
           glm::dvec3(1.0, 1e-20, 1.0), glm::dvec3(1.0, 1.0, not_a_number), glm::dvec3(1e300), glm::dvec3(infinity)}) {
         Scene scene = make_sheet_scene(1);
         scene.nodes.push_back(scene.nodes[0]);
-        scene.nodes[1].translation = glm::dvec3(0.0, 0.0, -1.0);
-        scene.nodes[0].scale = scale;
+        scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, -1.0);
+        scene.nodes[0].transform.scale = scale;
         RayScene rays(scene);
         rays.update(pose(scene, 0.0), glm::dvec3(0.0));
         EXPECT_EQ(rays.skipped_instances(), 1u) << scale.x << " " << scale.y << " " << scale.z;
@@ -24,7 +24,7 @@ TEST(BadGeometry, RC02_KF18_InstancesWithoutVolumeAreLeftOutAndCounted) {
     }
     for (const double scale : {1e-30, 1e-20}) {  // with volume: met where it is, and nowhere else
         Scene scene = make_sheet_scene(1);
-        scene.nodes[0].scale = glm::dvec3(scale);
+        scene.nodes[0].transform.scale = glm::dvec3(scale);
         RayScene rays(scene);
         rays.update(pose(scene, 0.0), glm::dvec3(0.0));
         EXPECT_EQ(rays.skipped_instances(), 0u);
@@ -118,7 +118,7 @@ TEST(BadGeometry, RC14_TrianglesAreKeptInBlocksOfTheirOwn) {
     scene.meshes.push_back(make_sheet(3));
     scene.nodes.resize(2);
     scene.nodes[1].meshes = {1};
-    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, -1.0);
+    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, -1.0);
     RayScene rays(scene);
     {
         ScenePose posed = pose(scene, 0.5);

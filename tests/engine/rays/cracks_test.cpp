@@ -43,9 +43,9 @@ class ClosedSphere {
         scene_.nodes.resize(1);
         scene_.nodes[0].meshes = {0};
         if (!turned) return;
-        scene_.nodes[0].rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)));
-        scene_.nodes[0].translation = glm::dvec3(3.0, -2.0, 5.0);
-        scene_.nodes[0].scale = glm::dvec3(2.0, 0.7, 1.3);
+        scene_.nodes[0].transform.rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)));
+        scene_.nodes[0].transform.translation = glm::dvec3(3.0, -2.0, 5.0);
+        scene_.nodes[0].transform.scale = glm::dvec3(2.0, 0.7, 1.3);
     }
     double number() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
 

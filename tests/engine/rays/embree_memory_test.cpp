@@ -31,7 +31,7 @@ Scene make_scene() {
     Scene scene = make_sheet_scene(32);
     scene.meshes.push_back(make_sheet(32));
     scene.nodes.emplace_back().meshes = {1};
-    scene.nodes.back().translation = glm::dvec3(0.0, 0.0, -1.0);
+    scene.nodes.back().transform.translation = glm::dvec3(0.0, 0.0, -1.0);
     add_cache(scene, 1, {0.0, 1.0}, [](const glm::vec3& p, std::size_t sample) {
         return p + glm::vec3(0.0f, 0.0f, static_cast<float>(sample) * p.x * p.x);
     });

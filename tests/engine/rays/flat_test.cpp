@@ -10,16 +10,16 @@ namespace aleph {
 namespace {
 
 Node make_node(int mesh, const glm::dvec3& place) {
-    return {.translation = place, .meshes = {mesh}};
+    return {.transform = {.translation = place}, .meshes = {mesh}};
 }
 
 /// Spheres, boxes and masked sheets: turned, scaled, mirrored, some shared; the last node moves.
 Scene make_objects(const glm::dvec3& place) {
     Scene scene;
     scene.materials.resize(2);
-    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
-    scene.materials[1].alpha_mode = Material::AlphaMode::blend;
-    scene.materials[1].alpha = 0.5;
+    scene.materials[0].opacity.mode = Opacity::Mode::mask;
+    scene.materials[1].opacity.mode = Opacity::Mode::blend;
+    scene.materials[1].opacity.alpha = 0.5;
     scene.meshes = {make_shape_mesh({.kind = Shape::Kind::sphere, .segments = 24}),
                     make_shape_mesh({.kind = Shape::Kind::box, .size = {1.0, 3.0, 0.5}}), make_sheet(6), make_sheet(3)};
     for (std::size_t i = 0; i < scene.meshes[2].positions.size(); ++i)
@@ -28,14 +28,14 @@ Scene make_objects(const glm::dvec3& place) {
     scene.meshes[3].material = 1;
     for (int i = 0; i < 12; ++i) {
         Node node = make_node(i % 4, place + glm::dvec3(2.5 * (i % 3) - 2.5, 2.5 * (i / 3) - 3.0, 0.7 * (i % 5)));
-        node.rotation = glm::angleAxis(0.4 * i, glm::normalize(glm::dvec3(1.0, i, -2.0)));
-        node.scale = glm::dvec3(i % 2 == 0 ? 1.0 : -0.8, 1.0, 1.0 + 0.1 * i);
+        node.transform.rotation = glm::angleAxis(0.4 * i, glm::normalize(glm::dvec3(1.0, i, -2.0)));
+        node.transform.scale = glm::dvec3(i % 2 == 0 ? 1.0 : -0.8, 1.0, 1.0 + 0.1 * i);
         scene.nodes.push_back(node);
     }
     Track<glm::dvec3> slide(place);
     slide.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 1.0}};
     slide.values.push_back(place + glm::dvec3(0.0, 0.0, 1.0));
-    scene.nodes.back().translation = slide;
+    scene.nodes.back().transform.translation = slide;
     return scene;
 }
 
@@ -136,13 +136,13 @@ TEST(FlatTree, WhatCouldLosePrecisionStaysOutside) {
     scene.nodes = {make_node(0, {0.0, 0.0, 0.0}),  make_node(0, {9.0, 0.0, 0.0}),         make_node(0, {0.0, 9.0, 0.0}),
                    make_node(0, {0.0, 3.0, 0.0}),  make_node(0, {1e3, 0.0, 0.0}),         make_node(0, {0.0, 0.0, 9.0}),
                    make_node(0, {1e20, 0.0, 0.0}), make_node(0, {not_a_number, 0.0, 0.0})};
-    scene.nodes[3].scale = glm::dvec3(1e3);   // a floor of 2 km
-    scene.nodes[5].scale = glm::dvec3(1e-3);  // 2 mm, 9 m away
+    scene.nodes[3].transform.scale = glm::dvec3(1e3);   // a floor of 2 km
+    scene.nodes[5].transform.scale = glm::dvec3(1e-3);  // 2 mm, 9 m away
     EXPECT_EQ(find_flat(scene), (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0}));
     // All of it a thousand times smaller, and far away.
     for (Node& node : scene.nodes) {
-        node.scale = glm::dvec3(1e-3) * evaluate(node.scale, 0.0);
-        node.translation = glm::dvec3(5.0) + 1e-3 * evaluate(node.translation, 0.0);
+        node.transform.scale = glm::dvec3(1e-3) * evaluate(node.transform.scale, 0.0);
+        node.transform.translation = glm::dvec3(5.0) + 1e-3 * evaluate(node.transform.translation, 0.0);
     }
     EXPECT_EQ(find_flat(scene), (std::vector<std::uint8_t>{1, 1, 1, 1, 1, 0, 0, 0}));
 }

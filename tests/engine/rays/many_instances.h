@@ -19,7 +19,7 @@ inline Scene make_many() {
     add_mesh(scene, make_box({1.0, 2.0, 1.0}, white), {2.0, 0.0, -6.0}, glm::angleAxis(0.5, glm::dvec3(0.0, 1.0, 0.0)));
     const int squashed = add_node(scene, {-2.0, 0.5, -5.0}, glm::angleAxis(1.0, glm::dvec3(0.0, 0.0, 1.0)));
     scene.nodes[squashed].meshes = {0};
-    scene.nodes[squashed].scale = glm::dvec3(-0.5, 1.0, 0.3);
+    scene.nodes[squashed].transform.scale = glm::dvec3(-0.5, 1.0, 0.3);
     add_mesh(scene, make_quad(20.0, 20.0, white), {0.0, -2.0, 0.0}, z_to_up);
     return scene;
 }

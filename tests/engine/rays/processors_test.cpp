@@ -17,17 +17,17 @@ Scene make_scene(bool turned) {
     floor.kind = Shape::Kind::quad;
     floor.size = {8.0, 8.0, 1.0};
     scene.materials.resize(1);
-    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+    scene.materials[0].opacity.mode = Opacity::Mode::mask;
     scene.meshes = {make_shape_mesh(sphere), make_shape_mesh(torus), make_shape_mesh(floor, 0)};
     Mesh& holed = scene.meshes[2];
     for (std::size_t i = 0; i < holed.positions.size(); ++i)
         holed.colors.emplace_back(1.0f, 1.0f, 1.0f, i % 2 == 0 ? 1.0f : 0.0f);
     scene.nodes.resize(3);
     for (int i = 0; i < 3; ++i) scene.nodes[i].meshes = {i};
-    scene.nodes[2].translation = glm::dvec3(0.0, 0.0, -2.0);
+    scene.nodes[2].transform.translation = glm::dvec3(0.0, 0.0, -2.0);
     if (!turned) return scene;
-    scene.nodes[1].rotation = glm::angleAxis(0.9, glm::normalize(glm::dvec3(1.0, 2.0, -1.0)));
-    scene.nodes[1].scale = glm::dvec3(1.5, 0.7, 2.0);
+    scene.nodes[1].transform.rotation = glm::angleAxis(0.9, glm::normalize(glm::dvec3(1.0, 2.0, -1.0)));
+    scene.nodes[1].transform.scale = glm::dvec3(1.5, 0.7, 2.0);
     return scene;
 }
 

@@ -17,7 +17,7 @@ TEST(RayScene, UpdateTouchesWhatMoved) {
     moving.sampling.kind = TimeSampling::Kind::acyclic;
     moving.sampling.times = {0.0, 1.0};
     moving.values = {glm::dvec3(0.0, 0.0, -5.0), glm::dvec3(3.0, 0.0, -5.0)};
-    scene.nodes[0].translation = moving;
+    scene.nodes[0].transform.translation = moving;
     RayScene rays(scene);
     ScenePose frame = pose(scene, 0.0);
     EXPECT_EQ(rays.update(frame, glm::dvec3(0.0)), 4u);
@@ -53,7 +53,7 @@ TEST(RayScene, UpdateTouchesWhatMoved) {
 TEST(RayScene, KF19_TinyInstancesWithVolumeAreMet) {
     for (const double scale : {1e-3, 1e-8, 1e-12}) {
         Scene scene = make_many();
-        scene.nodes[0].scale = glm::dvec3(scale);
+        scene.nodes[0].transform.scale = glm::dvec3(scale);
         const Stage stage(scene);
         EXPECT_EQ(stage.rays.skipped_instances(), 0u) << scale;
         Tracer tracer(stage.rays);
@@ -66,7 +66,7 @@ TEST(RayScene, KF19_TinyInstancesWithVolumeAreMet) {
     // Smaller than the rounding of a distance: a point, which does not disturb anything else.
     for (const double scale : {1e-20, 1e-30, 1e-200, 1e-300}) {
         Scene scene = make_many();
-        scene.nodes[0].scale = glm::dvec3(scale);
+        scene.nodes[0].transform.scale = glm::dvec3(scale);
         const Stage stage(scene);
         EXPECT_EQ(stage.rays.skipped_instances(), 0u) << scale;
         const glm::vec3 beside = glm::vec3(1e-6f, 0.0f, 0.0f) - glm::vec3(stage.shading.anchor);
@@ -84,9 +84,10 @@ TEST(RayScene, KF19_ALargeMeshAtATinyScaleIsMet) {
         scene.meshes = {make_shape_mesh(box)};
         scene.nodes.resize(1);
         scene.nodes[0].meshes = {0};
-        scene.nodes[0].scale = glm::dvec3(1e-9);
+        scene.nodes[0].transform.scale = glm::dvec3(1e-9);
         if (moves)
-            scene.nodes[0].translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+            scene.nodes[0].transform.translation =
+                keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
         RayScene rays(scene);
         rays.update(pose(scene, 0.0), glm::dvec3(0.0));
         EXPECT_EQ(rays.skipped_instances(), 0u);

@@ -42,7 +42,7 @@ Scene freeze(const Scene& scene, double seconds) {
     }
     for (std::size_t i = 0; i < frame.instances.size(); ++i) {  // a node each, so that each is shown by itself
         Node node;
-        node.matrix = frame.world[frame.instances[i].node];
+        node.transform.matrix = frame.world[frame.instances[i].node];
         node.meshes = {frame.instances[i].mesh};
         node.visible = frame.shown[i];
         frozen.nodes.push_back(node);
@@ -128,8 +128,9 @@ TEST(RayDeform, MeshesComeAndGoBesideOthersOfTheirNode) {
 TEST(RayDeform, UpdatesTouchOnlyWhatMoves) {
     Scene scene = make_sheet_scene();
     for (int i = 0; i < 600; ++i) {
-        Node node{.translation = glm::dvec3(3.0 * (i % 30), 3.0 * (i / 30), -2.0), .meshes = {0}};
-        if (i % 100 == 7) node.translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(i), glm::dvec3(i + 1)});
+        Node node{.transform = {.translation = glm::dvec3(3.0 * (i % 30), 3.0 * (i / 30), -2.0)}, .meshes = {0}};
+        if (i % 100 == 7)
+            node.transform.translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(i), glm::dvec3(i + 1)});
         scene.nodes.push_back(node);
     }
     const PosePlan plan = make_pose_plan(scene);

@@ -145,8 +145,8 @@ TEST(RayScene, RangesAreKeptInScaledInstances) {
         const Mesh sphere = make_faceted_sphere(1.0, 64, add_lambert(scene, glm::dvec3(0.5)));
         const int node = add_mesh(scene, sphere, {0.0, 0.0, -1.0 - scale});
         scene.nodes.push_back(scene.nodes[static_cast<std::size_t>(node)]);
-        scene.nodes.back().translation = glm::dvec3(500.0, 0.0, 0.0);
-        for (Node& each : scene.nodes) each.scale = glm::dvec3(scale);
+        scene.nodes.back().transform.translation = glm::dvec3(500.0, 0.0, 0.0);
+        for (Node& each : scene.nodes) each.transform.scale = glm::dvec3(scale);
         const Stage stage(std::move(scene));
         Tracer tracer(stage.rays);
         const glm::vec3 origin(-stage.shading.anchor);

@@ -255,14 +255,16 @@ TEST(Keyframes, EqualKeysPoseToTheSameBitsAtEveryTime) {
         const glm::dvec3 v(number(random), number(random), number(random)), zero(0.0);
         const glm::dquat q(number(random), number(random), number(random), number(random));
         const glm::dquat none(0.0, 0.0, 0.0, 0.0);
-        node.translation = keyed(times, std::vector<glm::dvec3>(4, v));
-        node.scale = keyed<glm::dvec3>(times, {zero, v, zero, zero, v, zero, zero, v, zero, zero, v, zero},
-                                       Interpolation::cubic);
-        node.rotation = i % 2 ? keyed(times, std::vector<glm::dquat>(4, q))
-                              : keyed<glm::dquat>(times, {none, q, none, none, q, none, none, q, none, none, q, none},
-                                                  Interpolation::cubic);
-        if (i % 5 == 4) node.matrix = keyed(times, std::vector<glm::dmat4>(4, glm::scale(glm::mat4_cast(q), v)));
-        if (i % 5 == 3) node.axis_rotation = AxisRotation{v, keyed(times, std::vector<double>(4, v.x))};
+        node.transform.translation = keyed(times, std::vector<glm::dvec3>(4, v));
+        node.transform.scale = keyed<glm::dvec3>(times, {zero, v, zero, zero, v, zero, zero, v, zero, zero, v, zero},
+                                                 Interpolation::cubic);
+        node.transform.rotation =
+            i % 2 ? keyed(times, std::vector<glm::dquat>(4, q))
+                  : keyed<glm::dquat>(times, {none, q, none, none, q, none, none, q, none, none, q, none},
+                                      Interpolation::cubic);
+        if (i % 5 == 4)
+            node.transform.matrix = keyed(times, std::vector<glm::dmat4>(4, glm::scale(glm::mat4_cast(q), v)));
+        if (i % 5 == 3) node.transform.axis_rotation = AxisRotation{v, keyed(times, std::vector<double>(4, v.x))};
         scene.nodes.push_back(node);
     }
     EXPECT_FALSE(is_world_animated(scene));

@@ -12,7 +12,7 @@ namespace {
 TEST(Transforms, KF20_ScaleThroughZero) {
     Scene scene;
     scene.nodes.resize(1);
-    Track<glm::dvec3>& scale = scene.nodes[0].scale;
+    Track<glm::dvec3>& scale = scene.nodes[0].transform.scale;
     scale.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 2.0}};
     scale.values = {glm::dvec3(1.0), glm::dvec3(-1.0, 1.0, 1.0)};
     EXPECT_EQ(orientation_sign(pose(scene, 0.9).world[0]), 1.0);
@@ -79,9 +79,9 @@ Scene chain(int depth, double degrees) {
     for (int i = 0; i < depth; ++i) {
         Node& node = scene.nodes[i];
         node.parent = i - 1;
-        node.translation = glm::dvec3(1.0, 0.0, 0.0);
+        node.transform.translation = glm::dvec3(1.0, 0.0, 0.0);
         AxisRotation turn{.axis = {0.0, 0.0, 1.0}, .angle = degrees * pi / 180.0};
-        node.axis_rotation = turn;
+        node.transform.axis_rotation = turn;
     }
     return scene;
 }
@@ -111,14 +111,14 @@ TEST(Transforms, KF25_FarFromTheOriginNothingMoves) {
         Scene scene;
         scene.cameras.resize(1);
         scene.nodes.resize(4);
-        scene.nodes[0].translation = offset;
+        scene.nodes[0].transform.translation = offset;
         scene.nodes[1].parent = 0;
-        scene.nodes[1].matrix = look_at({0.3, 1.0, 10.0}, {0.0, 0.5, 0.0}, {0.0, 1.0, 0.0});
+        scene.nodes[1].transform.matrix = look_at({0.3, 1.0, 10.0}, {0.0, 0.5, 0.0}, {0.0, 1.0, 0.0});
         scene.nodes[1].camera = 0;
         scene.nodes[2].parent = 0;
-        scene.nodes[2].rotation = glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0));
+        scene.nodes[2].transform.rotation = glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0));
         scene.nodes[3].parent = 2;
-        scene.nodes[3].translation = glm::dvec3(1.1, 0.2, 0.7);
+        scene.nodes[3].transform.translation = glm::dvec3(1.1, 0.2, 0.7);
         const ScenePose frame = pose(scene, 0.0);
         const CameraView view = make_camera_view(frame.cameras[0], 1920, 1080);
         return project_camera_point(view, to_camera(view, glm::dvec3(frame.world[3][3])));

@@ -81,26 +81,26 @@ Scene make_full_scene(Numbers& n) {
     const auto unit = [&] { return n.unit(); };
     const auto quaternion = [&] { return glm::dquat(n.positive(), n.any(), n.any(), n.any()); };
     Scene scene;
-    scene.name = "everything \"quoted\" \\ \n / ~ ü";
-    scene.frame_rate = {24000, 1001};
-    scene.viewing = {n.positive(), n.positive(), n.unit()};
-    scene.range = FrameRange{-5, 1000000};
-    scene.cuts = {-1, 3, 77};
-    scene.exposure = n.positive();
-    scene.environment = n.track(color);
-    scene.environment_image = n.below(3);
+    scene.source.name = "everything \"quoted\" \\ \n / ~ ü";
+    scene.film.frame_rate = {24000, 1001};
+    scene.film.viewing = {n.positive(), n.positive(), n.unit()};
+    scene.film.range = FrameRange{-5, 1000000};
+    scene.film.cuts = {-1, 3, 77};
+    scene.film.exposure = n.positive();
+    scene.environment.radiance = n.track(color);
+    scene.environment.image = n.below(3);
     if (n.below(2) == 0) {
-        scene.environment_rotation = n.track(quaternion);
+        scene.environment.rotation = n.track(quaternion);
     } else {
-        scene.environment_axis_rotation = AxisRotation{glm::normalize(glm::dvec3(n.unit(), n.unit(), 1.0)),
+        scene.environment.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(n.unit(), n.unit(), 1.0)),
                                                        n.track([&] { return 100.0 * n.unit(); })};
     }
     if (n.below(2) == 0) {
-        scene.camera = "camera 1";
+        scene.film.camera = "camera 1";
     } else {
-        scene.camera_keys = {{-1000000000, "camera 1"}, {7, "camera 0"}};
+        scene.film.camera_keys = {{-1000000000, "camera 1"}, {7, "camera 0"}};
     }
-    scene.settings = {
+    scene.source.settings = {
         {"accuracy", n.unit()}, {"spp", 4.0}, {"neutral_opponent", false}, {"guide", std::string("none")}};
     for (const char* name : {"z", "a/b~c", "3"}) {
         scene.images.push_back({.name = name, .path = std::string(name) + ".png"});
@@ -109,18 +109,18 @@ Scene make_full_scene(Numbers& n) {
         Material material;
         material.name = fmt::format("material {}", 9 - i);
         if (i > 0) {
-            for (const auto& field : material_numbers) material.*field.member = n.track(unit);
-            material.ior = n.track([&] { return 1.0 + n.unit(); });
-            for (const auto& field : material_colors) material.*field.member = n.track(color);
-            for (const auto& field : material_angles) material.*field.member = n.track([&] { return 10.0 * n.unit(); });
-            for (const auto& field : material_scales) material.*field.member = n.any();
+            for (const auto& field : material_numbers) field.in(material) = n.track(unit);
+            material.gloss.ior = n.track([&] { return 1.0 + n.unit(); });
+            for (const auto& field : material_colors) field.in(material) = n.track(color);
+            for (const auto& field : material_angles) field.in(material) = n.track([&] { return 10.0 * n.unit(); });
+            for (const auto& field : material_scales) field.in(material) = n.any();
             for (const auto& field : material_textures) {
-                material.*field.member = {
+                material.textures[field.slot] = {
                     n.below(3),      n.below(2),         static_cast<Wrap>(n.below(3)), static_cast<Wrap>(n.below(3)),
                     n.below(2) == 1, {n.any(), n.any()}, {n.any(), n.unit()},           10.0 * n.unit()};
             }
-            material.alpha_mode = static_cast<Material::AlphaMode>(i % 3);
-            if (material.alpha_mode == Material::AlphaMode::mask) material.alpha_cutoff = n.unit();
+            material.opacity.mode = static_cast<Opacity::Mode>(i % 3);
+            if (material.opacity.mode == Opacity::Mode::mask) material.opacity.cutoff = n.unit();
             material.unlit = i == 2;
             material.double_sided = true;
         }
@@ -169,7 +169,7 @@ Scene make_full_scene(Numbers& n) {
         if (i > 0 && i % 7 != 0) node.parent = i - 1;
         if (node.parent >= 0 && scene.nodes[node.parent].name.empty()) node.parent = no_index;
         if (i % 6 == 3) {
-            OperationStack& stack = node.operations.emplace();
+            OperationStack& stack = node.transform.operations.emplace();
             for (int o = n.below(5); o > 0; --o)
                 stack.operations.push_back(static_cast<OperationStack::Kind>(n.below(7)));
             const Track<double> times = n.track(unit, false);  // for its sampling
@@ -183,7 +183,7 @@ Scene make_full_scene(Numbers& n) {
                 }
             }
         } else if (i % 3 == 0) {
-            node.matrix = n.track(
+            node.transform.matrix = n.track(
                 [&] {
                     glm::dmat4 m(1.0);
                     for (int c = 0; c < 4; ++c) m[c] = glm::dvec4(vector(), c == 3 ? 1.0 : 0.0);
@@ -191,13 +191,13 @@ Scene make_full_scene(Numbers& n) {
                 },
                 false);
         } else {
-            node.translation = n.track(vector);
-            node.scale = n.track([&] { return n.below(2) ? glm::dvec3(n.any()) : vector(); });
+            node.transform.translation = n.track(vector);
+            node.transform.scale = n.track([&] { return n.below(2) ? glm::dvec3(n.any()) : vector(); });
             if (i % 3 == 1) {
-                node.rotation = n.track(quaternion);
+                node.transform.rotation = n.track(quaternion);
             } else {
-                node.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(n.unit(), n.unit(), 1.0)),
-                                                  n.track([&] { return 100.0 * n.unit(); })};
+                node.transform.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(n.unit(), n.unit(), 1.0)),
+                                                            n.track([&] { return 100.0 * n.unit(); })};
             }
         }
         node.visible = n.track([&] { return static_cast<double>(n.below(3)); }, false);
@@ -209,12 +209,12 @@ Scene make_full_scene(Numbers& n) {
         if (i % 6 == 0) node.light = n.below(4);
         scene.nodes.push_back(node);
     }
-    scene.includes = {{"x/a.glb", 3}, {"../b.gltf", 3}, {"c.glb", 17}, {"d.glb", no_index}};
-    scene.includes[1].animations = {"walk", "animation 2"};
-    scene.includes[1].up = Include::Up::z;
-    scene.includes[2].animations.emplace();
-    scene.includes[2].materials = {{"wood", "material 0"}, {"", "material 1"}};
-    scene.includes[2].scale = n.positive();
+    scene.source.includes = {{"x/a.glb", 3}, {"../b.gltf", 3}, {"c.glb", 17}, {"d.glb", no_index}};
+    scene.source.includes[1].animations = {"walk", "animation 2"};
+    scene.source.includes[1].up = Include::Up::z;
+    scene.source.includes[2].animations.emplace();
+    scene.source.includes[2].materials = {{"wood", "material 0"}, {"", "material 1"}};
+    scene.source.includes[2].scale = n.positive();
     return scene;
 }
 
@@ -237,9 +237,9 @@ TEST(SceneJsonWrite, TheFullSceneSetsEveryTrackAndTextureOfItsMaterials) {
     const auto [different, all] = count_differences(material, absent);
     EXPECT_EQ(different, all);
     EXPECT_EQ(all, 19);
-    for (const auto& field : material_textures) EXPECT_NE((material.*field.member).image, no_index) << field.key;
-    EXPECT_NE(material.normal_scale, absent.normal_scale);
-    EXPECT_NE(material.clearcoat_normal_scale, absent.clearcoat_normal_scale);
+    for (const auto& field : material_textures) EXPECT_NE(material.textures[field.slot].image, no_index) << field.key;
+    EXPECT_NE(material.textures.normal_scale, absent.textures.normal_scale);
+    EXPECT_NE(material.textures.clearcoat_normal_scale, absent.textures.clearcoat_normal_scale);
 }
 
 TEST(SceneJsonWrite, LoadOfSaveIsTheSameScene) {

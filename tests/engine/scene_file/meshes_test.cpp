@@ -40,7 +40,7 @@ TEST(SceneJsonMeshes, KeyedPositionsMove) {
     ASSERT_EQ(scene.point_caches.size(), 1u);
     EXPECT_EQ(scene.point_caches[0].name, "flag");
     EXPECT_EQ(scene.point_caches[0].sampling.times, (std::vector<double>{0.0, 2.0}));
-    EXPECT_EQ(scene.meshes[0].points, 0);
+    EXPECT_EQ(scene.meshes[0].deformation.points, 0);
     EXPECT_EQ(scene.meshes[0].positions, scene.point_caches[0].positions[0]);
     const ScenePose frame = pose(scene, 0.5);
     ASSERT_EQ(frame.meshes[0].positions.size(), 3u);
@@ -59,10 +59,10 @@ TEST(SceneJsonMeshes, PointsAreSharedByMeshes) {
           "normals": {"values": [[0,0,1, 0,0,1, 0,0,1, 0,0,1], [1,0,0, 1,0,0, 1,0,0, 1,0,0]], "period": 15}}},
         "b": {"shape": {"type": "mesh", "points": "cloth", "positions": [9,9,9, 1,0,0, 0,1,0, 1,1,0], "triangles": [1,3,2]},
           "present": {"keys": [[0, true], [7, false]]}}})");
-    EXPECT_EQ(scene.meshes[0].vertex_points, (std::vector<std::uint32_t>{0, 1, 2, 1}));
+    EXPECT_EQ(scene.meshes[0].deformation.vertex_points, (std::vector<std::uint32_t>{0, 1, 2, 1}));
     EXPECT_EQ(scene.meshes[0].positions[3], glm::vec3(1, 0, 0));
-    EXPECT_EQ(scene.meshes[0].normal_samples.size(), 2u);
-    EXPECT_EQ(scene.meshes[0].normal_sampling.period, 0.5);
+    EXPECT_EQ(scene.meshes[0].deformation.normal_samples.size(), 2u);
+    EXPECT_EQ(scene.meshes[0].deformation.normal_sampling.period, 0.5);
     EXPECT_EQ(scene.meshes[1].positions[0], glm::vec3(9, 9, 9)) << "a rest shape may differ from the first key";
     EXPECT_EQ(scene.meshes[1].present.values, (std::vector<double>{1.0, 0.0}));
     EXPECT_EQ(scene.point_caches[0].velocities.size(), 2u);
@@ -74,13 +74,13 @@ TEST(SceneJsonMeshes, CageBecomesItsLimitSurface) {
         "level": 3, "max_level": 5}}, "material": {}}])");
     ASSERT_EQ(scene.cages.size(), 1u);
     EXPECT_EQ(scene.cages[0].name, "blob");
-    EXPECT_EQ(scene.cages[0].face_sizes, (std::vector<int>(6, 4)));
+    EXPECT_EQ(scene.cages[0].faces.sizes, (std::vector<int>(6, 4)));
     EXPECT_EQ(scene.cages[0].level, 3);
     const Mesh& mesh = scene.meshes[0];
-    EXPECT_EQ(mesh.cage, 0);
+    EXPECT_EQ(mesh.subdivision.cage, 0);
     EXPECT_EQ(mesh.material, 0);
     EXPECT_EQ(mesh.triangles.size(), 6u * 64u * 2u);
-    EXPECT_TRUE(mesh.limit.surface);
+    EXPECT_TRUE(mesh.subdivision.limit.surface);
     // The limit of a cube's corner of valence 3: weights n^2, 4 and 1 over n (n + 5).
     const double corner = (9.0 * 1.0 + 4.0 * 3.0 * (1.0 / 3.0) + 1.0 * 3.0 * (-1.0 / 3.0)) / 24.0;
     float largest = 0.0f;
@@ -103,15 +103,15 @@ TEST(SceneJsonMeshes, EverythingThatACageCanSay) {
     EXPECT_EQ(cage.scheme, Cage::Scheme::bilinear);
     EXPECT_EQ(cage.boundary, Cage::Boundary::edge_only);
     EXPECT_EQ(cage.uv_rule, Cage::UvRule::linear_all);
-    EXPECT_EQ(cage.crease_lengths, (std::vector<int>{3, 2}));
-    EXPECT_EQ(cage.crease_points, (std::vector<int>{0, 1, 3, 4, 5}));
-    EXPECT_EQ(cage.crease_sharpness, (std::vector<float>{2.5f, 10.0f}));
-    EXPECT_EQ(cage.corner_points, (std::vector<int>{7}));
-    EXPECT_EQ(cage.corner_sharpness, (std::vector<float>{0.1f}));
-    EXPECT_EQ(cage.holes, (std::vector<int>{5}));
-    EXPECT_EQ(cage.face_parts, (std::vector<int>{0, 0, 1, 1, 0, 0}));
-    EXPECT_EQ(cage.face_uv.size(), 24u);
-    EXPECT_EQ(scene.meshes[1].cage_part, 1);
+    EXPECT_EQ(cage.creases.lengths, (std::vector<int>{3, 2}));
+    EXPECT_EQ(cage.creases.points, (std::vector<int>{0, 1, 3, 4, 5}));
+    EXPECT_EQ(cage.creases.sharpness, (std::vector<float>{2.5f, 10.0f}));
+    EXPECT_EQ(cage.corners.points, (std::vector<int>{7}));
+    EXPECT_EQ(cage.corners.sharpness, (std::vector<float>{0.1f}));
+    EXPECT_EQ(cage.faces.holes, (std::vector<int>{5}));
+    EXPECT_EQ(cage.faces.parts, (std::vector<int>{0, 0, 1, 1, 0, 0}));
+    EXPECT_EQ(cage.faces.uv.size(), 24u);
+    EXPECT_EQ(scene.meshes[1].subdivision.part, 1);
     EXPECT_EQ(scene.meshes[0].triangles.size(), 3u * 8u) << "a hole is not drawn";
     EXPECT_EQ(scene.meshes[1].triangles.size(), 2u * 8u);
     EXPECT_EQ(again(scene), scene);
@@ -121,8 +121,8 @@ TEST(SceneJsonMeshes, EverythingThatACageCanSay) {
 TEST(SceneJsonMeshes, CageWarningsStayWithTheScene) {
     const Scene scene = read(R"(, "nodes": [{"shape": {"type": "cage", "cage": {)" + cube_cage + R"(,
         "creases": [{"points": [0, 5], "sharpness": 3}]}}}])");
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("crease"), std::string::npos);
+    ASSERT_EQ(scene.source.warnings.size(), 1u);
+    EXPECT_NE(scene.source.warnings[0].find("crease"), std::string::npos);
     EXPECT_EQ(again(scene), scene);
 }
 

@@ -25,8 +25,8 @@ TEST(SceneJson, OperationsMultiplyFromLeftToRightAndInterpolateOneByOne) {
     const Scene scene = read(R"(, "fps": 10, "nodes": [{"operations": [{"translate": [1, 0, 0]},
         {"rotate_y": {"keys": [[0, 0], [10, 360]]}}, {"rotate_x": 90}, {"scale": 2},
         {"rotate": {"axis": [0, 0, 1], "degrees": {"keys": [[0, 0], [10, 90]]}}}]}])");
-    ASSERT_TRUE(scene.nodes[0].operations);
-    const OperationStack& stack = *scene.nodes[0].operations;
+    ASSERT_TRUE(scene.nodes[0].transform.operations);
+    const OperationStack& stack = *scene.nodes[0].transform.operations;
     EXPECT_EQ(stack.operations.size(), 5u);
     EXPECT_EQ(stack.channels.size(), 2u * (3 + 1 + 1 + 3 + 4));
     // At half time: about z by 45, doubled, about x by 90, about y by 180, then moved.
@@ -114,7 +114,7 @@ TEST(SceneJson, ParentsStandBeforeTheirChildren) {
 TEST(SceneJson, KF14_KeysAtFramesLieAtExactlyTheFramesTime) {
     const Scene scene = read(R"(, "fps": "30000/1001", "nodes": [{"translation":
         {"keys": [[-7, [0, 0, 0]], [12, [1, 2, 3]], [12.5, [4, 5, 6]], [107892, [7, 8, 9]]]}}])");
-    const Track<glm::dvec3>& track = scene.nodes[0].translation;
+    const Track<glm::dvec3>& track = scene.nodes[0].transform.translation;
     EXPECT_EQ(track.interpolation, Interpolation::linear);
     EXPECT_EQ(track.sampling.kind, TimeSampling::Kind::acyclic);
     const FrameRate rate{30000, 1001};
@@ -134,8 +134,9 @@ TEST(SceneJson, ValuesOncePerFrameAreUniform) {
     EXPECT_EQ(intensity.sampling.period, 0.08);
     EXPECT_EQ(intensity.interpolation, Interpolation::step);
     EXPECT_EQ(intensity.values, (std::vector<double>{1, 2, 4}));
-    EXPECT_EQ(read_node(R"("scale": {"values": [1, [1, 2, 3]]})").nodes[0].scale.sampling.period, 1.0 / 30.0);
-    EXPECT_EQ(read_node(R"("scale": {"values": [1, 2], "unit": "seconds"})").nodes[0].scale.sampling.period, 1.0);
+    EXPECT_EQ(read_node(R"("scale": {"values": [1, [1, 2, 3]]})").nodes[0].transform.scale.sampling.period, 1.0 / 30.0);
+    EXPECT_EQ(read_node(R"("scale": {"values": [1, 2], "unit": "seconds"})").nodes[0].transform.scale.sampling.period,
+              1.0);
 }
 
 TEST(SceneJson, CyclesAndCubicKeys) {
@@ -145,29 +146,29 @@ TEST(SceneJson, CyclesAndCubicKeys) {
         "rotation": {"interpolation": "cubic", "unit": "seconds", "keys": [[0, [0, 0, 0, 0], [0, 0, 0, 1], [1, 0, 0, 0]], [2, [0, 1, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0]]]},
         "scale": {"interpolation": "cubic", "values": [[[1, 2, 3], [4, 5, 6], 7]]})")
             .nodes[0];
-    EXPECT_EQ(node.translation.sampling.kind, TimeSampling::Kind::cyclic);
-    EXPECT_EQ(node.translation.sampling.times, (std::vector<double>{0.0, 0.25}));
-    EXPECT_EQ(node.translation.sampling.period, 1.0);
-    EXPECT_EQ(node.rotation.interpolation, Interpolation::cubic);
-    ASSERT_EQ(node.rotation.values.size(), 6u);
-    EXPECT_EQ(node.rotation.values[1], glm::dquat(1, 0, 0, 0));  // w first in GLM's constructor
-    EXPECT_EQ(node.rotation.values[2], glm::dquat(0, 1, 0, 0));
-    EXPECT_EQ(node.rotation.values[4], glm::dquat(0, 0, 1, 0));
-    EXPECT_EQ(node.scale.values, (std::vector<glm::dvec3>{{1, 2, 3}, {4, 5, 6}, {7, 7, 7}}));
+    EXPECT_EQ(node.transform.translation.sampling.kind, TimeSampling::Kind::cyclic);
+    EXPECT_EQ(node.transform.translation.sampling.times, (std::vector<double>{0.0, 0.25}));
+    EXPECT_EQ(node.transform.translation.sampling.period, 1.0);
+    EXPECT_EQ(node.transform.rotation.interpolation, Interpolation::cubic);
+    ASSERT_EQ(node.transform.rotation.values.size(), 6u);
+    EXPECT_EQ(node.transform.rotation.values[1], glm::dquat(1, 0, 0, 0));  // w first in GLM's constructor
+    EXPECT_EQ(node.transform.rotation.values[2], glm::dquat(0, 1, 0, 0));
+    EXPECT_EQ(node.transform.rotation.values[4], glm::dquat(0, 0, 1, 0));
+    EXPECT_EQ(node.transform.scale.values, (std::vector<glm::dvec3>{{1, 2, 3}, {4, 5, 6}, {7, 7, 7}}));
 }
 
 TEST(SceneJson, MatricesAreRowByRow) {
     const Node node = read_node(R"("matrix": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 0, 1])").nodes[0];
-    const glm::dvec4 moved = node.matrix.value().values.at(0) * glm::dvec4(1, 10, 100, 1);
+    const glm::dvec4 moved = node.transform.matrix.value().values.at(0) * glm::dvec4(1, 10, 100, 1);
     EXPECT_EQ(moved, glm::dvec4(1 + 20 + 300 + 4, 5 + 60 + 700 + 8, 9 + 100 + 1100 + 12, 1));
 }
 
 TEST(SceneJson, AxisAndDegreesGoBeyondAHalfTurn) {
     const Node node =
         read_node(R"("rotation": {"axis": [0, 0, -5], "degrees": {"keys": [[0, 0], [30, 1080]]}})").nodes[0];
-    EXPECT_EQ(node.axis_rotation.value().axis, glm::dvec3(0, 0, -1));
-    EXPECT_NEAR(node.axis_rotation->angle.values[1], 6.0 * std::numbers::pi, 1e-14);
-    EXPECT_EQ(node.rotation, Node{}.rotation);
+    EXPECT_EQ(node.transform.axis_rotation.value().axis, glm::dvec3(0, 0, -1));
+    EXPECT_NEAR(node.transform.axis_rotation->angle.values[1], 6.0 * std::numbers::pi, 1e-14);
+    EXPECT_EQ(node.transform.rotation, Node{}.transform.rotation);
 }
 
 TEST(SceneJson, VisibilityStepsBetweenTrueAndFalse) {

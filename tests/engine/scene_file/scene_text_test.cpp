@@ -18,21 +18,21 @@ TEST(SceneJson, Header) {
     const Scene scene = read(R"(, // comments of both kinds
         "$schema": "scene.schema.json", "name": "töst", "fps": "30000/1001", "frames": [-3, 59], "cuts": [10, 30], /* here */
         "viewing": {"pixels_per_degree": 62.5, "display_white": 80, "persistence": 0.5}, "exposure": 0.25, "environment": [0.5, 1, 2])");
-    EXPECT_EQ(scene.name, "töst");
-    EXPECT_EQ(scene.frame_rate, (FrameRate{30000, 1001}));
-    EXPECT_EQ(scene.range, (FrameRange{-3, 59}));
-    EXPECT_EQ(scene.cuts, (std::vector<std::int64_t>{10, 30}));
-    EXPECT_EQ(scene.viewing, (ViewingConditions{62.5, 80.0, 0.5}));
-    EXPECT_EQ(scene.exposure, 0.25);
-    EXPECT_EQ(scene.environment, Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0)));
-    EXPECT_EQ(read(", \"fps\": 24").frame_rate, (FrameRate{24, 1}));
+    EXPECT_EQ(scene.source.name, "töst");
+    EXPECT_EQ(scene.film.frame_rate, (FrameRate{30000, 1001}));
+    EXPECT_EQ(scene.film.range, (FrameRange{-3, 59}));
+    EXPECT_EQ(scene.film.cuts, (std::vector<std::int64_t>{10, 30}));
+    EXPECT_EQ(scene.film.viewing, (ViewingConditions{62.5, 80.0, 0.5}));
+    EXPECT_EQ(scene.film.exposure, 0.25);
+    EXPECT_EQ(scene.environment.radiance, Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0)));
+    EXPECT_EQ(read(", \"fps\": 24").film.frame_rate, (FrameRate{24, 1}));
 }
 
 TEST(SceneJson, SettingsKeepTheirTypes) {
     const SettingMap settings =
         read(
             R"(, "settings": {"accuracy": 0.1, "gather": 512, "guide": "full", "neutral_opponent": true, "size": "320x240"})")
-            .settings;
+            .source.settings;
     EXPECT_EQ(settings, (SettingMap{{"accuracy", 0.1},
                                     {"gather", 512.0},
                                     {"guide", std::string("full")},
@@ -47,19 +47,19 @@ TEST(SceneJson, MaterialsStandInTheOrderOfTheFileAndMetalIsNotTheDefault) {
         "emission_strength": 10, "double_sided": true}})");
     ASSERT_EQ(scene.materials.size(), 2u);
     EXPECT_EQ(scene.materials[0].name, "z");
-    Material plain{.name = "z", .metallic = 0.0};
+    Material plain{.name = "z", .gloss = {.metallic = 0.0}};
     EXPECT_EQ(scene.materials[0], plain);
     Material a;
     a.name = "a";
     a.base_color = glm::dvec3(0.1, 0.2, 0.3);
-    a.alpha = 0.5;
-    a.metallic = 1.0;
-    a.roughness = 0.25;
-    a.specular = 0.0;
-    a.specular_color = glm::dvec3(2, 1, 0);
-    a.ior = 1.33;
-    a.emission = glm::dvec3(3, 4, 5);
-    a.emission_strength = 10.0;
+    a.opacity.alpha = 0.5;
+    a.gloss.metallic = 1.0;
+    a.gloss.roughness = 0.25;
+    a.gloss.specular = 0.0;
+    a.gloss.specular_color = glm::dvec3(2, 1, 0);
+    a.gloss.ior = 1.33;
+    a.glow.color = glm::dvec3(3, 4, 5);
+    a.glow.strength = 10.0;
     a.double_sided = true;
     EXPECT_EQ(scene.materials[1], a);
 }
@@ -79,11 +79,11 @@ TEST(SceneJson, TexturesShareImages) {
     EXPECT_EQ(text.image_places, (std::vector<std::string>{"/images/felt", "/materials/m/specular_texture",
                                                            "/materials/m/specular_color_texture/image"}));
     const Material& m = scene.materials[0];
-    EXPECT_EQ(m.base_color_texture, (TextureRef{.image = 0}));
-    EXPECT_EQ(m.emission_texture, (TextureRef{.image = 0}));
-    EXPECT_EQ(m.specular_texture, (TextureRef{.image = 1}));
-    EXPECT_EQ(m.metallic_roughness_texture, (TextureRef{0, 1, Wrap::clamp, Wrap::mirror, true}));
-    EXPECT_EQ(m.specular_color_texture, (TextureRef{2, 0, Wrap::mirror, Wrap::mirror, false}));
+    EXPECT_EQ(m.textures[TextureSlot::base_color], (TextureRef{.image = 0}));
+    EXPECT_EQ(m.textures[TextureSlot::emission], (TextureRef{.image = 0}));
+    EXPECT_EQ(m.textures[TextureSlot::specular], (TextureRef{.image = 1}));
+    EXPECT_EQ(m.textures[TextureSlot::metallic_roughness], (TextureRef{0, 1, Wrap::clamp, Wrap::mirror, true}));
+    EXPECT_EQ(m.textures[TextureSlot::specular_color], (TextureRef{2, 0, Wrap::mirror, Wrap::mirror, false}));
     EXPECT_EQ(again(scene), scene);
 }
 
@@ -123,14 +123,14 @@ TEST(SceneJson, SpotLightsShiftedLensesAndWhatMaterialsDo) {
     EXPECT_EQ(scene.cameras[0].shift_x, Track<double>(0.25));
     EXPECT_EQ(scene.cameras[0].shift_y.values, (std::vector<double>{0.0, -1.0}));
     const Material& m = scene.materials[0];
-    EXPECT_EQ(m.transmission, Track<double>(0.75));
-    EXPECT_EQ(m.transmission_texture, (TextureRef{.image = 0}));
-    EXPECT_EQ(m.alpha_mode, Material::AlphaMode::mask);
-    EXPECT_EQ(m.alpha_cutoff, 0.25);
+    EXPECT_EQ(m.glass.transmission, Track<double>(0.75));
+    EXPECT_EQ(m.textures[TextureSlot::transmission], (TextureRef{.image = 0}));
+    EXPECT_EQ(m.opacity.mode, Opacity::Mode::mask);
+    EXPECT_EQ(m.opacity.cutoff, 0.25);
     EXPECT_TRUE(m.unlit);
-    EXPECT_EQ(m.base_color_texture.uv_offset, glm::dvec2(0.5, 0.25));
-    EXPECT_EQ(m.base_color_texture.uv_scale, glm::dvec2(2.0, -3.0));
-    EXPECT_EQ(m.base_color_texture.uv_rotation, to_radians(90.0));
+    EXPECT_EQ(m.textures[TextureSlot::base_color].uv_offset, glm::dvec2(0.5, 0.25));
+    EXPECT_EQ(m.textures[TextureSlot::base_color].uv_scale, glm::dvec2(2.0, -3.0));
+    EXPECT_EQ(m.textures[TextureSlot::base_color].uv_rotation, to_radians(90.0));
     EXPECT_EQ(again(scene), scene);
 }
 
@@ -138,14 +138,15 @@ TEST(SceneJson, IncludesAreNamedInOrder) {
     const SceneText text = read_scene_text(
         R"({"aleph": 1, "include": "z.glb", "nodes": [{}, {"name": "t", "include": ["a.gltf", "../lib/b.glb"]}]})",
         "t.json");
-    EXPECT_EQ(text.scene.includes, (std::vector<Include>{{"a.gltf", 1}, {"../lib/b.glb", 1}, {"z.glb", no_index}}));
+    EXPECT_EQ(text.scene.source.includes,
+              (std::vector<Include>{{"a.gltf", 1}, {"../lib/b.glb", 1}, {"z.glb", no_index}}));
     EXPECT_EQ(text.include_places, (std::vector<std::string>{"/nodes/1/include/0", "/nodes/1/include/1", "/include"}));
     EXPECT_EQ(again(text.scene), text.scene);
 }
 
 TEST(SceneJson, CamerasTakeTurns) {
     const auto read_keys = [](const char* keys) { return read(std::string(R"(, "camera": {"keys": )") + keys + "}"); };
-    EXPECT_EQ(read_keys(R"([[-2, "wide"], [40, "close"]])").camera_keys,
+    EXPECT_EQ(read_keys(R"([[-2, "wide"], [40, "close"]])").film.camera_keys,
               (std::vector<CameraKey>{{-2, "wide"}, {40, "close"}}));
     EXPECT_EQ(frame_range(read_keys(R"([[-2, "wide"], [40, "close"]])")), (FrameRange{-2, 40}));
     for (const auto& [keys, message] : std::vector<std::pair<const char*, const char*>>{

@@ -17,35 +17,37 @@ TEST(SceneJsonSurfaces, EveryNumberOfAMaterial) {
         "clearcoat_normal_scale": 0.5}})");
     Material m = absent_material();
     m.name = "m";
-    m.transmission = 1.0;
-    m.thickness = 0.5;
-    m.attenuation_distance = 0.25;
-    m.attenuation_color = glm::dvec3(0.1, 0.2, 0.3);
-    m.clearcoat = 0.75;
-    m.clearcoat_roughness = 0.125;
-    m.sheen_color = glm::dvec3(0.4, 0.5, 0.6);
-    m.sheen_roughness = 0.3;
-    m.anisotropy = 0.8;
-    m.anisotropy_rotation = to_radians(-30.0);
-    m.normal_scale = -2.0;
-    m.clearcoat_normal_scale = 0.5;
+    m.glass.transmission = 1.0;
+    m.glass.thickness = 0.5;
+    m.glass.attenuation_distance = 0.25;
+    m.glass.attenuation_color = glm::dvec3(0.1, 0.2, 0.3);
+    m.layers.clearcoat = 0.75;
+    m.layers.clearcoat_roughness = 0.125;
+    m.layers.sheen_color = glm::dvec3(0.4, 0.5, 0.6);
+    m.layers.sheen_roughness = 0.3;
+    m.layers.anisotropy = 0.8;
+    m.layers.anisotropy_rotation = to_radians(-30.0);
+    m.textures.normal_scale = -2.0;
+    m.textures.clearcoat_normal_scale = 0.5;
     EXPECT_EQ(scene.materials[0], m);
     EXPECT_EQ(again(scene), scene);
-    EXPECT_EQ(read(R"(, "materials": {"m": {"anisotropy_rotation_radians": 0.1}})").materials[0].anisotropy_rotation,
-              Track<double>(0.1));
+    EXPECT_EQ(
+        read(R"(, "materials": {"m": {"anisotropy_rotation_radians": 0.1}})").materials[0].layers.anisotropy_rotation,
+        Track<double>(0.1));
 }
 
 TEST(SceneJsonSurfaces, WhatIsNotGivenChangesNothing) {
     const Material m = read(R"(, "materials": {"m": {}})").materials[0];
-    for (const Track<double> Material::*number :
-         {&Material::thickness, &Material::attenuation_distance, &Material::clearcoat, &Material::clearcoat_roughness,
-          &Material::sheen_roughness, &Material::anisotropy, &Material::anisotropy_rotation})
-        EXPECT_EQ(m.*number, Track<double>(0.0));
-    EXPECT_EQ(m.attenuation_color, Track<glm::dvec3>(glm::dvec3(1.0)));
-    EXPECT_EQ(m.sheen_color, Track<glm::dvec3>(glm::dvec3(0.0)));
-    EXPECT_EQ(m.normal_scale, 1.0);
-    EXPECT_EQ(m.clearcoat_normal_scale, 1.0);
-    EXPECT_EQ(read("").viewing.persistence, 1.0);
+    const auto& [clearcoat, clearcoat_roughness, sheen_color, sheen_roughness, anisotropy, anisotropy_rotation] =
+        m.layers;
+    for (const auto* number : {&m.glass.thickness, &m.glass.attenuation_distance, &clearcoat, &clearcoat_roughness,
+                               &sheen_roughness, &anisotropy, &anisotropy_rotation})
+        EXPECT_EQ(*number, Track<double>(0.0));
+    EXPECT_EQ(m.glass.attenuation_color, Track<glm::dvec3>(glm::dvec3(1.0)));
+    EXPECT_EQ(m.layers.sheen_color, Track<glm::dvec3>(glm::dvec3(0.0)));
+    EXPECT_EQ(m.textures.normal_scale, 1.0);
+    EXPECT_EQ(m.textures.clearcoat_normal_scale, 1.0);
+    EXPECT_EQ(read("").film.viewing.persistence, 1.0);
 }
 
 TEST(SceneJsonSurfaces, EveryTextureHasItsOwnKey) {
@@ -55,15 +57,15 @@ TEST(SceneJsonSurfaces, EveryTextureHasItsOwnKey) {
         "anisotropy_texture": {"image": "7.png", "uv_set": 1}}})");
     const Material& m = scene.materials[0];
     const auto path = [&](const TextureRef& texture) { return scene.images.at(texture.image).path; };
-    EXPECT_EQ(path(m.normal_texture), "0.png");
-    EXPECT_EQ(path(m.thickness_texture), "1.png");
-    EXPECT_EQ(path(m.clearcoat_texture), "2.png");
-    EXPECT_EQ(path(m.clearcoat_roughness_texture), "3.png");
-    EXPECT_EQ(path(m.clearcoat_normal_texture), "4.png");
-    EXPECT_EQ(path(m.sheen_color_texture), "5.png");
-    EXPECT_EQ(path(m.sheen_roughness_texture), "6.png");
-    EXPECT_EQ(path(m.anisotropy_texture), "7.png");
-    EXPECT_EQ(m.anisotropy_texture.uv_set, 1);
+    EXPECT_EQ(path(m.textures[TextureSlot::normal]), "0.png");
+    EXPECT_EQ(path(m.textures[TextureSlot::thickness]), "1.png");
+    EXPECT_EQ(path(m.textures[TextureSlot::clearcoat]), "2.png");
+    EXPECT_EQ(path(m.textures[TextureSlot::clearcoat_roughness]), "3.png");
+    EXPECT_EQ(path(m.textures[TextureSlot::clearcoat_normal]), "4.png");
+    EXPECT_EQ(path(m.textures[TextureSlot::sheen_color]), "5.png");
+    EXPECT_EQ(path(m.textures[TextureSlot::sheen_roughness]), "6.png");
+    EXPECT_EQ(path(m.textures[TextureSlot::anisotropy]), "7.png");
+    EXPECT_EQ(m.textures[TextureSlot::anisotropy].uv_set, 1);
     EXPECT_EQ(again(scene), scene);
 }
 
@@ -74,7 +76,7 @@ TEST(SceneJsonSurfaces, EveryNumberCanBeKeyed) {
         const Scene scene = read(", \"materials\": {\"m\": {\"" + std::string(key) + "\": " + from_0_to_1 + "}}");
         for (const auto& field : material_numbers) {
             if (std::string(field.key) == key) {
-                EXPECT_EQ(evaluate(scene.materials[0].*field.member, 0.25), 0.25) << key;
+                EXPECT_EQ(evaluate(field.in(scene.materials[0]), 0.25), 0.25) << key;
             }
         }
         EXPECT_EQ(frame_range(scene), (FrameRange{0, 30})) << key;
@@ -85,9 +87,9 @@ TEST(SceneJsonSurfaces, EveryNumberCanBeKeyed) {
         "attenuation_color": {"keys": [[0, [0, 0, 0]], [30, [1, 0.5, 0]]]},
         "sheen_color": {"values": [[0, 0, 0], [0, 1, 0]], "period": 30}}})");
     const MaterialValues half = pose(scene, 0.5).materials[0];
-    EXPECT_FLOAT_EQ(half.anisotropy_rotation, static_cast<float>(to_radians(45.0)));
-    EXPECT_EQ(half.attenuation_color, Rgb(0.5f, 0.25f, 0.0f));
-    EXPECT_EQ(half.sheen_color, Rgb(0.0f, 0.5f, 0.0f));
+    EXPECT_FLOAT_EQ(half.layers.anisotropy_rotation, static_cast<float>(to_radians(45.0)));
+    EXPECT_EQ(half.glass.attenuation_color, Rgb(0.5f, 0.25f, 0.0f));
+    EXPECT_EQ(half.layers.sheen_color, Rgb(0.0f, 0.5f, 0.0f));
     EXPECT_EQ(again(scene), scene);
 }
 
@@ -97,10 +99,10 @@ TEST(SceneJsonEnvironment, APictureAloneHasTheFactorOne) {
         "test.json");
     const Scene& scene = text.scene;
     ASSERT_EQ(scene.images.size(), 2u);
-    EXPECT_EQ(scene.environment_image, 1);
+    EXPECT_EQ(scene.environment.image, 1);
     EXPECT_EQ(scene.images[1].path, "sky.exr");
     EXPECT_EQ(text.image_places[1], "/environment_image");
-    EXPECT_EQ(scene.environment, Track<glm::dvec3>(glm::dvec3(1.0)));
+    EXPECT_EQ(scene.environment.radiance, Track<glm::dvec3>(glm::dvec3(1.0)));
     EXPECT_EQ(pose(scene, 0.0).environment_rotation, glm::dmat3(1.0));
     EXPECT_EQ(again(scene), scene);
 }
@@ -108,18 +110,18 @@ TEST(SceneJsonEnvironment, APictureAloneHasTheFactorOne) {
 TEST(SceneJsonEnvironment, ThePictureMayHaveANameAndAFactor) {
     const Scene scene = read(R"(, "images": {"other": "o.png", "sky": "sky.hdr"}, "environment_image": "sky",
         "environment": {"keys": [[0, [0, 0, 0]], [30, [2, 4, 8]]]}, "viewing": {"persistence": 0.1})");
-    EXPECT_EQ(scene.environment_image, 1);
+    EXPECT_EQ(scene.environment.image, 1);
     EXPECT_EQ(scene.images.size(), 2u);
     EXPECT_EQ(pose(scene, 0.5).environment, Rgb(1.0f, 2.0f, 4.0f));
-    EXPECT_EQ(scene.viewing, (ViewingConditions{31.0, 100.0, 0.1}));
+    EXPECT_EQ(scene.film.viewing, (ViewingConditions{31.0, 100.0, 0.1}));
     EXPECT_EQ(again(scene), scene);
 }
 
 TEST(SceneJsonEnvironment, ThePictureTurnsBeyondAHalfTurn) {
     const Scene scene = read(R"(, "environment_image": "sky.exr",
         "environment_rotation": {"axis": [0, 2, 0], "degrees": {"keys": [[0, 0], [60, 720]]}})");
-    ASSERT_TRUE(scene.environment_axis_rotation.has_value());
-    EXPECT_EQ(scene.environment_axis_rotation->axis, glm::dvec3(0.0, 1.0, 0.0));
+    ASSERT_TRUE(scene.environment.axis_rotation.has_value());
+    EXPECT_EQ(scene.environment.axis_rotation->axis, glm::dvec3(0.0, 1.0, 0.0));
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 60}));
     EXPECT_TRUE(is_world_animated(scene));
     // A quarter turn about y after a quarter of a second: z goes to x. After half a second -z, as a half turn.
@@ -137,7 +139,7 @@ TEST(SceneJsonEnvironment, ThePictureTurnsByQuaternions) {
     EXPECT_EQ(again(still), still);
     const Scene keyed = read(R"(, "environment_image": "s.exr",
         "environment_rotation": {"keys": [[0, [0, 0, 0, 1]], [30, [0, 0.6, 0, 0.8]]]})");
-    EXPECT_EQ(keyed.environment_rotation.values[1], glm::dquat(0.8, 0.0, 0.6, 0.0));
+    EXPECT_EQ(keyed.environment.rotation.values[1], glm::dquat(0.8, 0.0, 0.6, 0.0));
     EXPECT_TRUE(is_world_animated(keyed));
     EXPECT_EQ(again(keyed), keyed);
 }

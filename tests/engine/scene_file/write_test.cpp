@@ -15,8 +15,8 @@ namespace {
 
 TEST(SceneJsonWrite, NegativeZeroKeepsItsSign) {
     Scene scene = read_scene_text(R"({"aleph": 1, "nodes": [{}]})", "test.json").scene;
-    scene.nodes[0].translation = glm::dvec3(-0.0, 0.0, 1.0);  // not all zero: that is left out
-    const glm::dvec3 loaded = again(scene).nodes[0].translation.values[0];
+    scene.nodes[0].transform.translation = glm::dvec3(-0.0, 0.0, 1.0);  // not all zero: that is left out
+    const glm::dvec3 loaded = again(scene).nodes[0].transform.translation.values[0];
     EXPECT_TRUE(loaded.x == 0.0 && std::signbit(loaded.x));
     EXPECT_FALSE(std::signbit(loaded.y));
 }
@@ -49,8 +49,9 @@ TEST(SceneJsonWrite, SavedTextIsForPeople) {
 TEST(SceneJsonWrite, KF24_ChainOfAHundredThousandNodes) {
     Scene scene;
     for (int i = 0; i < 100000; ++i) {
-        scene.nodes.push_back(
-            {.name = fmt::format("n{}", i), .parent = i - 1, .translation = glm::dvec3(0.001 * i, 0.0, 0.0)});
+        scene.nodes.push_back({.name = fmt::format("n{}", i),
+                               .parent = i - 1,
+                               .transform = {.translation = glm::dvec3(0.001 * i, 0.0, 0.0)}});
     }
     EXPECT_TRUE(again(scene) == scene);
 }
@@ -90,7 +91,7 @@ void expect_spoiled(const Spoil& spoil, const std::string& place, const std::str
 
 TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     EXPECT_EQ(again(make_good_scene()), make_good_scene());
-    expect_spoiled([](Scene& s) { s.meshes[0].points = 0; }, "mesh 0", "points");
+    expect_spoiled([](Scene& s) { s.meshes[0].deformation.points = 0; }, "mesh 0", "points");
     expect_spoiled([](Scene& s) { s.meshes[0].uv[0].pop_back(), s.meshes[0].shape.reset(); }, "/meshes/a/shape/uv",
                    "one for each");
     expect_spoiled([](Scene& s) { s.meshes[0].shape.reset(), s.meshes[0].positions[3].x = float_nan; }, "", "finite");
@@ -103,7 +104,7 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
             points.positions = {{{0, 0, 0}}};
             Cage& cage = s.cages.emplace_back();
             cage.name = "c";
-            cage.face_sizes = {5};
+            cage.faces.sizes = {5};
             cage.points = 0;
         },
         "c", "corners");
@@ -117,40 +118,46 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     expect_spoiled([](Scene& s) { s.nodes[0].meshes = {5}; }, "node 0", "mesh 5");
     expect_spoiled([](Scene& s) { s.nodes[1].camera = 5; }, "node 1", "camera 5");
     expect_spoiled([](Scene& s) { s.meshes[0].material = 1; }, "mesh 0", "material 1");
-    expect_spoiled([&](Scene& s) { s.nodes[0].translation = glm::dvec3(0.0, not_a_number, 0.0); }, "translation",
-                   "nan");
-    expect_spoiled([&](Scene& s) { s.materials[0].roughness = infinity; }, "roughness", "inf");
-    expect_spoiled([&](Scene& s) { s.exposure = not_a_number; }, "", "finite");
-    expect_spoiled([&](Scene& s) { s.viewing.display_white = infinity; }, "", "finite");
-    expect_spoiled([](Scene& s) { s.materials[0].roughness = 2.0; }, "/materials/a/roughness", "between 0 and 1");
-    expect_spoiled([](Scene& s) { s.nodes[0].rotation = glm::dquat(0, 0, 0, 0); }, "rotation", "zero");
-    expect_spoiled([](Scene& s) { s.nodes[0].scale.values.clear(); }, "scale", "no keys");
+    expect_spoiled([&](Scene& s) { s.nodes[0].transform.translation = glm::dvec3(0.0, not_a_number, 0.0); },
+                   "translation", "nan");
+    expect_spoiled([&](Scene& s) { s.materials[0].gloss.roughness = infinity; }, "roughness", "inf");
+    expect_spoiled([&](Scene& s) { s.film.exposure = not_a_number; }, "", "finite");
+    expect_spoiled([&](Scene& s) { s.film.viewing.display_white = infinity; }, "", "finite");
+    expect_spoiled([](Scene& s) { s.materials[0].gloss.roughness = 2.0; }, "/materials/a/roughness", "between 0 and 1");
+    expect_spoiled([](Scene& s) { s.nodes[0].transform.rotation = glm::dquat(0, 0, 0, 0); }, "rotation", "zero");
+    expect_spoiled([](Scene& s) { s.nodes[0].transform.scale.values.clear(); }, "scale", "no keys");
     expect_spoiled([](Scene& s) { s.nodes[0].visible = 0.5; }, "node 0", "exactly");
-    expect_spoiled([](Scene& s) { s.nodes[0].axis_rotation = AxisRotation{{0, 2, 0}, {0.5}}; }, "node 0", "exactly");
-    expect_spoiled([](Scene& s) { s.frame_rate = {0, 1}; }, "/fps", "whole number");
-    expect_spoiled([](Scene& s) { s.settings["unheard_of"] = 1.0; }, "/settings/unheard_of", "unknown");
-    expect_spoiled([](Scene& s) { s.name = "\xff\xfe"; }, "", "UTF-8");
-    expect_spoiled([](Scene& s) { s.materials[0].normal_scale = not_a_number; }, "", "finite");
-    expect_spoiled([](Scene& s) { s.materials[0].thickness = -1.0; }, "/materials/a/thickness", "at least 0");
-    expect_spoiled([](Scene& s) { s.materials[0].anisotropy_rotation = not_a_number; }, "anisotropy_rotation", "nan");
-    expect_spoiled([](Scene& s) { s.viewing.persistence = 2.0; }, "/viewing/persistence", "from 0 to 1");
-    expect_spoiled([](Scene& s) { s.environment_image = 0, s.environment = glm::dvec3(1.0); }, "environment_image",
-                   "no element 0");
+    expect_spoiled(
+        [](Scene& s) {
+            s.nodes[0].transform.axis_rotation = AxisRotation{{0, 2, 0}, {0.5}};
+        },
+        "node 0", "exactly");
+    expect_spoiled([](Scene& s) { s.film.frame_rate = {0, 1}; }, "/fps", "whole number");
+    expect_spoiled([](Scene& s) { s.source.settings["unheard_of"] = 1.0; }, "/settings/unheard_of", "unknown");
+    expect_spoiled([](Scene& s) { s.source.name = "\xff\xfe"; }, "", "UTF-8");
+    expect_spoiled([](Scene& s) { s.materials[0].textures.normal_scale = not_a_number; }, "", "finite");
+    expect_spoiled([](Scene& s) { s.materials[0].glass.thickness = -1.0; }, "/materials/a/thickness", "at least 0");
+    expect_spoiled([](Scene& s) { s.materials[0].layers.anisotropy_rotation = not_a_number; }, "anisotropy_rotation",
+                   "nan");
+    expect_spoiled([](Scene& s) { s.film.viewing.persistence = 2.0; }, "/viewing/persistence", "from 0 to 1");
+    expect_spoiled([](Scene& s) { s.environment.image = 0, s.environment.radiance = glm::dvec3(1.0); },
+                   "environment_image", "no element 0");
     expect_spoiled(
         [](Scene& s) {
             s.images.push_back({.name = "sky", .path = "sky.exr", .bytes = {}, .floats = {}});
-            s.environment_image = 0;
+            s.environment.image = 0;
         },
         "environment_image", "needs `environment`");
-    expect_spoiled([](Scene& s) { s.environment_rotation = glm::dquat(0, 1, 0, 0); }, "/environment_rotation",
+    expect_spoiled([](Scene& s) { s.environment.rotation = glm::dquat(0, 1, 0, 0); }, "/environment_rotation",
                    "\"environment_image\", which is not given");
-    expect_spoiled([](Scene& s) { s.includes = {{"b.glb", 1}, {"a.glb", 0}}; }, "includes", "exactly");
-    expect_spoiled([](Scene& s) { s.includes = {{"/abs.glb", 0}}; }, "/nodes/0/include", "absolute");
+    expect_spoiled([](Scene& s) { s.source.includes = {{"b.glb", 1}, {"a.glb", 0}}; }, "includes", "exactly");
+    expect_spoiled([](Scene& s) { s.source.includes = {{"/abs.glb", 0}}; }, "/nodes/0/include", "absolute");
     expect_spoiled([](Scene& s) { s.nodes[0].include = 0; }, "node 1", "after");
     expect_spoiled(
         [](Scene& s) {
-            s.nodes[0].scale.values = {glm::dvec3(1.0), glm::dvec3(2.0)};  // times of an acyclic sampling left over
-            s.nodes[0].scale.sampling.times = {0.0, 1.0};
+            s.nodes[0].transform.scale.values = {glm::dvec3(1.0),
+                                                 glm::dvec3(2.0)};  // times of an acyclic sampling left over
+            s.nodes[0].transform.scale.sampling.times = {0.0, 1.0};
         },
         "node 0", "exactly");
 }
@@ -174,7 +181,7 @@ TEST(SceneJsonMeshes, FloatsOfEveryKindComeBack) {
         cache.sampling.times.push_back(sample * 0.1);
     }
     cache.sampling.kind = TimeSampling::Kind::acyclic;
-    mesh.points = 0;
+    mesh.deformation.points = 0;
     mesh.positions = cache.positions[0];
     for (int i = 0; i < 1000; ++i) {
         mesh.normals.emplace_back(any(), any(), any());
@@ -224,8 +231,8 @@ TEST(SceneJsonMeshes, AMeshOfAProgramIsSavedAsLists) {
 TEST(SceneJsonMeshes, MorphTargetsAndSkinsAreRefusedByName) {
     Scene scene;
     Mesh mesh = make_shape_mesh({}, no_index, "face");
-    mesh.targets.push_back({"smile", {}, {}});
-    mesh.target_weights.emplace_back(0.0);
+    mesh.deformation.targets.push_back({"smile", {}, {}});
+    mesh.deformation.target_weights.emplace_back(0.0);
     scene.meshes.push_back(mesh);
     const Refusal found = find_refusal([&] { write_scene_text(scene, "out.json"); });
     EXPECT_NE(found.place.find("\"face\""), std::string::npos);

@@ -11,7 +11,7 @@ namespace {
 TEST(LimitSurface, HolesAreAbsentAndChangeNothingElse) {
     TestCage test = make_cube_cage();
     const LimitSurface whole(test.cage, 8, 2);
-    test.cage.holes = {2, 5};
+    test.cage.faces.holes = {2, 5};
     const LimitSurface holed(test.cage, 8, 2);
     EXPECT_EQ(whole.triangle_count(0), 6u * 32u);
     EXPECT_EQ(holed.triangle_count(0), 4u * 32u);
@@ -25,7 +25,7 @@ TEST(LimitSurface, HolesAreAbsentAndChangeNothingElse) {
 
 TEST(LimitSurface, PartsShareTheirEdgesBitForBit) {
     TestCage test = make_cube_cage();
-    test.cage.face_parts = {0, 0, 1, 1, 0, 1};
+    test.cage.faces.parts = {0, 0, 1, 1, 0, 1};
     const LimitSurface surface(test.cage, 8, 3);
     ASSERT_EQ(surface.part_count(), 2);
     EXPECT_EQ(surface.triangle_count(0), 3u * 128u);
@@ -164,11 +164,11 @@ TEST(LimitSurface, IsAsAccurateFarFromTheOrigin) {
 
 TEST(TessellateCage, FillsTheMeshesOfTheCage) {
     TestCage test = make_cube_cage();
-    test.cage.face_parts = {0, 0, 0, 0, 1, 1};
+    test.cage.faces.parts = {0, 0, 0, 0, 1, 1};
     test.cage.level = 2;
     test.cage.points = 0;
     Scene scene;
-    scene.file = "scene.json";
+    scene.source.file = "scene.json";
     PointCache cache;
     cache.positions.resize(2);
     for (const glm::dvec3& p : test.points) {
@@ -178,8 +178,8 @@ TEST(TessellateCage, FillsTheMeshesOfTheCage) {
     scene.point_caches.push_back(cache);
     scene.cages.push_back(test.cage);
     scene.meshes.resize(3);
-    scene.meshes[0].cage = scene.meshes[2].cage = 0;
-    scene.meshes[2].cage_part = 1;
+    scene.meshes[0].subdivision.cage = scene.meshes[2].subdivision.cage = 0;
+    scene.meshes[2].subdivision.part = 1;
     scene.meshes[2].material = 7;
     tessellate_cage(scene, 0);
     EXPECT_EQ(scene.meshes[0].triangles.size(), 4u * 32u);
@@ -187,8 +187,8 @@ TEST(TessellateCage, FillsTheMeshesOfTheCage) {
     EXPECT_EQ(scene.meshes[2].triangles.size(), 2u * 32u);
     EXPECT_EQ(scene.meshes[2].material, 7);
     EXPECT_EQ(scene.meshes[2].positions.size(), scene.meshes[2].normals.size());
-    EXPECT_NE(scene.meshes[0].limit.surface, nullptr);
-    EXPECT_EQ(scene.meshes[0].limit.surface, scene.meshes[2].limit.surface);
+    EXPECT_NE(scene.meshes[0].subdivision.limit.surface, nullptr);
+    EXPECT_EQ(scene.meshes[0].subdivision.limit.surface, scene.meshes[2].subdivision.limit.surface);
 
     scene.cages[0].level = 1;
     tessellate_cage(scene, 0);

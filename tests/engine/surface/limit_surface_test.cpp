@@ -137,8 +137,8 @@ TEST(LimitSurface, LoopAgreesWithExplicitSubdivision) {
             const int right = (i + 1) % n, up = (j + 1) % m;
             for (const auto& face : {std::array{j * n + i, j * n + right, up * n + right},
                                      std::array{j * n + i, up * n + right, up * n + i}}) {
-                torus.cage.face_sizes.push_back(3);
-                torus.cage.face_points.insert(torus.cage.face_points.end(), face.begin(), face.end());
+                torus.cage.faces.sizes.push_back(3);
+                torus.cage.faces.points.insert(torus.cage.faces.points.end(), face.begin(), face.end());
             }
         }
     }

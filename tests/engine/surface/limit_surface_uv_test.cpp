@@ -30,8 +30,8 @@ struct Islands {
                                           p / 3 + 0.2 * std::cos(3.3 * p * island));
             }
         }
-        for (std::size_t c = 0; c < test.cage.face_points.size(); ++c) {
-            test.cage.face_uv.push_back(9 * islands[c / 4] + test.cage.face_points[c]);
+        for (std::size_t c = 0; c < test.cage.faces.points.size(); ++c) {
+            test.cage.faces.uv.push_back(9 * islands[c / 4] + test.cage.faces.points[c]);
         }
     }
     glm::vec2 value(int face, int point) const { return test.cage.uv[9 * of_face[face] + point]; }
@@ -137,7 +137,7 @@ TEST(SubdividedUv, FollowsThePointsWhereItsRulesAreTheirs) {
         test.cage.boundary = corners ? Cage::Boundary::edge_and_corner : Cage::Boundary::edge_only;
         test.cage.uv_rule = corners ? Cage::UvRule::linear_corners_only : Cage::UvRule::linear_none;
         for (const glm::dvec3& p : test.points) test.cage.uv.emplace_back(p.x, p.y);
-        test.cage.face_uv = test.cage.face_points;
+        test.cage.faces.uv = test.cage.faces.points;
         const LimitSurface surface(test.cage, test.points.size(), level);
         const Mesh mesh = surface.make_mesh(0, surface.make_control_points(test.points));
         ASSERT_EQ(mesh.uv[0].size(), mesh.positions.size());
@@ -152,7 +152,7 @@ TEST(SubdividedUv, FollowsThePointsAboutExtraordinaryOnes) {
     for (const Cage::Scheme scheme : {Cage::Scheme::catmull_clark, Cage::Scheme::loop}) {
         TestCage test = make_icosahedron_cage(scheme);
         for (const glm::dvec3& p : test.points) test.cage.uv.emplace_back(p.x, p.z);
-        test.cage.face_uv = test.cage.face_points;
+        test.cage.faces.uv = test.cage.faces.points;
         const LimitSurface surface(test.cage, test.points.size(), level);
         const Mesh mesh = surface.make_mesh(0, surface.make_control_points(test.points));
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -183,7 +183,7 @@ TEST(SubdividedUv, DoesNotChangeTheSurface) {
     const Islands islands({0, 1, 2, 2});
     Cage bare = islands.test.cage;
     bare.uv.clear();
-    bare.face_uv.clear();
+    bare.faces.uv.clear();
     const LimitSurface with(islands.test.cage, 9, 0), without(bare, 9, 0);
     const auto a = with.make_control_points(islands.test.points), b = without.make_control_points(islands.test.points);
     for (int primitive = 0; primitive < 8; ++primitive) {

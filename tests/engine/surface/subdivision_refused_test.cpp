@@ -10,7 +10,7 @@ TEST(SubdivisionHard, FacesOfFewerThanThreePointsAreRefused) {
     // OpenSubdiv overruns its memory on a face of one point.
     for (const int size : {1, 2, 0, -1, std::numeric_limits<int>::min()}) {
         TestCage test = make_cube_cage();
-        test.cage.face_sizes[3] = size;
+        test.cage.faces.sizes[3] = size;
         expect_refused(test.cage, 8, "at least 3");
     }
     TestCage one = make_cage({{0, 0, 0}}, {{0}});
@@ -21,24 +21,24 @@ TEST(SubdivisionHard, FacesOfFewerThanThreePointsAreRefused) {
 TEST(SubdivisionHard, PointsOutOfRangeOrRepeatedAreRefused) {
     for (const int bad : {8, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
         TestCage test = make_cube_cage();
-        test.cage.face_points[5] = bad;
+        test.cage.faces.points[5] = bad;
         expect_refused(test.cage, 8, "names point");
     }
     TestCage twice = make_cube_cage();
-    twice.cage.face_points[5] = twice.cage.face_points[7];
+    twice.cage.faces.points[5] = twice.cage.faces.points[7];
     expect_refused(twice.cage, 8, "twice");
     expect_refused(make_cube_cage().cage, 0, "names point 0 of 0");
 }
 
 TEST(SubdivisionHard, SizesThatDoNotFitAreRefused) {
     TestCage test = make_cube_cage();
-    test.cage.face_points.pop_back();
+    test.cage.faces.points.pop_back();
     expect_refused(test.cage, 8, "corners");
     test = make_cube_cage();
-    test.cage.face_sizes.push_back(2147483647);
+    test.cage.faces.sizes.push_back(2147483647);
     expect_refused(test.cage, 8, "corners");
     test = make_cube_cage();
-    test.cage.face_sizes.push_back(60000);
+    test.cage.faces.sizes.push_back(60000);
     expect_refused(test.cage, 8, "corners");
     expect_refused(make_cube_cage().cage, std::size_t{1} << 40, "at most");
 }
@@ -51,22 +51,22 @@ TEST(SubdivisionHard, LoopTakesTrianglesOnly) {
 
 TEST(SubdivisionHard, HolesAndPartsOutOfRangeAreRefused) {
     TestCage test = make_cube_cage();
-    test.cage.holes = {6};
+    test.cage.faces.holes = {6};
     expect_refused(test.cage, 8, "hole 6");
-    test.cage.holes = {-1};
+    test.cage.faces.holes = {-1};
     expect_refused(test.cage, 8, "hole -1");
     test = make_cube_cage();
-    test.cage.face_parts = {0, 1};
+    test.cage.faces.parts = {0, 1};
     expect_refused(test.cage, 8, "parts for 2");
-    test.cage.face_parts = {0, 0, 0, 0, 0, 2147483647};
+    test.cage.faces.parts = {0, 0, 0, 0, 0, 2147483647};
     expect_refused(test.cage, 8, "part 2147483647");
-    test.cage.face_parts = {0, 0, 0, 0, 0, -1};
+    test.cage.faces.parts = {0, 0, 0, 0, 0, -1};
     expect_refused(test.cage, 8, "part -1");
 }
 
 TEST(SubdivisionHard, CagesWithNothingToDrawAreRefused) {
     TestCage test = make_cube_cage();
-    test.cage.holes = {0, 1, 2, 3, 4, 5};
+    test.cage.faces.holes = {0, 1, 2, 3, 4, 5};
     EXPECT_THROW(LimitSurface(test.cage, 8, 1), InputError);
     TestCage strip = make_grid_cage(4, 2);
     strip.cage.boundary = Cage::Boundary::none;
@@ -76,9 +76,9 @@ TEST(SubdivisionHard, CagesWithNothingToDrawAreRefused) {
 TEST(SubdivisionHard, DamagedCreasesAreRefused) {
     const auto with = [](std::vector<int> lengths, std::vector<int> points, std::vector<float> sharpness) {
         TestCage test = make_cube_cage();
-        test.cage.crease_lengths = std::move(lengths);
-        test.cage.crease_points = std::move(points);
-        test.cage.crease_sharpness = std::move(sharpness);
+        test.cage.creases.lengths = std::move(lengths);
+        test.cage.creases.points = std::move(points);
+        test.cage.creases.sharpness = std::move(sharpness);
         return test.cage;
     };
     expect_refused(with({2}, {0, 8}, {1.0f}), 8, "names point 8");
@@ -100,21 +100,21 @@ TEST(SubdivisionHard, DamagedCornersAreRefused) {
     add_corner(test.cage, 1, float_nan);
     expect_refused(test.cage, 8, "not a finite");
     test = make_cube_cage();
-    test.cage.corner_points = {1, 2};
-    test.cage.corner_sharpness = {1.0f};
+    test.cage.corners.points = {1, 2};
+    test.cage.corners.sharpness = {1.0f};
     expect_refused(test.cage, 8, "2 corners");
 }
 
 TEST(SubdivisionHard, DamagedTextureCoordinatesAreRefused) {
     TestCage test = make_cube_cage();
     test.cage.uv = {{0, 0}, {1, 0}};
-    test.cage.face_uv.assign(23, 0);
+    test.cage.faces.uv.assign(23, 0);
     expect_refused(test.cage, 8, "texture coordinates for 23");
-    test.cage.face_uv.assign(24, 2);
+    test.cage.faces.uv.assign(24, 2);
     expect_refused(test.cage, 8, "texture coordinate 2 of 2");
-    test.cage.face_uv.assign(24, -1);
+    test.cage.faces.uv.assign(24, -1);
     expect_refused(test.cage, 8, "texture coordinate -1");
-    test.cage.face_uv.assign(24, 0);
+    test.cage.faces.uv.assign(24, 0);
     test.cage.uv[1].y = float_nan;
     expect_refused(test.cage, 8, "not finite");
 }
@@ -126,7 +126,7 @@ TEST(SubdivisionHard, SharpEdgesAtPointsOfTwoFacesAreRefused) {
     expect_sound(test);
     add_crease(test.cage, {0, 5}, 2.0f);
     expect_refused(test.cage, 6, "between two faces");
-    test.cage.crease_sharpness = {0.0f};
+    test.cage.creases.sharpness = {0.0f};
     expect_sound(test);
 }
 
@@ -134,8 +134,8 @@ TEST(SubdivisionHard, TooManyNeighboursAreRefused) {
     TestCage fan = make_cage({}, {});
     // OpenSubdiv counts them in 16 bits, and its time and memory grow with their square.
     for (int i = 0; i < 65540; ++i) {
-        fan.cage.face_sizes.push_back(3);
-        for (const int p : {0, i + 1, i + 2}) fan.cage.face_points.push_back(p);
+        fan.cage.faces.sizes.push_back(3);
+        for (const int p : {0, i + 1, i + 2}) fan.cage.faces.points.push_back(p);
     }
     expect_refused(fan.cage, 65542, "too many faces meet");
 }
@@ -153,7 +153,7 @@ TEST(SubdivisionHard, TooManyTrianglesAreRefusedBeforeTheyAreMade) {
 
 TEST(SubdivisionHard, TessellationRefusesPointsThatAreNotThere) {
     Scene scene;
-    scene.file = "scene.json";
+    scene.source.file = "scene.json";
     scene.cages.push_back(make_cube_cage().cage);
     const auto reason = [&] {
         const Refusal found = find_refusal([&] { tessellate_cage(scene, 0); });
@@ -187,8 +187,8 @@ TEST(SubdivisionHard, TessellationRefusesPointsThatAreNotThere) {
     scene.cages[0].level = 1;
     scene.meshes.resize(1);
     scene.meshes[0].name = "lid";
-    scene.meshes[0].cage = 0;
-    scene.meshes[0].cage_part = 4;
+    scene.meshes[0].subdivision.cage = 0;
+    scene.meshes[0].subdivision.part = 4;
     EXPECT_NE(reason().find("part 4"), std::string::npos);
 }
 

@@ -43,9 +43,9 @@ TEST(SubdivisionHard, SurfacesThatAreNoManifoldAreSharpThere) {
     // Two cubes that touch at a point.
     TestCage cubes = make_cube_cage();
     const TestCage other = make_cube_cage();
-    for (const int p : other.cage.face_points) cubes.cage.face_points.push_back(p == 0 ? 7 : p + 7);
+    for (const int p : other.cage.faces.points) cubes.cage.faces.points.push_back(p == 0 ? 7 : p + 7);
     for (std::size_t p = 1; p < 8; ++p) cubes.points.push_back(other.points[p] + glm::dvec3(2.0));
-    cubes.cage.face_sizes.assign(12, 4);
+    cubes.cage.faces.sizes.assign(12, 4);
     expect_sound(cubes, 3);
     // Neighbours that disagree about which side is out: a Moebius strip.
     TestCage strip = make_cage({}, {});
@@ -58,16 +58,16 @@ TEST(SubdivisionHard, SurfacesThatAreNoManifoldAreSharpThere) {
     }
     for (int i = 0; i < 6; ++i) {
         const int next = i == 5 ? 1 : 2 * i + 2, next_up = i == 5 ? 0 : 2 * i + 3;
-        strip.cage.face_sizes.push_back(4);
-        for (const int p : {2 * i, next, next_up, 2 * i + 1}) strip.cage.face_points.push_back(p);
+        strip.cage.faces.sizes.push_back(4);
+        for (const int p : {2 * i, next, next_up, 2 * i + 1}) strip.cage.faces.points.push_back(p);
     }
     expect_sound(strip, 3);
 }
 
 TEST(SubdivisionHard, RepeatedFacesAreLetPassWithAWarning) {
     TestCage test = make_cube_cage();
-    for (int k = 0; k < 4; ++k) test.cage.face_points.push_back(test.cage.face_points[k]);
-    test.cage.face_sizes.push_back(4);
+    for (int k = 0; k < 4; ++k) test.cage.faces.points.push_back(test.cage.faces.points[k]);
+    test.cage.faces.sizes.push_back(4);
     const auto warnings = list_warnings(test.cage);
     ASSERT_EQ(warnings.size(), 2u);
     EXPECT_NE(warnings[1].find("repeat"), std::string::npos);
@@ -114,8 +114,8 @@ TEST(SubdivisionHard, FacesAndPointsOfManyNeighbours) {
         fan.points.emplace_back(0.0, 0.0, -1.0);
         for (int i = 0; i < n; ++i) {
             for (const auto& face : {std::vector{i, (i + 1) % n, n}, std::vector{(i + 1) % n, i, n + 1}}) {
-                fan.cage.face_sizes.push_back(3);
-                fan.cage.face_points.insert(fan.cage.face_points.end(), face.begin(), face.end());
+                fan.cage.faces.sizes.push_back(3);
+                fan.cage.faces.points.insert(fan.cage.faces.points.end(), face.begin(), face.end());
             }
         }
         expect_sound(fan, 1);
@@ -124,9 +124,9 @@ TEST(SubdivisionHard, FacesAndPointsOfManyNeighbours) {
     for (int i = 0; i < 1800; ++i) {
         const double a = 2.0 * std::numbers::pi * i / 1800;
         polygon.points.emplace_back(std::cos(a), std::sin(a), 0.0);
-        polygon.cage.face_points.push_back(i);
+        polygon.cage.faces.points.push_back(i);
     }
-    polygon.cage.face_sizes = {1800};
+    polygon.cage.faces.sizes = {1800};
     expect_sound(polygon, 1);
 }
 
@@ -141,8 +141,8 @@ TEST(SubdivisionHard, HighlyIrregularAndSemiSharpCagesStayWithinBounds) {
         for (int x = 0; x < n; ++x) {
             const int p = y * (n + 1) + x;
             for (const auto& face : {std::array{p, p + 1, p + n + 2}, std::array{p, p + n + 2, p + n + 1}}) {
-                test.cage.face_sizes.push_back(3);
-                for (const int q : face) test.cage.face_points.push_back(q);
+                test.cage.faces.sizes.push_back(3);
+                for (const int q : face) test.cage.faces.points.push_back(q);
                 add_crease(test.cage, {face[0], face[1], face[2]}, 8.5f);
             }
         }
@@ -162,12 +162,12 @@ void damage(TestCage& test, std::mt19937& random) {
     Cage& cage = test.cage;
     switch (pick(10)) {
         case 0:
-            cage.face_sizes[pick(cage.face_sizes.size())] = value;
+            cage.faces.sizes[pick(cage.faces.sizes.size())] = value;
             break;
         case 1:
         case 2:
         case 3:
-            cage.face_points[pick(cage.face_points.size())] = static_cast<int>(pick(test.points.size()));
+            cage.faces.points[pick(cage.faces.points.size())] = static_cast<int>(pick(test.points.size()));
             break;
         case 4:
             add_crease(cage, {value, static_cast<int>(pick(test.points.size()))}, 3.3f);
@@ -180,14 +180,14 @@ void damage(TestCage& test, std::mt19937& random) {
             add_corner(cage, static_cast<int>(pick(test.points.size())), static_cast<float>(pick(12)));
             break;
         case 7:
-            cage.holes.push_back(static_cast<int>(pick(cage.face_sizes.size())));
+            cage.faces.holes.push_back(static_cast<int>(pick(cage.faces.sizes.size())));
             break;
         case 8:
             cage.boundary = static_cast<Cage::Boundary>(pick(3));
             break;
         default:
-            cage.face_sizes.push_back(3);
-            for (int k = 0; k < 3; ++k) cage.face_points.push_back(static_cast<int>(pick(test.points.size())));
+            cage.faces.sizes.push_back(3);
+            for (int k = 0; k < 3; ++k) cage.faces.points.push_back(static_cast<int>(pick(test.points.size())));
     }
     cage.uv_rule = static_cast<Cage::UvRule>(pick(6));
 }
@@ -206,8 +206,8 @@ TEST(SubdivisionHard, DamagedCagesAreRefusedOrSubdivided) {
         for (int k = 0; k < count; ++k) damage(test, random);
         if (textured) {
             test.cage.uv.assign(8, glm::vec2(0.5f));
-            for (std::size_t c = 0; c < test.cage.face_points.size(); ++c) {
-                test.cage.face_uv.push_back(static_cast<int>(random() % 8));
+            for (std::size_t c = 0; c < test.cage.faces.points.size(); ++c) {
+                test.cage.faces.uv.push_back(static_cast<int>(random() % 8));
             }
         }
         try {

@@ -39,10 +39,11 @@ struct BallInRoom {
                 gather_irradiance(stage.lighting(), task, point, {choose_strata(512), {seed, 0, 0, 0}}, scratch);
             mean.irradiance += sample.irradiance / static_cast<float>(count);
             mean.nearest_distance = std::min(mean.nearest_distance, sample.nearest_distance);
-            mean.headroom = std::min(mean.headroom, sample.headroom);
-            for (const float clear : sample.clearance) mean.clearance[0] = std::min(mean.clearance[0], clear);
+            mean.space.headroom = std::min(mean.space.headroom, sample.space.headroom);
+            for (const float clear : sample.space.sectors)
+                mean.space.sectors[0] = std::min(mean.space.sectors[0], clear);
             inverse += 1.0 / sample.harmonic_mean_distance / count;
-            mean.translation_gradient[1] += sample.translation_gradient[1] / static_cast<float>(count);
+            mean.gradients.translation[1] += sample.gradients.translation[1] / static_cast<float>(count);
         }
         mean.harmonic_mean_distance = static_cast<float>(1.0 / inverse);
         return mean;
@@ -66,10 +67,10 @@ TEST(GatherHemisphere, IC17_CoarseSmoothMeshesHaveTheRadiiOfFineOnes) {
             EXPECT_NEAR(found.harmonic_mean_distance, expected.harmonic_mean_distance,
                         0.05f * expected.harmonic_mean_distance);
             EXPECT_NEAR(found.nearest_distance, expected.nearest_distance, 0.05f * expected.nearest_distance);
-            EXPECT_NEAR(found.clearance[0], expected.clearance[0], 0.15f * expected.clearance[0]);
-            EXPECT_EQ(std::isinf(found.headroom), std::isinf(expected.headroom));
+            EXPECT_NEAR(found.space.sectors[0], expected.space.sectors[0], 0.15f * expected.space.sectors[0]);
+            EXPECT_EQ(std::isinf(found.space.headroom), std::isinf(expected.space.headroom));
             // The facet's own horizon is no edge that moves: the gradient stays that of the room.
-            const float gradient = glm::length(found.translation_gradient[1] - expected.translation_gradient[1]);
+            const float gradient = glm::length(found.gradients.translation[1] - expected.gradients.translation[1]);
             EXPECT_LT(gradient, 0.1f * expected.irradiance.y);
         }
     }

@@ -96,8 +96,8 @@ TEST(GatherSummary, GradientsAreWardAndHeckberts) {
                                     (light - scratch.radiance[beside][c]));
                 }
             }
-            expect_near(found.rotation_gradient[static_cast<std::size_t>(c)], rotation, 2e-6);
-            expect_near(found.translation_gradient[static_cast<std::size_t>(c)], translation, 2e-6);
+            expect_near(found.gradients.rotation[static_cast<std::size_t>(c)], rotation, 2e-6);
+            expect_near(found.gradients.translation[static_cast<std::size_t>(c)], translation, 2e-6);
         }
     }
 }
@@ -140,10 +140,10 @@ TEST(GatherSummary, WithoutHitsDistancesAreInfinite) {
     const IrradianceSample found = hemisphere.summarize();
     EXPECT_EQ(found.harmonic_mean_distance, float_infinity);
     EXPECT_EQ(found.nearest_distance, float_infinity);
-    EXPECT_EQ(found.headroom, float_infinity);
+    EXPECT_EQ(found.space.headroom, float_infinity);
     EXPECT_EQ(found.ignored_distances, 0);
-    for (const float clear : found.clearance) EXPECT_EQ(clear, float_infinity);
-    for (const glm::vec3& gradient : found.translation_gradient) EXPECT_EQ(gradient, glm::vec3(0.0f));
+    for (const float clear : found.space.sectors) EXPECT_EQ(clear, float_infinity);
+    for (const glm::vec3& gradient : found.gradients.translation) EXPECT_EQ(gradient, glm::vec3(0.0f));
 }
 
 TEST(GatherSummary, RowsOfTwoRaysPerSectorClearTheWay) {
@@ -162,12 +162,12 @@ TEST(GatherSummary, RowsOfTwoRaysPerSectorClearTheWay) {
             const float along = 2.0f * std::sqrt(hemisphere.elevation(row));
             const float height = 2.0f * std::sqrt(1.0f - hemisphere.elevation(row));
             if (low) {
-                EXPECT_NEAR(found.clearance[sector], along, 1e-5f) << row;
-                EXPECT_LT(found.clearance[0], 2.51f) << row;
-                EXPECT_GT(found.headroom, 100.0f);
+                EXPECT_NEAR(found.space.sectors[sector], along, 1e-5f) << row;
+                EXPECT_LT(found.space.sectors[0], 2.51f) << row;
+                EXPECT_GT(found.space.headroom, 100.0f);
             } else {
-                EXPECT_NEAR(found.headroom, height, 1e-5f) << row;
-                EXPECT_GT(found.clearance[sector], 100.0f);
+                EXPECT_NEAR(found.space.headroom, height, 1e-5f) << row;
+                EXPECT_GT(found.space.sectors[sector], 100.0f);
             }
         }
     }

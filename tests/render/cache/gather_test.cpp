@@ -76,8 +76,8 @@ TEST(Gather, EndlessCeilingGivesItsRadiosity) {
     EXPECT_NEAR(sample.irradiance.x, 3.0, 1e-3);
     // Irradiance is the same everywhere. It changes with rotation only in second order, because below the horizon it is
     // dark.
-    EXPECT_LT(glm::length(sample.translation_gradient[0]), 0.02 * 3.0);
-    EXPECT_LT(glm::length(sample.rotation_gradient[0]), 0.02 * 3.0);
+    EXPECT_LT(glm::length(sample.gradients.translation[0]), 0.02 * 3.0);
+    EXPECT_LT(glm::length(sample.gradients.rotation[0]), 0.02 * 3.0);
 }
 
 TEST(Gather, BackOfTheCeilingIsLitByWhatMeetsIt) {
@@ -157,7 +157,7 @@ TEST(Gather, InTheOpenTheDistanceIsInfinite) {
     const IrradianceSample sample = gathering.at({0.0f, 2.0f, 0.0f}, up, 64);
     EXPECT_EQ(sample.harmonic_mean_distance, float_infinity);
     EXPECT_EQ(sample.irradiance, Rgb(0.0f));
-    EXPECT_EQ(sample.translation_gradient[0], glm::vec3(0.0f));
+    EXPECT_EQ(sample.gradients.translation[0], glm::vec3(0.0f));
     EXPECT_EQ(gathering.task.counts.gather, 64u);
     EXPECT_EQ(gathering.task.counts.shadow, 0u);
 }
@@ -170,7 +170,7 @@ TEST(Gather, DependsOnTheKeyAlone) {
     other.at({0.1f, 0.1f, 0.1f}, up, 1024, 9);  // leaves its values in the buffers
     const IrradianceSample a = one.at(glm::vec3(0.0f), up, 256, 5), b = other.at(glm::vec3(0.0f), up, 256, 5);
     EXPECT_EQ(a.irradiance, b.irradiance);
-    EXPECT_EQ(a.translation_gradient, b.translation_gradient);
+    EXPECT_EQ(a.gradients.translation, b.gradients.translation);
     EXPECT_NE(one.at(glm::vec3(0.0f), up, 256, 6).irradiance, b.irradiance);
 }
 
@@ -229,7 +229,7 @@ TEST(Gather, PatchIrradiance) {
 }
 
 TEST(Gather, TranslationGradientAgainstDifferences) {
-    expect_gradient([](const IrradianceSample& s) { return s.translation_gradient[0].x; },
+    expect_gradient([](const IrradianceSample& s) { return s.gradients.translation[0].x; },
                     [](double d) {
                         return Patch::irradiance({d, 0.0, 0.0}, {0.0, 1.0, 0.0});
                     },
@@ -237,8 +237,8 @@ TEST(Gather, TranslationGradientAgainstDifferences) {
     // Across, the patch is symmetric: the gradient is 0.
     Gathering gathering(Patch::make_scene());
     const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 16384);
-    EXPECT_LT(std::abs(sample.translation_gradient[0].z), 0.2f * std::abs(sample.translation_gradient[0].x));
-    EXPECT_GT(sample.translation_gradient[0].x, 0.0f);  // brighter towards the patch
+    EXPECT_LT(std::abs(sample.gradients.translation[0].z), 0.2f * std::abs(sample.gradients.translation[0].x));
+    EXPECT_GT(sample.gradients.translation[0].x, 0.0f);  // brighter towards the patch
 }
 
 TEST(Gather, RotationGradientAgainstDifferences) {
@@ -247,7 +247,7 @@ TEST(Gather, RotationGradientAgainstDifferences) {
     expect_gradient(
         [&](const IrradianceSample& s) {
             const glm::vec3 axis = glm::cross(up, glm::vec3(1.0f, 0.0f, 0.0f));
-            return static_cast<double>(glm::dot(axis, s.rotation_gradient[0]));
+            return static_cast<double>(glm::dot(axis, s.gradients.rotation[0]));
         },
         [&](double angle) { return Patch::irradiance(glm::dvec3(0.0), turned(angle)); }, 0.02);
 }

@@ -101,7 +101,8 @@ std::vector<std::pair<glm::ivec2, double>> gather_truth(const Stage& stage) {
 Scene load_without_gloss(const std::string& name) {
     Scene scene = load_scene(source_folder() / "scenes" / name / "scene.json");
     for (Material& material : scene.materials)
-        material.metallic = material.specular = material.clearcoat = material.transmission = 0.0;
+        material.gloss.metallic = material.gloss.specular = material.layers.clearcoat = material.glass.transmission =
+            0.0;
     return scene;
 }
 

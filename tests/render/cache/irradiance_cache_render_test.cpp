@@ -144,8 +144,8 @@ TEST(IrradianceCache, IC13_TheSameRecordsFromAnyNumberOfThreads) {
             ASSERT_EQ(a.normal, b.normal);
             ASSERT_EQ(a.irradiance, b.irradiance);
             ASSERT_EQ(a.radius, b.radius);
-            ASSERT_EQ(a.translation_gradient, b.translation_gradient);
-            ASSERT_EQ(a.rotation_gradient, b.rotation_gradient);
+            ASSERT_EQ(a.gradients.translation, b.gradients.translation);
+            ASSERT_EQ(a.gradients.rotation, b.gradients.rotation);
         }
         EXPECT_EQ(picture, first_picture) << threads;
     }

@@ -139,8 +139,8 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
         const IrradianceRecord record = make_record(glm::vec3(0.0f), up, 1.0f, sample, any_radius).value();
         for (std::size_t c = 0; c < 3; ++c) {
             const float e = record.irradiance[static_cast<int>(c)] * 1.0001f;
-            ASSERT_LE(glm::length(record.translation_gradient[c]) * record.radius, e) << distance;
-            ASSERT_LE(glm::length(record.rotation_gradient[c]), e) << distance;
+            ASSERT_LE(glm::length(record.gradients.translation[c]) * record.radius, e) << distance;
+            ASSERT_LE(glm::length(record.gradients.rotation[c]), e) << distance;
         }
         Randoms random;
         for (int i = 0; i < 1000; ++i) {
@@ -152,8 +152,8 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
     // An float_infinity gradient, as from a distance of 0, counts as 0.
     IrradianceSample broken{.irradiance = Rgb(1.0f)};
     broken.nearest_distance = 1.0f;
-    broken.translation_gradient.fill(glm::vec3(float_infinity, 0.0f, 0.0f));
-    broken.rotation_gradient.fill(glm::vec3(float_nan, 0.0f, 0.0f));
+    broken.gradients.translation.fill(glm::vec3(float_infinity, 0.0f, 0.0f));
+    broken.gradients.rotation.fill(glm::vec3(float_nan, 0.0f, 0.0f));
     const IrradianceRecord record = make_record(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1.0f, broken, any_radius).value();
     EXPECT_EQ(extrapolate(record, glm::vec3(0.1f), {1.0f, 0.0f, 0.0f}), Rgb(1.0f));
 }
@@ -205,8 +205,8 @@ TEST(IrradianceCache, IC11_TheIndexFindsWhatALinearSearchFinds) {
             make_plain_record(random.in_cube(1.0f), random.mostly_up(), radius, random.uniform(0.0f, 5.0f));
         record.min_radius = 0.6f * radius;  // without it, the smallest of 10,000 radii would shrink all others
         for (std::size_t c = 0; c < 3; ++c) {
-            record.translation_gradient[c] = random.in_cube(1.0f);
-            record.rotation_gradient[c] = random.in_cube(1.0f);
+            record.gradients.translation[c] = random.in_cube(1.0f);
+            record.gradients.rotation[c] = random.in_cube(1.0f);
         }
         cache.insert(record);
     }

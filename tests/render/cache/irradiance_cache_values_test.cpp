@@ -103,7 +103,7 @@ TEST(IrradianceCacheValues, ExpectedRecordsAreMeansWeightedByDistance) {
     const auto add = [&](float x, float radius, float variance, const glm::vec3& normal = up) {
         IrradianceRecord record = make_record_at(x, radius);
         record.normal = normal;
-        record.ray_variance = variance;
+        record.noise.ray_variance = variance;
         record.irradiance = Rgb(10.0f * variance);
         record.growth = variance;
         cache.insert(record);
@@ -173,9 +173,9 @@ TEST(IrradianceCacheValues, FinishAveragesWhatDiffersByNoise) {
     const auto make_pair = [](float value) {
         std::vector<IrradianceRecord> records = {make_record_at(0.0f, 1.0f, 1.0f, 0.25f),
                                                  make_record_at(0.125f, 1.0f, value, 0.25f)};
-        for (IrradianceRecord& record : records) record.relative_error = 0.1f;
-        records[1].translation_gradient.fill({0.4f, 0.0f, 0.8f});
-        records[1].rotation_gradient.fill({0.0f, 0.0f, 0.3f});
+        for (IrradianceRecord& record : records) record.noise.error = 0.1f;
+        records[1].gradients.translation.fill({0.4f, 0.0f, 0.8f});
+        records[1].gradients.rotation.fill({0.0f, 0.0f, 0.3f});
         return records;
     };
     // The error of 1/8 against 2 alpha: a weight of 3/4, beside the record's own of 1.
@@ -185,8 +185,8 @@ TEST(IrradianceCacheValues, FinishAveragesWhatDiffersByNoise) {
     ASSERT_EQ(cache.records().size(), 2u);
     const IrradianceRecord* first = &cache.records()[cache.records()[0].position.x == origin.x ? 0 : 1];
     EXPECT_NEAR(first->irradiance.y, (1.0 + 0.75 * (1.2 - 0.05)) / 1.75, 1e-6);
-    expect_near(first->translation_gradient[1], glm::dvec3(0.4, 0.0, 0.8) * (0.75 / 1.75), 1e-6);
-    expect_near(first->rotation_gradient[1], glm::dvec3(0.0, 0.0, 0.3) * (0.75 / 1.75), 1e-6);
+    expect_near(first->gradients.translation[1], glm::dvec3(0.4, 0.0, 0.8) * (0.75 / 1.75), 1e-6);
+    expect_near(first->gradients.rotation[1], glm::dvec3(0.0, 0.0, 0.3) * (0.75 / 1.75), 1e-6);
     // A difference of 2.5 standard deviations of both, as a share of the larger: .3535 of 1.5, of 1.6.
     for (const auto& [value, averaged] : {std::pair(1.59f, true), std::pair(1.64f, false)}) {
         IrradianceCache other = make_empty_cache();
@@ -205,7 +205,7 @@ TEST(IrradianceCacheValues, FinishAveragesWhatDiffersByNoise) {
     // Not beyond the clearance of either.
     for (const std::size_t blocked : {0, 1}) {
         std::vector<IrradianceRecord> records = make_pair(1.2f);
-        records[blocked].clearance.fill(0.12f);
+        records[blocked].space.sectors.fill(0.12f);
         cache.restore(records);
         cache.finish();
         for (const IrradianceRecord& record : cache.records()) {
@@ -228,7 +228,7 @@ TEST(IrradianceCacheValues, BeyondTheClearanceARayDecides) {
         RayTask task(stage.rays);
         IrradianceCache cache = make_empty_cache();
         IrradianceRecord record = make_record_at(0.0f, 4.0f, 3.0f, 0.75f);
-        record.clearance.fill(1.0f);
+        record.space.sectors.fill(1.0f);
         cache.insert(record);
         CacheQuery query = make_query(2.0f, 0.75f);
         EXPECT_FALSE(cache.covers(query));  // without rays

@@ -12,8 +12,8 @@ constexpr RadiusBounds wide_bounds{0.01f, 10.0f, 0.2f};
 /// Grey light of 2 with gradients of the length 5.
 IrradianceSample make_steep_sample(float nearest = 1.0f) {
     IrradianceSample sample{.irradiance = Rgb(2.0f)};
-    sample.translation_gradient.fill({3.0f, 0.0f, 4.0f});
-    sample.rotation_gradient.fill({3.0f, 0.0f, 4.0f});
+    sample.gradients.translation.fill({3.0f, 0.0f, 4.0f});
+    sample.gradients.rotation.fill({3.0f, 0.0f, 4.0f});
     sample.nearest_distance = nearest;
     sample.rays = 200;
     sample.relative_error = 0.3f;
@@ -26,29 +26,29 @@ TEST(IrradianceRecord, NoiseAndBoundsAreKept) {
     EXPECT_EQ(record.position, glm::vec3(1.0f, 2.0f, 3.0f));
     EXPECT_EQ(record.min_radius, 0.01f);
     EXPECT_NEAR(record.max_growth, 25.0f, 1e-4f);
-    EXPECT_EQ(record.relative_error, 0.3f);
-    EXPECT_NEAR(record.ray_variance, 18.0f, 1e-4f);
+    EXPECT_EQ(record.noise.error, 0.3f);
+    EXPECT_NEAR(record.noise.ray_variance, 18.0f, 1e-4f);
     EXPECT_EQ(record.growth, 0.0f);
     sample.relative_error = float_infinity;
     record = make_record(glm::vec3(0.0f), up, 0.5f, sample, wide_bounds).value();
-    EXPECT_EQ(record.relative_error, 1.0f);
-    EXPECT_EQ(record.ray_variance, 200.0f);
+    EXPECT_EQ(record.noise.error, 1.0f);
+    EXPECT_EQ(record.noise.ray_variance, 200.0f);
 }
 
 TEST(IrradianceRecord, SteepLightHasASmallRadiusAndThenALimitedGradient) {
     // Within alpha R of .4 m, a slope of 5 takes all of 2.
     IrradianceRecord record = make_record(glm::vec3(0.0f), up, 0.5f, make_steep_sample(), wide_bounds).value();
     EXPECT_NEAR(record.radius, 0.8f, 1e-6f);
-    expect_near(record.translation_gradient[1], {3.0, 0.0, 4.0}, 1e-5);
-    expect_near(record.rotation_gradient[1], {1.2, 0.0, 1.6}, 1e-6);  // within a unit, all of 2
+    expect_near(record.gradients.translation[1], {3.0, 0.0, 4.0}, 1e-5);
+    expect_near(record.gradients.rotation[1], {1.2, 0.0, 1.6}, 1e-6);  // within a unit, all of 2
     // The radius stops at its bound.
     record = make_record(glm::vec3(0.0f), up, 0.5f, make_steep_sample(), {1.6f, 10.0f, 0.2f}).value();
     EXPECT_EQ(record.radius, 1.6f);
-    expect_near(record.translation_gradient[1], {1.5, 0.0, 2.0}, 1e-6);
+    expect_near(record.gradients.translation[1], {1.5, 0.0, 2.0}, 1e-6);
     // Near surfaces bound it, far ones do not.
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 0.5f, make_steep_sample(0.1f), wide_bounds)->radius, 3.5f * 0.1f);
     IrradianceSample flat = make_steep_sample(float_infinity);
-    flat.translation_gradient.fill(glm::vec3(0.0f));
+    flat.gradients.translation.fill(glm::vec3(0.0f));
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 0.5f, flat, wide_bounds)->radius, 10.0f);
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 0.5f, flat, {12.0f, 10.0f, 0.2f})->radius, 12.0f);
 }
@@ -56,8 +56,8 @@ TEST(IrradianceRecord, SteepLightHasASmallRadiusAndThenALimitedGradient) {
 TEST(IrradianceRecord, SlopeIsTheLuminances) {
     for (int channel = 0; channel < 3; ++channel) {
         IrradianceSample sample = make_steep_sample();
-        sample.translation_gradient.fill(glm::vec3(0.0f));
-        sample.translation_gradient[static_cast<std::size_t>(channel)] = {0.0f, -60.0f, 80.0f};
+        sample.gradients.translation.fill(glm::vec3(0.0f));
+        sample.gradients.translation[static_cast<std::size_t>(channel)] = {0.0f, -60.0f, 80.0f};
         Rgb one(0.0f);
         one[channel] = 1.0f;
         const float radius = 2.0f / (0.5f * 100.0f * luminance(one));
@@ -108,10 +108,10 @@ TEST(IrradianceRecord, HeadroomHasAToleranceOfAThousandthOfTheRadius) {
     const auto is_used = [&](float height) {
         return std::isfinite(interpolation_error(record, {0.3f, height, 0.0f}, up));
     };
-    record.headroom = 0.05f;
+    record.space.headroom = 0.05f;
     EXPECT_TRUE(is_used(0.0519f));
     EXPECT_FALSE(is_used(0.0521f));
-    record.headroom = 0.0f;
+    record.space.headroom = 0.0f;
     EXPECT_TRUE(is_used(2.0f * 1e-3f));
 }
 
@@ -126,24 +126,24 @@ TEST(IrradianceRecord, ClearanceIsAlongTheTangentPlane) {
         const auto is_beyond = [&](float distance) {
             return is_beyond_clearance(record, record.position + basis.to_world({distance * x, distance * y, 0.7f}));
         };
-        record.clearance.fill(9.0f);
-        record.clearance[static_cast<std::size_t>(sector_of(x, y))] = 2.0f;
+        record.space.sectors.fill(9.0f);
+        record.space.sectors[static_cast<std::size_t>(sector_of(x, y))] = 2.0f;
         EXPECT_FALSE(is_beyond(1.99f)) << i;
         EXPECT_TRUE(is_beyond(2.01f)) << i;
-        record.clearance.fill(1.0f);
-        record.clearance[static_cast<std::size_t>(sector_of(x, y))] = 2.0f;
+        record.space.sectors.fill(1.0f);
+        record.space.sectors[static_cast<std::size_t>(sector_of(x, y))] = 2.0f;
         EXPECT_FALSE(is_beyond(1.99f)) << i;
     }
     record = make_unit_record();
-    record.clearance.fill(2.0f);
+    record.space.sectors.fill(2.0f);
     EXPECT_FALSE(is_beyond_clearance(record, 2.0f * record.tangent));  // just as far
 }
 
 TEST(IrradianceRecord, ExtrapolationAddsBothGradients) {
     IrradianceRecord record = make_unit_record(5.0f);
     record.position = {1.0f, 2.0f, 3.0f};
-    record.translation_gradient[0] = {1.0f, 2.0f, 3.0f};
-    record.rotation_gradient[1] = {0.5f, 7.0f, -2.0f};
+    record.gradients.translation[0] = {1.0f, 2.0f, 3.0f};
+    record.gradients.rotation[1] = {0.5f, 7.0f, -2.0f};
     const glm::vec3 turned(-0.8f, 0.0f, 0.6f), at = record.position + glm::vec3(0.1f, 0.2f, -0.5f);
     const Rgb value = extrapolate(record, at, turned);  // cross(up, turned) = (.6, 0, .8)
     EXPECT_NEAR(value.x, 5.0f - 1.0f, 1e-6f);
@@ -158,19 +158,19 @@ TEST(IrradianceRecord, GrowthIsTheDifferenceBeyondNoise) {
     a.position = {1.0f, 0.0f, 0.0f};
     b.position = {1.0f, 0.0f, 0.2f};
     EXPECT_NEAR(measure_growth(a, b), 0.5 / (0.5 * 0.04), 1e-3);  // .4 of the mean of .8
-    a.relative_error = 0.03f;
-    b.relative_error = 0.04f;
+    a.noise.error = 0.03f;
+    b.noise.error = 0.04f;
     EXPECT_FLOAT_EQ(combined_noise(a, b), 0.05f);
     const double expected = std::sqrt(0.25 - 0.01) / (0.5 * 0.04);
     EXPECT_NEAR(measure_growth(a, b), expected, 1e-3);
     EXPECT_NEAR(measure_growth(b, a), expected, 1e-3);
     // The worse of both extrapolations counts: from a it is off by .1, from b by .4.
-    a.translation_gradient.fill({0.0f, 0.0f, -1.5f});
+    a.gradients.translation.fill({0.0f, 0.0f, -1.5f});
     EXPECT_NEAR(measure_growth(a, b), expected, 1e-3);
     EXPECT_NEAR(measure_growth(b, a), expected, 1e-3);
-    b.translation_gradient.fill({0.0f, 0.0f, -1.0f});  // off by .2
+    b.gradients.translation.fill({0.0f, 0.0f, -1.0f});  // off by .2
     EXPECT_NEAR(measure_growth(a, b), std::sqrt(0.0625 - 0.01) / (0.5 * 0.04), 1e-3);
-    a.relative_error = 0.5f;
+    a.noise.error = 0.5f;
     EXPECT_EQ(measure_growth(a, b), 0.0f);
     b.position = a.position;
     EXPECT_EQ(measure_growth(a, b), 0.0f);

@@ -19,8 +19,9 @@ struct Mirror {
     Scene make_scene() const {
         Scene scene;
         const int white = add_lambert(scene, glm::dvec3(0.5));
-        scene.materials.push_back(
-            {.base_color = glm::dvec3(reflectance), .roughness = roughness, .anisotropy = anisotropy});
+        scene.materials.push_back({.base_color = glm::dvec3(reflectance),
+                                   .gloss = {.roughness = roughness},
+                                   .layers = {.anisotropy = anisotropy}});
         add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
         add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, 3.0},
                  glm::angleAxis(std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
@@ -98,8 +99,8 @@ TEST(MirrorPlaces, GlassIsLookedThrough) {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.5));
     Material glass;
-    glass.metallic = glass.roughness = 0.0;
-    glass.transmission = 1.0;
+    glass.gloss.metallic = glass.gloss.roughness = 0.0;
+    glass.glass.transmission = 1.0;
     scene.materials.push_back(glass);
     add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
     add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, -9.0});

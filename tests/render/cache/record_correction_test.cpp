@@ -13,7 +13,7 @@ IrradianceRecord make_flat_record(const glm::vec3& position, float irradiance, f
             .radius = 1.0f,
             .normal = up,
             .irradiance = Rgb(irradiance),
-            .relative_error = noise,
+            .noise = {.error = noise},
             .accuracy = 0.2f};
 }
 
@@ -80,7 +80,7 @@ TEST(RecordCorrection, VarianceIsExpectedFromRecordsAround) {
     EXPECT_FALSE(cache.expect({glm::vec3(0.0f), up, 0.1f}, 9.0f).has_value());
     for (const auto& [x, variance] : {std::pair(-4.0f, 8.0f), std::pair(4.0f, 2.0f)}) {
         IrradianceRecord record = make_flat_record({x, 0.0f, 0.0f}, 1.0f, 0.1f);
-        record.ray_variance = variance;
+        record.noise.ray_variance = variance;
         cache.insert(record);
     }
     EXPECT_FLOAT_EQ(cache.expect({{-3.9f, 0.0f, 0.0f}, up, 0.1f}, 9.0f)->ray_variance, 8.0f);
@@ -91,9 +91,9 @@ TEST(RecordCorrection, VarianceIsExpectedFromRecordsAround) {
 TEST(RecordCorrection, ContactsHaveNoGradientBeyondThem) {
     const auto gradient = [](float nearest) {
         IrradianceSample sample{.irradiance = Rgb(1.0f)};
-        sample.translation_gradient.fill({0.5f, 0.0f, 0.0f});
+        sample.gradients.translation.fill({0.5f, 0.0f, 0.0f});
         sample.nearest_distance = nearest;
-        return make_record(glm::vec3(0.0f), up, 0.2f, sample, {0.7f, 10.0f, 0.01f})->translation_gradient[0].x;
+        return make_record(glm::vec3(0.0f), up, 0.2f, sample, {0.7f, 10.0f, 0.01f})->gradients.translation[0].x;
     };
     EXPECT_EQ(gradient(0.2f), 0.5f);   // a radius of 3.5 x 0.2 m
     EXPECT_EQ(gradient(0.05f), 0.5f);  // the least radius is 4 times that by distance

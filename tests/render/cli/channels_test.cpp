@@ -22,8 +22,9 @@ std::set<std::string> written_channels() {
     make_one_pixel(output.shaded.color, output.shaded.coverage, output.shaded.variance, output.shaded.samples,
                    output.shaded.records, output.shaded.invalid_samples, output.shaded.cache_count,
                    output.shaded.cache_radius, output.hits, output.estimate, output.motion.displacement,
-                   output.motion.path_length, output.motion.validity, output.velocity, output.alpha, output.threshold,
-                   output.threshold_noise, output.depth, output.normal, output.albedo, output.effects);
+                   output.motion.path_length, output.motion.validity, output.velocity, output.limits.alpha,
+                   output.limits.threshold, output.limits.threshold_noise, output.surface.depth, output.surface.normal,
+                   output.surface.albedo, output.effects);
     make_one_pixel(output.shaded.errors.total);
     for (Image<float>& cause : output.shaded.errors.by_cause) make_one_pixel(cause);
     PerceptionMaps& maps = output.perception;
@@ -80,7 +81,7 @@ TEST(Channels, TheHelpOfMapsListsEveryChannel) {
 
 TEST(Channels, FilesDescribeTheirOwn) {
     FrameOutput output;
-    make_one_pixel(output.threshold, output.motion.displacement);
+    make_one_pixel(output.limits.threshold, output.motion.displacement);
     const ChannelImage file = make_frame_image(output, true, Scene(), RenderSettings(), 1.0);
     const auto text = [&](const char* key) { return std::get<std::string>(file.metadata.at(key)); };
     EXPECT_NE(text("channel:threshold.Y").find("cd/m2, above 0"), std::string::npos);

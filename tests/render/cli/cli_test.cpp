@@ -32,7 +32,7 @@ TEST(Options, SetTakesTheViewingConditions) {
     Scene scene;
     SettingMap settings = {{"viewing.persistence", 0.1}, {"viewing.display_white", 200.0}, {"spp", 4.0}};
     set_scene_numbers(scene, settings, "--set");
-    EXPECT_EQ(scene.viewing, (ViewingConditions{31.0, 200.0, 0.1}));
+    EXPECT_EQ(scene.film.viewing, (ViewingConditions{31.0, 200.0, 0.1}));
     EXPECT_EQ(settings, (SettingMap{{"spp", 4.0}}));
     for (const double bad : {2.0, 0.0, -1.0}) {
         settings = {{"viewing.persistence", bad}};

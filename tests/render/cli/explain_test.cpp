@@ -17,9 +17,9 @@ using nlohmann::ordered_json;
 /// dims.
 Scene make_scene() {
     Scene scene;
-    scene.file = "made.json";
-    scene.frame_rate = {24, 1};
-    scene.exposure = 2.0;
+    scene.source.file = "made.json";
+    scene.film.frame_rate = {24, 1};
+    scene.film.exposure = 2.0;
     Material paint;
     paint.name = "paint";
     scene.materials = {paint, paint};
@@ -31,12 +31,12 @@ Scene make_scene() {
 
     Node carrier;
     carrier.name = "carrier";
-    carrier.translation.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 0.5, 2.0}};
-    carrier.translation.values = {{0, 0, 0}, {10, 0, 0}, {10, 20, 0}};
-    carrier.axis_rotation = AxisRotation{{0, 0, 1}, {}};
-    carrier.axis_rotation->angle.sampling = {
+    carrier.transform.translation.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 0.5, 2.0}};
+    carrier.transform.translation.values = {{0, 0, 0}, {10, 0, 0}, {10, 20, 0}};
+    carrier.transform.axis_rotation = AxisRotation{{0, 0, 1}, {}};
+    carrier.transform.axis_rotation->angle.sampling = {
         .kind = TimeSampling::Kind::uniform, .start = 0.0, .period = 0.5, .times = {}};
-    carrier.axis_rotation->angle.values = {0.0, std::numbers::pi / 2.0};
+    carrier.transform.axis_rotation->angle.values = {0.0, std::numbers::pi / 2.0};
     Node on{.name = "box", .parent = 0, .meshes = {0}};
     Node twin = on;
     Node hidden = on;
@@ -45,7 +45,7 @@ Scene make_scene() {
     Node eye;
     eye.name = "eye";
     eye.camera = 0;
-    eye.translation = glm::dvec3(0, 0, 50);
+    eye.transform.translation = glm::dvec3(0, 0, 50);
     Node lamp;
     lamp.name = "lamp";
     lamp.light = 0;
@@ -142,8 +142,8 @@ TEST(Explain, PointsOfACacheAsTheFileHasThem) {
          .positions = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}},
          .velocities = {}});
     Mesh mesh;
-    mesh.points = 0;
-    mesh.vertex_points = {2, 1, 0};
+    mesh.deformation.points = 0;
+    mesh.deformation.vertex_points = {2, 1, 0};
     mesh.positions = {{0, 1, 0}, {1, 0, 0}, {0, 0, 0}};
     mesh.triangles = {{2, 1, 0}};
     scene.meshes.push_back(mesh);
@@ -180,14 +180,14 @@ TEST(Explain, TheEnvironmentAndItsPicture) {
     EXPECT_TRUE(explain(scene)["environment"].is_null());
     EXPECT_EQ(explain_text(explain(scene), 0).find("light     environment"), std::string::npos);
 
-    scene.environment = Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0));
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0));
     ordered_json explained = explain(scene);
     EXPECT_EQ(explained["environment"]["radiance"], ordered_json::array({0.5, 1.0, 2.0}));
     EXPECT_FALSE(explained["environment"].contains("image"));
     EXPECT_NE(explain_text(explained, 0).find("light     environment of radiance (0.5, 1, 2)\n"), std::string::npos);
 
     scene.images.push_back({.name = "sky", .path = "lib/sky.exr", .bytes = {}, .floats = Image<glm::vec4>(4, 2)});
-    scene.environment_image = 0;
+    scene.environment.image = 0;
     explained = explain(scene);
     EXPECT_EQ(explained["environment"]["factor"], ordered_json::array({0.5, 1.0, 2.0}));
     EXPECT_EQ(explained["environment"]["image"], "lib/sky.exr");
@@ -200,10 +200,10 @@ TEST(Explain, TheEnvironmentAndItsPicture) {
               std::string::npos);
 
     const std::size_t samplings = explained["time_samplings"].size();
-    scene.environment_axis_rotation = AxisRotation{{0, 1, 0}, {}};
-    scene.environment_axis_rotation->angle.sampling = {
+    scene.environment.axis_rotation = AxisRotation{{0, 1, 0}, {}};
+    scene.environment.axis_rotation->angle.sampling = {
         .kind = TimeSampling::Kind::acyclic, .start = 0.0, .period = 1.0, .times = {0.0, 1.5}};
-    scene.environment_axis_rotation->angle.values = {0.0, 7.0};
+    scene.environment.axis_rotation->angle.values = {0.0, 7.0};
     explained = explain(scene);
     EXPECT_EQ(explained["environment"]["rotates"], true);
     EXPECT_EQ(explained["environment"]["animated"][0]["property"], "environment_rotation.degrees");
@@ -218,10 +218,10 @@ TEST(Explain, TheEnvironmentAndItsPicture) {
 TEST(Explain, TexturesAndKeysOfEveryPropertyOfAMaterial) {
     Scene scene = make_scene();
     scene.images.push_back({.name = "dot", .path = "dot.png", .bytes = Image<glm::u8vec4>(1, 1), .floats = {}});
-    for (const auto& field : material_textures) (scene.materials[0].*field.member).image = 0;
-    scene.materials[0].anisotropy_rotation.values = {0.0, 1.0};
-    scene.materials[0].thickness.values = {0.0, 1.0};
-    scene.materials[0].sheen_color.values = {{0, 0, 0}, {1, 1, 1}};
+    for (const auto& field : material_textures) scene.materials[0].textures[field.slot].image = 0;
+    scene.materials[0].layers.anisotropy_rotation.values = {0.0, 1.0};
+    scene.materials[0].glass.thickness.values = {0.0, 1.0};
+    scene.materials[0].layers.sheen_color.values = {{0, 0, 0}, {1, 1, 1}};
     const ordered_json material = explain(scene)["materials"][0];
     EXPECT_EQ(material["textures"].size(), material_textures.size());
     for (const char* name : {"normal", "clearcoat_normal", "thickness", "sheen_color", "anisotropy"})
@@ -235,7 +235,7 @@ TEST(Explain, TexturesAndKeysOfEveryPropertyOfAMaterial) {
 TEST(Explain, AreaLightsAreLights) {
     Scene scene = make_scene();
     EXPECT_EQ(explain(scene)["counts"]["lights"], 1);
-    scene.materials[0].emission = glm::dvec3(1.0);
+    scene.materials[0].glow.color = glm::dvec3(1.0);
     const ordered_json explained = explain(scene);
     EXPECT_EQ(explained["counts"]["lights"], 4) << "three nodes show the mesh";
     EXPECT_EQ(explained["counts"]["area_lights"], 3);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class StatisticsFileTest : public testing::Test {
   protected:
     void SetUp() override {
-        scene_.file = "a \"frames\": [] b.json";
+        scene_.source.file = "a \"frames\": [] b.json";
         path_ = fs::path(testing::TempDir()) / fmt::format("aleph_statistics_{}.json", getpid());
     }
     void TearDown() override { fs::remove(path_); }
@@ -33,7 +33,7 @@ class StatisticsFileTest : public testing::Test {
     }
     std::vector<int> frames() const {
         const auto json = nlohmann::json::parse(text());
-        EXPECT_EQ(json.at("scene"), scene_.file);
+        EXPECT_EQ(json.at("scene"), scene_.source.file);
         std::vector<int> frames;
         for (const auto& one : json.at("frames")) frames.push_back(one.at("frame"));
         return frames;

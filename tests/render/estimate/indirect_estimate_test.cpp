@@ -144,10 +144,11 @@ TEST(IndirectEstimate, GivesTheThresholdsOfTheFinishedFrameInCornell) {
     }
     sanitize_estimate(finished);
     const PerceptionMaps maps =
-        compute_perception(finished, all.velocity, scene.viewing, scene.frame_rate, settings.perception);
-    const Image<float> threshold = compute_threshold(maps.aleph, compute_adaptation_luminance(finished, scene.viewing));
-    EXPECT_LT(share_beyond(all.threshold, threshold), 0.01);
-    EXPECT_GT(share_beyond(direct.threshold, threshold), 0.01) << "indirect light does not matter here";
+        compute_perception(finished, all.velocity, scene.film.viewing, scene.film.frame_rate, settings.perception);
+    const Image<float> threshold =
+        compute_threshold(maps.aleph, compute_adaptation_luminance(finished, scene.film.viewing));
+    EXPECT_LT(share_beyond(all.limits.threshold, threshold), 0.01);
+    EXPECT_GT(share_beyond(direct.limits.threshold, threshold), 0.01) << "indirect light does not matter here";
 }
 
 }  // namespace

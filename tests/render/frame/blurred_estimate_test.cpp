@@ -25,7 +25,7 @@ Scene make_moving_square(const std::vector<double>& places, const glm::dvec2& sh
         times.push_back(static_cast<double>(i) / frames_per_second);
         at.emplace_back(places[i], 0.0, 0.0);
     }
-    scene.nodes[0].translation = keyed<glm::dvec3>(times, at);
+    scene.nodes[0].transform.translation = keyed<glm::dvec3>(times, at);
     add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.1))), {0.0, 0.0, -1.0});
     add_flat_view(scene, 0.5 * height / pixels_per_metre, shutter);
     return scene;
@@ -58,7 +58,7 @@ TEST(ShutterCenter, OfACentredShutterIsTheFrame) {
     const FrameOutput open = look(make_moving_square(places, {-0.3, 0.3}), 1),
                       closed = look(make_moving_square(places, {0.0, 0.0}), 1);
     EXPECT_EQ(open.motion.displacement, closed.motion.displacement);
-    EXPECT_EQ(open.depth, closed.depth);
+    EXPECT_EQ(open.surface.depth, closed.surface.depth);
     EXPECT_EQ(open.velocity.pixels, closed.velocity.pixels);
 }
 
@@ -85,7 +85,7 @@ TEST(BlurredEstimate, WhatRestsKeepsItsValues) {
     const auto estimate = [](const glm::dvec2& shutter) {
         Scene scene = make_moving_square({-3.0, 0.0, 3.0}, shutter);
         scene.materials[1] = scene.materials[0];
-        scene.materials[1].emission = glm::dvec3(0.0);
+        scene.materials[1].glow.color = glm::dvec3(0.0);
         scene.materials[1].base_color = glm::dvec3(0.7);
         add_mesh(scene, make_quad(0.8, 0.3, 1), {0.7, 1.4, 0.5});
         add_light(scene, Light::Kind::point, glm::dvec3(9.0), {-1.0, 3.0, 2.0});
@@ -104,7 +104,7 @@ TEST(BlurredEstimate, ALensBlursByTheCircleOfConfusion) {
     Scene scene = make_moving_square({0.0, 0.0}, {0.0, 0.0});
     scene.cameras[0].aperture = 1.0;
     scene.cameras[0].focus_distance = 2.5;  // the square is 5 m away: its point covers a disc of 1 m
-    scene.nodes[0].scale = glm::dvec3(0.5);
+    scene.nodes[0].transform.scale = glm::dvec3(0.5);
     const Image<Rgb> estimate = look(scene).estimate;
     double sum = 0.0, squares = 0.0;
     for (int y = 0; y < height; ++y) {

@@ -28,14 +28,14 @@ TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
     EXPECT_EQ(last.motion.displacement,
               compute_image_motion(last.estimate, before.estimate, OtherFrame::previous).displacement);
     // Geometry's maps are there; nothing is marked hidden.
-    EXPECT_FALSE(now.depth.empty());
+    EXPECT_FALSE(now.surface.depth.empty());
     settings.guide.motion = MotionSource::model;
     EXPECT_NE(Sequence(scene, settings).render(20, request).motion.displacement, truth.displacement);
 }
 
 TEST(SceneMotionFromImages, NoneAcrossACut) {
     Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
-    scene.cuts = {5};
+    scene.film.cuts = {5};
     RenderSettings settings;
     settings.picture.width = 40;
     settings.picture.height = 30;

@@ -19,19 +19,19 @@ Scene make_moving_scene() {
     const glm::dquat down = glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));
     scene.nodes[0].name = "floor";
     scene.nodes[0].meshes = {0};
-    scene.nodes[0].rotation = glm::inverse(down);
+    scene.nodes[0].transform.rotation = glm::inverse(down);
     scene.nodes[1].name = "box";
     scene.nodes[1].meshes = {1};
-    scene.nodes[1].translation.values = {{-1.0, 0.5, 0.0}, {1.0, 0.5, 0.0}};
-    scene.nodes[1].translation.sampling.period = 1.0;
+    scene.nodes[1].transform.translation.values = {{-1.0, 0.5, 0.0}, {1.0, 0.5, 0.0}};
+    scene.nodes[1].transform.translation.sampling.period = 1.0;
     scene.nodes[2].name = "lamp";
     scene.nodes[2].meshes = {2};
-    scene.nodes[2].translation = glm::dvec3(0.0, 3.0, 0.0);
-    scene.nodes[2].rotation = down;
+    scene.nodes[2].transform.translation = glm::dvec3(0.0, 3.0, 0.0);
+    scene.nodes[2].transform.rotation = down;
     scene.cameras.emplace_back();
     scene.nodes[3].name = "eye";
     scene.nodes[3].camera = 0;
-    scene.nodes[3].translation = glm::dvec3(0.0, 1.0, 5.0);
+    scene.nodes[3].transform.translation = glm::dvec3(0.0, 1.0, 5.0);
     return scene;
 }
 
@@ -48,7 +48,7 @@ TEST(Sequence, SeesWithAProgramsOwnModelOfVision) {
     settings.perception.vision = &own;
     const FrameOutput frame = Sequence(make_moving_scene(), settings).render(15);
     EXPECT_EQ(frame.perception.aleph, Image<float>(40, 30, 1.0f));
-    EXPECT_EQ(frame.alpha, Image<float>(40, 30, static_cast<float>(settings.cache.accuracy)));
+    EXPECT_EQ(frame.limits.alpha, Image<float>(40, 30, static_cast<float>(settings.cache.accuracy)));
 }
 
 /// Share of the pixels that two frames have in common.
@@ -60,7 +60,7 @@ double share_equal(const Image<Rgb>& a, const Image<Rgb>& b) {
 
 TEST(Sequence, NoiseOfAStillCameraIsNewInEachFrameWhereAnErrorIsAskedFor) {
     Scene scene = make_moving_scene();
-    scene.nodes[1].translation.values = {{-1.0, 0.5, 0.0}, {-0.999, 0.5, 0.0}};  // hardly moves
+    scene.nodes[1].transform.translation.values = {{-1.0, 0.5, 0.0}, {-0.999, 0.5, 0.0}};  // hardly moves
     const auto render_both = [&](double error) {
         RenderSettings settings = quick_settings(40, 30);
         settings.perception.guide = Guide::none;
@@ -83,9 +83,9 @@ TEST(Sequence, NoiseOfAHeldFrameIsSeenMore) {
     follow_error(settings, 4.0);
     FrameRequest request;
     request.maps = true;
-    const float moving = Sequence(scene, settings).render(10, request).threshold_noise(1, 28);
-    scene.nodes[1].translation = glm::dvec3(0.0, 0.5, 0.0);
-    const float held = Sequence(scene, settings).render(10, request).threshold_noise(1, 28);
+    const float moving = Sequence(scene, settings).render(10, request).limits.threshold_noise(1, 28);
+    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.5, 0.0);
+    const float held = Sequence(scene, settings).render(10, request).limits.threshold_noise(1, 28);
     EXPECT_LT(held, 0.9f * moving);
     EXPECT_GT(held, 0.0f);
 }
@@ -104,8 +104,8 @@ TEST(Sequence, OwnsItsScene) {
     // The fate of the caller's scene has no influence: every part that a frame reads is changed.
     auto changed = std::make_unique<Scene>(make_moving_scene());
     Sequence of_changed(*changed, settings);
-    for (Node& node : changed->nodes) node.translation = glm::dvec3(1e6);
-    for (Material& material : changed->materials) material.base_color = material.emission = glm::dvec3(0.0);
+    for (Node& node : changed->nodes) node.transform.translation = glm::dvec3(1e6);
+    for (Material& material : changed->materials) material.base_color = material.glow.color = glm::dvec3(0.0);
     for (Mesh& mesh : changed->meshes) std::ranges::fill(mesh.positions, glm::vec3(0.0f));
     changed->nodes.clear();
     changed->meshes.clear();
@@ -131,36 +131,36 @@ Scene make_scene_with_two_cameras() {
     Node close;
     close.name = "close";
     close.camera = 1;
-    close.translation.values = {{0.5, 1.0, 3.0}, {0.0, 1.0, 3.0}};
+    close.transform.translation.values = {{0.5, 1.0, 3.0}, {0.0, 1.0, 3.0}};
     scene.nodes.push_back(close);
-    scene.range = FrameRange{0, 30};
-    scene.camera_keys = {{0, "eye"}, {4, "eye"}, {10, "close"}};
+    scene.film.range = FrameRange{0, 30};
+    scene.film.camera_keys = {{0, "eye"}, {4, "eye"}, {10, "close"}};
     return scene;
 }
 
 TEST(SequenceCameras, EachLooksFromItsFrameOn) {
     RenderSettings settings = quick_settings(40, 30);
     Scene scene = make_scene_with_two_cameras();
-    scene.exposure = 1.0;
+    scene.film.exposure = 1.0;
     Sequence both(scene, settings), eye(scene, settings, "eye"), close(scene, settings, "close");
     for (const int frame : {-3, 0, 9, 10, 25}) {
         const FrameOutput out = both.render(frame, {.frame = true, .maps = true, .progress = {}});
         const FrameOutput expected =
             (frame < 10 ? eye : close).render(frame, {.frame = true, .maps = true, .progress = {}});
-        EXPECT_TRUE(out.depth.pixels == expected.depth.pixels) << frame;
+        EXPECT_TRUE(out.surface.depth.pixels == expected.surface.depth.pixels) << frame;
         const bool is_last_of_shot = frame == 9;
         EXPECT_EQ(std::ranges::count(out.motion.validity.pixels, MotionValidity::valid) == 0, is_last_of_shot);
         EXPECT_GT(std::ranges::count(expected.motion.validity.pixels, MotionValidity::valid), 0) << "not a cut";
     }
     EXPECT_FALSE(both.render(9).shaded.color.pixels == both.render(10).shaded.color.pixels);
-    EXPECT_EQ(both.scene().cuts, std::vector<std::int64_t>{10}) << "frame 4 changes nothing";
-    EXPECT_TRUE(close.scene().cuts.empty());
+    EXPECT_EQ(both.scene().film.cuts, std::vector<std::int64_t>{10}) << "frame 4 changes nothing";
+    EXPECT_TRUE(close.scene().film.cuts.empty());
 }
 
 TEST(SequenceCameras, FramesDoNotDependOnTheirOrder) {
     const RenderSettings settings = quick_settings(40, 30);
     Scene scene = make_scene_with_two_cameras();
-    scene.nodes[1].translation = glm::dvec3(0.0, 0.5, 0.0);  // only cameras differ
+    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.5, 0.0);  // only cameras differ
     Sequence forward(scene, settings);
     const Image<Rgb> before = forward.render(8).shaded.color, after = forward.render(12).shaded.color;
     Sequence backward(scene, settings);
@@ -171,7 +171,7 @@ TEST(SequenceCameras, FramesDoNotDependOnTheirOrder) {
 TEST(SequenceCameras, KeysAscendAndNameCameras) {
     const auto refuse = [](std::vector<CameraKey> keys) {
         Scene scene = make_scene_with_two_cameras();
-        scene.camera_keys = std::move(keys);
+        scene.film.camera_keys = std::move(keys);
         EXPECT_THROW(Sequence(scene, quick_settings(8, 6)), InputError);
     };
     refuse({{0, "eye"}, {0, "close"}});
@@ -189,10 +189,11 @@ bool is_without_motion(const MotionField& motion) {
 TEST(SequenceEdit, MotionLeadsFromTheFrameRenderedLast) {
     const RenderSettings settings = quick_settings(40, 30);
     Scene keyed = make_moving_scene();
-    keyed.nodes[3].translation.values = {{0.0, 1.0, 5.0}, {1.0, 1.5, 5.0}};  // the camera moves too
+    keyed.nodes[3].transform.translation.values = {{0.0, 1.0, 5.0}, {1.0, 1.5, 5.0}};  // the camera moves too
     const auto place_at = [&](Scene& scene, int frame) {
         for (const int node : {1, 3}) {
-            scene.nodes[node].translation = evaluate(keyed.nodes[node].translation, keyed.frame_rate.seconds_of(frame));
+            scene.nodes[node].transform.translation =
+                evaluate(keyed.nodes[node].transform.translation, keyed.film.frame_rate.seconds_of(frame));
         }
     };
     Scene still = keyed;
@@ -205,7 +206,7 @@ TEST(SequenceEdit, MotionLeadsFromTheFrameRenderedLast) {
     const FrameStatistics& statistics = first_after.statistics;
     EXPECT_EQ(statistics.traced.all, statistics.counts.rays.total()) << "rays in the scene before the edit included";
 
-    keyed.range = FrameRange{0, 7};
+    keyed.film.range = FrameRange{0, 7};
     const MotionField expected = Sequence(keyed, settings).render(7, maps_only).motion;
     for (std::size_t i = 0; i < after.displacement.size(); ++i) {
         // The box stands still within each step, so that its rays are traced in other coordinates.
@@ -229,7 +230,7 @@ TEST(SequenceEdit, ThePictureIsThatOfANewSequence) {
     EXPECT_EQ(edited.exposure(), exposure);
     Scene painted = make_moving_scene();
     paint(painted);
-    painted.exposure = exposure;
+    painted.film.exposure = exposure;
     EXPECT_TRUE(edited.render(4).shaded.color.pixels == Sequence(painted, settings).render(4).shaded.color.pixels);
 }
 
@@ -239,7 +240,7 @@ TEST(SequenceEdit, NothingMovesFromFramesWithOtherElements) {
     sequence.edit([](Scene& scene) { add_mesh(scene, make_box(glm::dvec3(0.3), 0), {0.5, 0.4, 1.0}); });
     EXPECT_TRUE(is_without_motion(sequence.render(4, maps_only).motion));
     EXPECT_FALSE(is_without_motion(sequence.render(5, maps_only).motion)) << "no edit since";
-    sequence.edit([](Scene& scene) { scene.cuts = {6}; });
+    sequence.edit([](Scene& scene) { scene.film.cuts = {6}; });
     EXPECT_TRUE(is_without_motion(sequence.render(6, maps_only).motion)) << "a cut";
 }
 

@@ -15,7 +15,7 @@ constexpr int frames = 15;
 template <class T, class ValueAt>
 Track<T> make_keys(const Scene& scene, const ValueAt& value_at) {
     Track<T> track;
-    track.sampling.period = scene.frame_rate.seconds_of(1);
+    track.sampling.period = scene.film.frame_rate.seconds_of(1);
     for (int frame = 0; frame < frames; ++frame) track.values.push_back(value_at(frame));
     return track;
 }
@@ -33,21 +33,21 @@ Scene make_scene() {
     scene.nodes.resize(4);
     scene.nodes[0].meshes = {0};
     scene.nodes[1].meshes = {1};
-    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, -1.0);
+    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, -1.0);
     scene.cameras.emplace_back();
     scene.nodes[2].camera = 0;
-    scene.nodes[2].translation = glm::dvec3(0.0, 0.0, 3.0);
+    scene.nodes[2].transform.translation = glm::dvec3(0.0, 0.0, 3.0);
     scene.lights.emplace_back().intensity = 20.0;
     scene.nodes[3].light = 0;
-    scene.nodes[3].translation = glm::dvec3(1.0, 1.0, 2.0);
-    scene.range = FrameRange{0, frames - 1};
-    scene.exposure = 1.0;
+    scene.nodes[3].transform.translation = glm::dvec3(1.0, 1.0, 2.0);
+    scene.film.range = FrameRange{0, frames - 1};
+    scene.film.exposure = 1.0;
     return scene;
 }
 
 Scene make_resting_scene() {
     Scene scene = make_scene();
-    scene.nodes[0].translation =
+    scene.nodes[0].transform.translation =
         make_keys<glm::dvec3>(scene, [](int frame) { return glm::dvec3(move_and_rest(frame), 0.0, 0.0); });
     return scene;
 }
@@ -76,28 +76,28 @@ TEST(StaticSpans, TheLastFrameAtRestHasMotionOfItsOwn) {
 
 TEST(StaticSpans, EndAtTheRange) {
     Scene scene = make_resting_scene();
-    scene.range = FrameRange{6, 9};
+    scene.film.range = FrameRange{6, 9};
     // The last frame's motion is that from the frame before it.
     EXPECT_EQ(list_firsts(scene, 4, 12), (Firsts{4, 5, 6, 6, 6, 6, 10, 11}));
-    scene.range = FrameRange{6, 6};
+    scene.film.range = FrameRange{6, 6};
     EXPECT_EQ(list_firsts(scene, 4, 12), (Firsts{4, 5, 6, 7, 7, 7, 10, 11}));
-    scene.range = FrameRange{0, 14};
+    scene.film.range = FrameRange{0, 14};
     EXPECT_EQ(list_firsts(scene, 13, 18), (Firsts{13, 14, 15, 15, 15})) << "after its last key nothing changes";
 }
 
 TEST(StaticSpans, AStillSceneIsOne) {
     Scene scene = make_scene();
     EXPECT_EQ(list_firsts(scene, -2, 20), Firsts(22, 0));
-    scene.nodes[0].translation = make_keys<glm::dvec3>(scene, [](int) { return glm::dvec3(0.25); });
+    scene.nodes[0].transform.translation = make_keys<glm::dvec3>(scene, [](int) { return glm::dvec3(0.25); });
     EXPECT_EQ(list_firsts(scene, -2, 20), Firsts(22, 0)) << "keys that are equal";
 }
 
 TEST(StaticSpans, NoFrameIsCopiedAcrossACut) {
     Scene scene = make_resting_scene();
-    scene.cuts = {7};
+    scene.film.cuts = {7};
     EXPECT_EQ(list_firsts(scene), (Firsts{0, 1, 2, 3, 4, 4, 6, 7, 7, 7, 10, 11, 12, 13, 14}));
     scene = make_scene();
-    scene.cuts = {7};
+    scene.film.cuts = {7};
     EXPECT_EQ(list_firsts(scene), (Firsts{0, 0, 0, 0, 0, 0, 6, 7, 7, 7, 7, 7, 7, 7, 7}));
 }
 
@@ -109,7 +109,7 @@ TEST(StaticSpans, AnOpenShutterSeesWhatChangesAroundAFrame) {
     scene.lights[0].intensity = Track<double>();
     scene.lights[0].intensity.interpolation = Interpolation::step;
     scene.lights[0].intensity.sampling.kind = TimeSampling::Kind::acyclic;
-    const double period = scene.frame_rate.seconds_of(1);
+    const double period = scene.film.frame_rate.seconds_of(1);
     scene.lights[0].intensity.sampling.times = {0.0, 7.2 * period, 7.3 * period};
     scene.lights[0].intensity.values = {20.0, 0.0, 20.0};
     EXPECT_EQ(list_firsts(scene), (Firsts{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14}));
@@ -135,29 +135,30 @@ TEST(StaticSpans, EveryKindOfChangeEndsOne) {
     // Frames 6 to 8 change. Frame 5 is at rest until frame 6.
     const Firsts expected{0, 1, 2, 3, 4, 4, 6, 7, 8, 8, 10, 11, 12, 13, 14};
     EXPECT_EQ(list_firsts_with([&](Scene& s) { s.nodes[0].visible = number(s, Interpolation::step); }), expected);
-    EXPECT_EQ(list_firsts_with([&](Scene& s) { s.nodes[0].scale = vector(s); }), expected);
+    EXPECT_EQ(list_firsts_with([&](Scene& s) { s.nodes[0].transform.scale = vector(s); }), expected);
     EXPECT_EQ(list_firsts_with([&](Scene& s) { s.meshes[1].present = number(s, Interpolation::step); }), expected);
-    EXPECT_EQ(list_firsts_with([&](Scene& s) { s.materials[0].roughness = number(s); }), expected);
+    EXPECT_EQ(list_firsts_with([&](Scene& s) { s.materials[0].gloss.roughness = number(s); }), expected);
     EXPECT_EQ(list_firsts_with([&](Scene& s) { s.lights[0].intensity = number(s); }), expected) << "a lamp blinks";
-    EXPECT_EQ(list_firsts_with([&](Scene& s) { s.environment = vector(s); }), expected);
+    EXPECT_EQ(list_firsts_with([&](Scene& s) { s.environment.radiance = vector(s); }), expected);
     EXPECT_EQ(list_firsts_with([&](Scene& s) { s.cameras[0].fov = number(s); }), expected);
-    EXPECT_EQ(list_firsts_with([&](Scene& s) { s.nodes[2].scale = vector(s); }), expected) << "the camera's node";
+    EXPECT_EQ(list_firsts_with([&](Scene& s) { s.nodes[2].transform.scale = vector(s); }), expected)
+        << "the camera's node";
     EXPECT_EQ(list_firsts_with([&](Scene& s) {
-                  s.point_caches.emplace_back().sampling.period = s.frame_rate.seconds_of(1);
+                  s.point_caches.emplace_back().sampling.period = s.film.frame_rate.seconds_of(1);
                   s.point_caches[0].positions.assign(frames, s.meshes[0].positions);
                   s.point_caches[0].positions[7][3].x += 0.1f;
-                  s.meshes[0].points = 0;
+                  s.meshes[0].deformation.points = 0;
               }),
               expected);
     EXPECT_EQ(list_firsts_with([&](Scene& s) {
-                  s.nodes[1].operations = OperationStack{{OperationStack::Kind::rotate_x}, {}, {}};
-                  s.nodes[1].operations->sampling.period = s.frame_rate.seconds_of(1);
-                  s.nodes[1].operations->channels.assign(frames, 0.0);
-                  s.nodes[1].operations->channels[7] = 1.0;
+                  s.nodes[1].transform.operations = OperationStack{{OperationStack::Kind::rotate_x}, {}, {}};
+                  s.nodes[1].transform.operations->sampling.period = s.film.frame_rate.seconds_of(1);
+                  s.nodes[1].transform.operations->channels.assign(frames, 0.0);
+                  s.nodes[1].transform.operations->channels[7] = 1.0;
               }),
               expected);
     EXPECT_EQ(list_firsts_with([&](Scene& s) {
-                  Track<double>& track = s.materials[0].roughness = number(s, Interpolation::cubic);
+                  Track<double>& track = s.materials[0].gloss.roughness = number(s, Interpolation::cubic);
                   track.values.assign(3 * frames, 0.5);
                   for (int i = 0; i < 3 * frames; ++i) track.values[i] = i % 3 == 1 ? 0.5 : 0.0;
                   track.values[3 * 7] = track.values[3 * 7 + 2] = 1.0;  // equal keys, but a curve between them
@@ -176,16 +177,16 @@ TEST(StaticSpans, EveryKindOfChangeEndsOne) {
 /// The camera moves too, so that the noise of frames differs.
 Scene make_seen_scene() {
     Scene scene = make_resting_scene();
-    scene.nodes[2].translation =
+    scene.nodes[2].transform.translation =
         make_keys<glm::dvec3>(scene, [](int frame) { return glm::dvec3(move_and_rest(frame), 0.2, 3.0); });
     return scene;
 }
 
 void expect_equal(const FrameOutput& a, const FrameOutput& b) {
     EXPECT_TRUE(a.shaded.color.pixels == b.shaded.color.pixels);
-    EXPECT_TRUE(a.alpha.pixels == b.alpha.pixels);
+    EXPECT_TRUE(a.limits.alpha.pixels == b.limits.alpha.pixels);
     EXPECT_TRUE(a.motion.displacement.pixels == b.motion.displacement.pixels);
-    EXPECT_TRUE(a.depth.pixels == b.depth.pixels);
+    EXPECT_TRUE(a.surface.depth.pixels == b.surface.depth.pixels);
     EXPECT_EQ(a.statistics.frame, b.statistics.frame);
     EXPECT_EQ(a.statistics.copy_of, b.statistics.copy_of);
 }
@@ -221,20 +222,20 @@ TEST(StaticFrame, IsNotACopyWithOtherContents) {
     sequence.render(5);
     const FrameRequest maps{.frame = true, .maps = true, .progress = {}};
     const FrameOutput with_maps = sequence.render(6, maps);
-    EXPECT_FALSE(with_maps.depth.empty());
+    EXPECT_FALSE(with_maps.surface.depth.empty());
     EXPECT_GT(with_maps.statistics.traced.all, 0u);
     expect_equal(with_maps, other.render(6, maps));
     const FrameOutput again = sequence.render(7, maps);
-    EXPECT_FALSE(again.depth.empty());
+    EXPECT_FALSE(again.surface.depth.empty());
     EXPECT_EQ(again.statistics.traced.all, 0u);
-    EXPECT_TRUE(sequence.render(7).depth.empty());
+    EXPECT_TRUE(sequence.render(7).surface.depth.empty());
 }
 
 TEST(StaticFrame, EndsWithAnEdit) {
     const RenderSettings settings = quick_settings(24, 16);
     Sequence sequence(make_seen_scene(), settings);
     const FrameOutput before = sequence.render(5);
-    sequence.edit([](Scene& scene) { scene.nodes[0].scale = glm::dvec3(1.5); });
+    sequence.edit([](Scene& scene) { scene.nodes[0].transform.scale = glm::dvec3(1.5); });
     const FrameOutput edited = sequence.render(6);
     EXPECT_FALSE(edited.shaded.color.pixels == before.shaded.color.pixels);
     EXPECT_FALSE(edited.statistics.copy_of) << "its motion is that of the edit";

@@ -17,7 +17,7 @@ constexpr Sampling rules[] = {Sampling::consecutive, Sampling::variance, Samplin
 SampleLight grey(float value) {
     SampleLight light;
     light[LightPart::direct] = Rgb(value);
-    light.instance = 0;
+    light.place.instance = 0;
     return light;
 }
 
@@ -262,24 +262,24 @@ TEST(PixelSamples, HalvesTellTheErrorOfTheMean) {
 TEST(PixelSamples, IrradianceIsSharedOnOneFaceOnly) {
     PixelSamples sum;
     SampleLight sample = grey(1.0f);
-    sample.normal = sample.geometric = glm::vec3(0.0f, 0.0f, 1.0f);
-    sample.footprint = 0.01f;
+    sample.place.normal = sample.place.geometric = glm::vec3(0.0f, 0.0f, 1.0f);
+    sample.place.footprint = 0.01f;
     for (int i = 0; i < 4; ++i) {
         EXPECT_FALSE(sum.find_irradiance(sample).has_value());
         sample.irradiance = Rgb(static_cast<float>(i));
-        sample.position = glm::vec3(0.01f * static_cast<float>(i), 0.0f, 0.0f);
+        sample.place.position = glm::vec3(0.01f * static_cast<float>(i), 0.0f, 0.0f);
         sum.add(sample);
     }
     EXPECT_EQ(sum.find_irradiance(sample), Rgb(1.5f));
     EXPECT_FALSE(sum.has_edge());
     SampleLight other = sample;
-    other.instance = 1;
+    other.place.instance = 1;
     EXPECT_FALSE(sum.find_irradiance(other).has_value());
     other = sample;
-    other.normal = glm::normalize(glm::vec3(0.1f, 0.0f, 1.0f));  // of a normal map
+    other.place.normal = glm::normalize(glm::vec3(0.1f, 0.0f, 1.0f));  // of a normal map
     EXPECT_FALSE(sum.find_irradiance(other).has_value());
     other = sample;
-    other.position.z = -0.5f;  // a parallel face of the same mesh, farther away
+    other.place.position.z = -0.5f;  // a parallel face of the same mesh, farther away
     EXPECT_FALSE(sum.find_irradiance(other).has_value());
     sum.add(other);
     EXPECT_TRUE(sum.has_edge());

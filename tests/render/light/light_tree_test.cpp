@@ -42,7 +42,7 @@ Scene make_crowd(int count, bool sky) {
         }
     }
     add_light(scene, Light::Kind::directional, glm::dvec3(0.5), glm::dvec3(0.0), turn());
-    if (sky) scene.environment = Track<glm::dvec3>(glm::dvec3(0.2));
+    if (sky) scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.2));
     return scene;
 }
 
@@ -118,7 +118,7 @@ TEST(LightTree, TheBoundOfATexturedLampIsThatOfItsBrightestTexel) {
         scene.images.push_back(image);
         add_mesh(scene, make_quad(0.5, 0.5, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0))), {0.0, 2.0, 0.0},
                  z_to_down);
-        scene.materials[0].emission_texture = {.image = 0, .nearest = true};
+        scene.materials[0].textures[TextureSlot::emission] = {.image = 0, .nearest = true};
         const Stage stage(std::move(scene));
         const Receiver receiver{{0.3f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}};
         const double brought = find_illuminances(stage, receiver).front();
@@ -215,9 +215,9 @@ TEST(LightTree, DirectLightIsLessByNoMoreThanItSays) {
     const Stage stage(make_crowd(100, false));
     RayTask task(stage.rays);
     SurfaceMaterial glossy = make_lambert(0.5f);
-    glossy.f0 = Rgb(0.04f);
-    glossy.f90 = 1.0f;
-    glossy.alpha = 0.5f;
+    glossy.gloss.f0 = Rgb(0.04f);
+    glossy.gloss.f90 = 1.0f;
+    glossy.gloss.alpha = 0.5f;
     for (const SurfaceMaterial& material : {make_lambert(0.5f), glossy}) {
         const glm::vec3 view = glm::normalize(glm::vec3(0.6f, -0.5f, 0.0f));
         const ViewedSurface surface{make_point({0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}), material, view};
@@ -250,8 +250,8 @@ TEST(LightTree, LayersWithoutABoundLeaveNothingOut) {
     const Stage stage(make_crowd(100, false));
     RayTask task(stage.rays);
     SurfaceMaterial coated = make_lambert(0.5f);
-    coated.coat = 1.0f;
-    coated.coat_alpha = 0.1f;
+    coated.coat.strength = 1.0f;
+    coated.coat.alpha = 0.1f;
     const ViewedSurface surface{make_point({0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}), coated,
                                 glm::vec3(0.0f, -1.0f, 0.0f)};
     const LobeShares shares{};

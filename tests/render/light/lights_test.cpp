@@ -23,7 +23,7 @@ TEST(Lights, NumberedEmittersThenPunctualThenEnvironment) {
     add_mesh(scene, make_quad(1.0, 1.0, add_lambert(scene, glm::dvec3(0.5))));
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.0, 1.0, 0.0});
     add_light(scene, Light::Kind::directional, glm::dvec3(0.0), glm::dvec3(0.0));  // dark, so not a light
-    scene.environment = Track<glm::dvec3>(glm::dvec3(0.5));
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.5));
     const Stage stage(std::move(scene));
     EXPECT_EQ(stage.lights.emitters.size(), 1u);
     EXPECT_EQ(stage.lights.punctual.size(), 1u);
@@ -41,7 +41,7 @@ TEST(Lights, AreaAndNormalsFollowTheInstance) {
     Shape ball{.kind = Shape::Kind::sphere, .radius = 1.0, .segments = 64};
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
     const int node = add_mesh(scene, make_shape_mesh(ball, lamp));
-    scene.nodes[node].scale = glm::dvec3(-2.0, 2.0, 2.0);
+    scene.nodes[node].transform.scale = glm::dvec3(-2.0, 2.0, 2.0);
     const Stage stage(std::move(scene));
     const Emitter& emitter = stage.lights.emitters.at(0);
     EXPECT_NEAR(emitter.area, 16.0 * pi, 0.01 * 16.0 * pi);
@@ -136,7 +136,7 @@ TEST(Lights, TexturedLampHasTheTexturesMeanPower) {
     image.floats(0, 0) = glm::vec4(0.0f);
     image.floats(1, 0) = glm::vec4(1.0f);
     scene.images.push_back(image);
-    scene.materials[0].emission_texture = {.image = 0, .wrap_u = Wrap::clamp, .nearest = true};
+    scene.materials[0].textures[TextureSlot::emission] = {.image = 0, .wrap_u = Wrap::clamp, .nearest = true};
     const Stage stage(std::move(scene));
     int dark = 0, lit = 0;
     for (int i = 0; i < 1000; ++i) {
@@ -159,7 +159,7 @@ TEST(Lights, ASharesTextureIsAveraged) {
         for (int x = 0; x < 64; ++x) image.floats(x, y) = glm::vec4((x + y) % 2 == 0 ? 1.0f : 0.0f);
     }
     scene.images.push_back(image);
-    scene.materials[0].emission_texture = {.image = 0, .nearest = true};
+    scene.materials[0].textures[TextureSlot::emission] = {.image = 0, .nearest = true};
     const Stage stage(std::move(scene));
     for (int i = 0; i < 20; ++i) {
         const glm::vec2 u((static_cast<float>(i) + 0.5f) / 20.0f, 0.37f);
@@ -257,7 +257,7 @@ TEST(Lights, HiddenAndFlattenedEmittersAreNoLights) {
     // Rays leave out a box that is flattened to a sheet, so it must not emit light either (RC-02).
     Scene flat;
     const int node = add_mesh(flat, make_box({1.0, 1.0, 1.0}, add_lambert(flat, glm::dvec3(0.0), glm::dvec3(4.0))));
-    flat.nodes[node].scale = glm::dvec3(1.0, 0.0, 1.0);
+    flat.nodes[node].transform.scale = glm::dvec3(1.0, 0.0, 1.0);
     const Stage stage(std::move(flat));
     EXPECT_EQ(stage.rays.skipped_instances(), 1u);
     EXPECT_EQ(stage.lights.count(), 0);

@@ -165,7 +165,8 @@ TEST(FrameFiles, NothingIsPerceivedWithoutAGuideOrMaps) {
     EXPECT_TRUE(out.estimate.empty());
     EXPECT_TRUE(out.velocity.empty());
     EXPECT_EQ(out.statistics.seconds.perception, 0.0);
-    for (const float alpha : out.alpha.pixels) EXPECT_EQ(alpha, static_cast<float>(rendered.settings.cache.accuracy));
+    for (const float alpha : out.limits.alpha.pixels)
+        EXPECT_EQ(alpha, static_cast<float>(rendered.settings.cache.accuracy));
 }
 
 /// Row vector times matrix, divided by w.

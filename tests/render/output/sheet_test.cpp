@@ -89,8 +89,8 @@ TEST(MapPreview, HoldsTheMapsThatTheFrameHas) {
     expect_color(middle(few, 1, 0), most);
     expect_color(middle(few, 2, 0), least);
     expect_color(middle(few, 0, 1), most);
-    output.threshold = Image<float>(40, 20, 0.1f);
-    output.alpha = Image<float>(40, 20, 1.0f);
+    output.limits.threshold = Image<float>(40, 20, 0.1f);
+    output.limits.alpha = Image<float>(40, 20, 1.0f);
     write_map_preview(folder / "all.png", output);
     const ChannelImage all = read_image(folder / "all.png");
     expect_color(middle(all, 1, 1), least);

@@ -145,7 +145,7 @@ TEST(DirectLight, EmittersShineFromTheirFrontOrFromBoth) {
 
 TEST(DirectLight, EnvironmentOnAnOpenLambertPlaneIsAlbedoTimesRadiance) {
     Scene scene;
-    scene.environment = Track<glm::dvec3>(glm::dvec3(2.0, 1.0, 0.5));
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(2.0, 1.0, 0.5));
     Lighting lighting(scene);
     const Rgb found = lighting.at(glm::vec3(0.0f), make_lambert(0.6f), up, 16);
     EXPECT_NEAR(found.x, 1.2f, 1e-5f);
@@ -155,7 +155,7 @@ TEST(DirectLight, EnvironmentOnAnOpenLambertPlaneIsAlbedoTimesRadiance) {
 
 TEST(DirectLight, WhiteMetalInAWhiteFurnace) {
     Scene scene;
-    scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
     Lighting lighting(scene);
     for (const float alpha : {0.01f, 0.1f, 0.4f, 1.0f}) {
         for (const float cosine : {1.0f, 0.6f, 0.15f}) {

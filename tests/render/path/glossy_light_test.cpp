@@ -28,7 +28,7 @@ TEST(GlossyLight, AlbedoIsTheIntegralOfTheLobe) {
         for (const float f0 : {0.04f, 1.0f}) {
             for (const float cosine : {0.08f, 0.4f, 0.93f}) {
                 SurfaceMaterial material = make_metal(roughness * roughness);
-                material.f0 = Rgb(f0);
+                material.gloss.f0 = Rgb(f0);
                 const ViewedSurface surface = make_viewed(material, direction_of(cosine));
                 const float albedo = glossy_albedo(material, cosine).x;
                 EXPECT_TRUE(holds([&](Trial& trial) {

@@ -113,8 +113,8 @@ TEST(KnownIrradianceTest, ItCountsForItsOwnBouncesOnly) {
 TEST(KnownIrradianceTest, AccuracyIsLooserForFaintAndWideLobes) {
     const Stage stage(make_glowing_box());
     const auto asked = [&](SurfaceMaterial material, float reflectance) {
-        material.f0 = Rgb(reflectance);
-        material.f90 = reflectance;
+        material.gloss.f0 = Rgb(reflectance);
+        material.gloss.f90 = reflectance;
         const ConstantIrradiance known(1);
         PathState state = one_bounce(&known);
         const ViewedSurface surface = make_inner_surface(material);
@@ -162,7 +162,7 @@ Scene make_mirror_room() {
     Scene scene;
     add_mesh(scene, make_box({4.0, 2.0, 4.0}, add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true)));
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.6, 0.2, 0.0});
-    scene.materials.push_back({.metallic = 1.0, .roughness = 0.0});
+    scene.materials.push_back({.gloss = {.metallic = 1.0, .roughness = 0.0}});
     add_mesh(scene, make_quad(1.6, 1.2, 1), {0.0, 0.0, -1.9});
     add_camera(scene, {-0.3, 0.1, 0.6}, {0.0, 0.0, -1.9}, 0.8);
     return scene;

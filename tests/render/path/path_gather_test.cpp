@@ -16,15 +16,15 @@ Scene make_box_scene(Walls walls) {
     add_mesh(scene, make_box({0.6, 0.8, 0.6}, white), {0.3, -0.6, -0.2},
              glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
     if (walls == Walls::glossy) {
-        scene.materials[0].specular = 1.0;
-        scene.materials[0].roughness = 0.5;
+        scene.materials[0].gloss.specular = 1.0;
+        scene.materials[0].gloss.roughness = 0.5;
     }
     if (walls == Walls::mirrors) {  // the red wall is one, and a pane of glass hangs under the lamp
         scene.materials[1] = {};
-        scene.materials[1].roughness = 0.0;
+        scene.materials[1].gloss.roughness = 0.0;
         Material glass;
-        glass.metallic = glass.roughness = 0.0;
-        glass.transmission = 1.0;
+        glass.gloss.metallic = glass.gloss.roughness = 0.0;
+        glass.glass.transmission = 1.0;
         scene.materials.push_back(glass);
         add_mesh(scene, make_quad(1.2, 1.2, 3), {0.0, 0.6, 0.0}, z_to_down);
     }
@@ -32,7 +32,7 @@ Scene make_box_scene(Walls walls) {
         SceneImage image{.floats = Image<glm::vec4>(8, 8)};
         for (int i = 0; i < 64; ++i) image.floats.pixels[i] = glm::vec4((i + i / 8) % 2 == 0 ? 1.0f : 0.3f);
         scene.images.push_back(image);
-        scene.materials[0].base_color_texture.image = 0;
+        scene.materials[0].textures[TextureSlot::base_color].image = 0;
     }
     add_camera(scene, {0.0, 0.0, 3.4}, {0.0, 0.0, 0.0}, 0.7);
     return scene;

@@ -168,7 +168,7 @@ TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
             add_light(scene, Light::Kind::point, glm::dvec3(100.0 / count),
                       {4.0 * (i % side + 0.5) / side - 2.0, 2.0, 4.0 * (i / side + 0.5) / side - 2.0});
         }
-        scene.materials.push_back({.alpha = 0.5, .alpha_mode = Material::AlphaMode::blend, .double_sided = true});
+        scene.materials.push_back({.opacity = {.alpha = 0.5, .mode = Opacity::Mode::blend}, .double_sided = true});
         add_mesh(scene, make_quad(20.0, 20.0, 0), {0.0, 1.0, 0.0}, z_to_up);
         const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f), 0.6f), 6000, estimator);
         const double relative = found.error() / found.mean();

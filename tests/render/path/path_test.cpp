@@ -67,13 +67,10 @@ TEST(Path, MC14_WithoutLossTheDepthIsTheLight) {
 /// Every lobe at once, without textures.
 Material make_layered(double roughness) {
     return {.base_color = glm::dvec3(0.8, 0.6, 0.9),
-            .metallic = 0.3,
-            .roughness = roughness,
-            .transmission = 0.4,
-            .clearcoat = 0.7,
-            .clearcoat_roughness = 0.4,
-            .sheen_color = glm::dvec3(0.3),
-            .sheen_roughness = 0.6};
+            .gloss = {.metallic = 0.3, .roughness = roughness},
+            .glass = {.transmission = 0.4},
+            .layers = {
+                .clearcoat = 0.7, .clearcoat_roughness = 0.4, .sheen_color = glm::dvec3(0.3), .sheen_roughness = 0.6}};
 }
 
 TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
@@ -81,10 +78,10 @@ TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
         SCOPED_TRACE(roughness);
         Scene scene = make_furnace(0.0);
         scene.materials[0] = make_layered(roughness);
-        scene.materials[0].emission = glm::dvec3(1.0);
+        scene.materials[0].glow.color = glm::dvec3(1.0);
         scene.materials[0].base_color = glm::dvec3(1.0);
         scene.materials[0].double_sided = true;
-        scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));  // behind the glass
+        scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));  // behind the glass
         const Stage stage(std::move(scene), 16, 12);
         const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
         EXPECT_TRUE(holds([&](Trial& trial) {
@@ -106,7 +103,8 @@ TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
 
 TEST(Path, MC19_ABoxOfMirrorsEndsByDepth) {
     Scene scene;
-    scene.materials.push_back({.metallic = 1.0, .roughness = 0.0, .emission = glm::dvec3(0.1), .double_sided = true});
+    scene.materials.push_back(
+        {.glow = {.color = glm::dvec3(0.1)}, .gloss = {.metallic = 1.0, .roughness = 0.0}, .double_sided = true});
     add_mesh(scene, make_box({2.0, 3.0, 4.0}, 0));
     const Stage stage(std::move(scene), 16, 12);
     for (const int depth : {0, 1, 32, 500}) {

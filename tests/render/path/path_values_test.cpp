@@ -11,7 +11,7 @@ namespace {
 SampleLight make_sample(const Rgb& light, bool hit = true) {
     SampleLight sample;
     sample[LightPart::direct] = light;
-    sample.instance = hit ? 0 : no_index;
+    sample.place.instance = hit ? 0 : no_index;
     return sample;
 }
 
@@ -62,8 +62,8 @@ TEST(PathValues, MC13_SmallSamplesAreNotLostBesideASpark) {
 Scene make_halves() {
     Scene scene;
     const int spoiled = add_lambert(scene, glm::dvec3(0.5)), good = add_lambert(scene, glm::dvec3(0.5));
-    scene.materials[0].specular = 1.0;
-    scene.materials[0].roughness = 0.5;
+    scene.materials[0].gloss.specular = 1.0;
+    scene.materials[0].gloss.roughness = 0.5;
     add_mesh(scene, make_quad(2.0, 4.0, spoiled), {-1.0, 0.0, -3.0});
     add_mesh(scene, make_quad(2.0, 4.0, good), {1.0, 0.0, -3.0});
     add_light(scene, Light::Kind::directional, glm::dvec3(3.0), glm::dvec3(0.0));
@@ -73,9 +73,9 @@ Scene make_halves() {
 
 TEST(PathValues, MC03_AMaterialThatIsNotANumberIsDroppedAndCounted) {
     const auto spoil_color = [&](Material& m) { m.base_color = glm::dvec3(0.5, not_a_number, 0.5); };
-    const auto spoil_roughness = [&](Material& m) { m.roughness = not_a_number; };
-    const auto spoil_emission = [&](Material& m) { m.emission = glm::dvec3(not_a_number); };
-    const auto spoil_specular = [&](Material& m) { m.specular_color = glm::dvec3(0.5, 0.5, not_a_number); };
+    const auto spoil_roughness = [&](Material& m) { m.gloss.roughness = not_a_number; };
+    const auto spoil_emission = [&](Material& m) { m.glow.color = glm::dvec3(not_a_number); };
+    const auto spoil_specular = [&](Material& m) { m.gloss.specular_color = glm::dvec3(0.5, 0.5, not_a_number); };
     const std::vector<std::function<void(Material&)>> all{spoil_color, spoil_roughness, spoil_emission, spoil_specular};
     for (std::size_t which = 0; which < all.size(); ++which) {
         SCOPED_TRACE(which);
@@ -115,7 +115,7 @@ TEST(Accumulation, MC13_TheMeanOfTheMostSamplesIsExact) {
     // 65,536 samples of .7, the largest number that a setting may have: a sum in single precision is off by 2e-4, and
     // by a tenth at 1e7 samples.
     Scene scene;
-    scene.environment = Track<glm::dvec3>(glm::dvec3(0.7, 0.1, 1e-3));
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.7, 0.1, 1e-3));
     const Stage stage(std::move(scene), 2, 1);
     RenderSettings settings = plain_settings(0.2, 16);
     settings.sampling.spp = 65536;

@@ -32,7 +32,7 @@ Scene make_surroundings(Surroundings which) {
             }
             break;
         case Surroundings::constant:
-            scene.environment = Track<glm::dvec3>(glm::dvec3(1.0, 0.8, 0.6));
+            scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0, 0.8, 0.6));
             break;
         case Surroundings::picture: {
             Image<Rgb> picture(16, 8, Rgb(0.2f));
@@ -47,24 +47,24 @@ Scene make_surroundings(Surroundings which) {
 
 SurfaceMaterial make_plastic() {
     SurfaceMaterial material = make_lambert(0.5f);
-    material.f0 = Rgb(0.04f);
-    material.f90 = 1.0f;
-    material.f0_max = 0.04f;
-    material.f90_max = 1.0f;
-    material.alpha = 0.15f;
+    material.gloss.f0 = Rgb(0.04f);
+    material.gloss.f90 = 1.0f;
+    material.gloss.f0_max = 0.04f;
+    material.gloss.f90_max = 1.0f;
+    material.gloss.alpha = 0.15f;
     return material;
 }
 
 SurfaceMaterial make_rough_sheet() {
-    return {.alpha = 0.3f, .glass = 0.9f, .glass_tint = Rgb(0.9f, 0.8f, 0.7f)};
+    return {.gloss = {.alpha = 0.3f}, .glass = {.share = 0.9f, .tint = Rgb(0.9f, 0.8f, 0.7f)}};
 }
 
 SurfaceMaterial make_coated() {
     SurfaceMaterial material = make_plastic();
-    material.coat = 0.8f;
-    material.coat_alpha = 0.4f;
-    material.sheen = Rgb(0.4f);
-    material.sheen_alpha = 0.5f;
+    material.coat.strength = 0.8f;
+    material.coat.alpha = 0.4f;
+    material.sheen.color = Rgb(0.4f);
+    material.sheen.alpha = 0.5f;
     return material;
 }
 
@@ -73,7 +73,7 @@ class PathWeights : public testing::TestWithParam<Surroundings> {};
 TEST_P(PathWeights, BothWaysAloneGiveTheSameMean) {
     const Stage stage(make_surroundings(GetParam()));
     SurfaceMaterial volume = make_rough_sheet();
-    volume.volume = true;
+    volume.glass.volume = true;
     const glm::vec3 up(0.0f, 1.0f, 0.0f), view = glm::normalize(glm::vec3(-0.7f, 0.6f, 0.2f));
     constexpr int depth = 3, count = 5000;
     std::uint32_t seed = 0;
@@ -141,7 +141,7 @@ TEST_P(PathWeights, SharedSamplesOfDirectLightHaveTheSameMean) {
 TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
     const Stage stage(make_surroundings(Surroundings::large_lamp));
     SurfaceMaterial sheet = make_rough_sheet();
-    sheet.alpha = 0.0f;
+    sheet.gloss.alpha = 0.0f;
     const glm::vec3 view = glm::normalize(glm::vec3(-0.4f, 0.9f, 0.2f));
     for (const SurfaceMaterial& material : {make_metal(0.0f), sheet}) {
         const ViewedSurface surface{make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1e-4f), material, view};
@@ -158,8 +158,9 @@ Scene make_sheet_scene(double roughness) {
     Scene scene;
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(6.0), true);
     add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, 2.0, 0.0}, z_to_down);
-    scene.materials.push_back(
-        {.base_color = glm::dvec3(0.9, 0.7, 0.8), .metallic = 0.0, .roughness = roughness, .transmission = 1.0});
+    scene.materials.push_back({.base_color = glm::dvec3(0.9, 0.7, 0.8),
+                               .gloss = {.metallic = 0.0, .roughness = roughness},
+                               .glass = {.transmission = 1.0}});
     add_mesh(scene, make_quad(6.0, 6.0, 1), {0.0, 1.0, 0.0}, z_to_up);
     return scene;
 }

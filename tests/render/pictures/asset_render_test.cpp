@@ -37,7 +37,7 @@ TEST_P(TruckRender, RollsItsWheelsAndNothingElse) {
     const Scene scene = load_scene(file_);
     Sequence sequence(scene, small_settings());
     const FrameOutput output = sequence.render(3, {.frame = true, .maps = true, .progress = {}});
-    const ScenePose frame = pose(scene, scene.frame_rate.seconds_of(3));
+    const ScenePose frame = pose(scene, scene.film.frame_rate.seconds_of(3));
     int wheel_pixels = 0, body_pixels = 0;
     double fastest = 0.0;
     for (int y = 0; y < output.view.height; ++y) {
@@ -46,7 +46,7 @@ TEST_P(TruckRender, RollsItsWheelsAndNothingElse) {
             if (hit.instance == no_index) continue;
             const int node = frame.instances[hit.instance].node;
             const double moved = glm::length(output.motion.displacement(x, y));
-            if (is_animated(scene.nodes[node].rotation)) {
+            if (is_animated(scene.nodes[node].transform.rotation)) {
                 ++wheel_pixels;
                 fastest = std::max(fastest, moved);
             } else {
@@ -59,11 +59,12 @@ TEST_P(TruckRender, RollsItsWheelsAndNothingElse) {
     EXPECT_GT(body_pixels, 200);
     // A rim of at most .438 m turns by the animation's step per frame. In the picture, its chord is at most as long as
     // at the nearest distance.
-    const double turn = glm::angle(glm::inverse(evaluate(scene.nodes.back().rotation, scene.frame_rate.seconds_of(3))) *
-                                   evaluate(scene.nodes.back().rotation, scene.frame_rate.seconds_of(4)));
+    const double turn =
+        glm::angle(glm::inverse(evaluate(scene.nodes.back().transform.rotation, scene.film.frame_rate.seconds_of(3))) *
+                   evaluate(scene.nodes.back().transform.rotation, scene.film.frame_rate.seconds_of(4)));
     const double step = std::min(turn, 2.0 * 3.14159265358979 - turn);
     float nearest = 1e30f;
-    for (const float z : output.depth.pixels) nearest = std::min(nearest, z);
+    for (const float z : output.surface.depth.pixels) nearest = std::min(nearest, z);
     EXPECT_GT(fastest, 0.2);
     EXPECT_LE(fastest, 2.0 * 0.4375 * std::sin(step / 2.0) * output.view.pixels_per_unit / nearest);
 

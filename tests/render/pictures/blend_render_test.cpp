@@ -10,14 +10,14 @@ constexpr double alpha = 0.3;
 
 int add_blended(Scene& scene, double albedo, double emission = 0.0) {
     const int material = add_lambert(scene, glm::dvec3(albedo), glm::dvec3(emission), true);
-    scene.materials[material].alpha = alpha;
-    scene.materials[material].alpha_mode = Material::AlphaMode::blend;
+    scene.materials[material].opacity.alpha = alpha;
+    scene.materials[material].opacity.mode = Opacity::Mode::blend;
     return material;
 }
 
 TEST(BlendRender, AVeilBeforeTheSkyShowsItsShare) {
     Scene scene;
-    scene.environment = Track<glm::dvec3>(glm::dvec3(2.0));
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(2.0));
     add_mesh(scene, make_quad(20.0, 20.0, add_blended(scene, 0.6)), {0.0, 0.0, -2.0});
     const Stage stage(std::move(scene), 16, 12);
     SampleOptions options;
@@ -63,9 +63,9 @@ TEST(BlendRender, LampsWithHolesGiveTheirShareOfLight) {
             SceneImage image{.floats = Image<glm::vec4>(2, 2, glm::vec4(1.0f, 1.0f, 1.0f, 0.0f))};
             image.floats(0, 0).w = 1.0f;
             scene.images.push_back(image);
-            scene.materials[0].alpha_mode = Material::AlphaMode::mask;
-            scene.materials[0].alpha = 1.0;
-            scene.materials[0].base_color_texture = {
+            scene.materials[0].opacity.mode = Opacity::Mode::mask;
+            scene.materials[0].opacity.alpha = 1.0;
+            scene.materials[0].textures[TextureSlot::base_color] = {
                 .image = 0, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp, .nearest = true};
         }
         const Stage stage(std::move(scene));

@@ -12,7 +12,7 @@ constexpr int picture_width = 64, picture_height = 48;
 /// A small bright disc before black, on the axis of a camera at the origin.
 Scene make_disc_scene(double distance, float radius, bool orthographic = false) {
     Scene scene;
-    scene.exposure = 1.0;
+    scene.film.exposure = 1.0;
     add_mesh(scene, make_disc_facing_down(radius, 64, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true)),
              {0.0, 0.0, -distance}, z_to_up);
     add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);

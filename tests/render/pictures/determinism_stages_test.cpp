@@ -163,7 +163,7 @@ struct Everything {
 Everything do_everything(const std::filesystem::path& folder) {
     Everything all;
     all.scene = load_scene(folder / "scene.json");
-    apply_settings(all.settings, all.scene.settings, "scene.json");
+    apply_settings(all.settings, all.scene.source.settings, "scene.json");
     SettingMap more;
     parse_setting("adapter_k=87.5", more);
     parse_setting("min_radius_pixels=11.25", more);

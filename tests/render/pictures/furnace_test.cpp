@@ -120,7 +120,7 @@ TEST(Furnace, EnvironmentAroundAConvexBody) {
     // A white Lambert ball under a white sky cannot be seen. It reflects no light to itself, so bounces change nothing.
     for (const int bounces : {0, 1}) {
         Scene scene;
-        scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
+        scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
         add_mesh(scene, make_faceted_sphere(1.0, 48, add_lambert(scene, glm::dvec3(1.0))));
         add_camera(scene, {0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, 0.7);
         const Stage stage(std::move(scene), 20, 15);

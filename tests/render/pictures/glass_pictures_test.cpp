@@ -8,13 +8,11 @@ namespace aleph {
 namespace {
 
 int add_glass(Scene& scene, double ior, double thickness, double attenuation_distance = 0.0) {
-    scene.materials.push_back({.metallic = 0.0,
-                               .roughness = 0.0,
-                               .ior = ior,
-                               .transmission = 1.0,
-                               .thickness = thickness,
-                               .attenuation_distance = attenuation_distance,
-                               .attenuation_color = glm::dvec3(0.5)});
+    scene.materials.push_back({.gloss = {.metallic = 0.0, .roughness = 0.0, .ior = ior},
+                               .glass = {.transmission = 1.0,
+                                         .thickness = thickness,
+                                         .attenuation_distance = attenuation_distance,
+                                         .attenuation_color = glm::dvec3(0.5)}});
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
@@ -116,7 +114,7 @@ TEST(GlassPictures, MC25_SheetIsSeenThroughStraight) {
 /// An environment of radiance 1 all around: clear glass of any shape is invisible.
 struct Furnace {
     Scene scene;
-    Furnace() { scene.environment = Track<glm::dvec3>(glm::dvec3(1.0)); }
+    Furnace() { scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0)); }
 };
 
 TEST(GlassPictures, MC25_BallInAFurnaceIsInvisible) {

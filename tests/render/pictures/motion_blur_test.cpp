@@ -92,7 +92,7 @@ void expect_coverage(const Scene& scene, const Shape2d& covers) {
 
 TEST(MotionBlur, MC27_AMovingSquareCoversItsShareOfTheTime) {
     Scene scene = make_square_scene({0.0, 2.0});
-    scene.nodes[0].translation = keyed<glm::dvec3>({0.0, at(2)}, {{-1.5, 0.0, 0.0}, {1.5, 0.5, 0.0}});
+    scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, at(2)}, {{-1.5, 0.0, 0.0}, {1.5, 0.5, 0.0}});
     expect_coverage(scene, [](glm::dvec2 p, double frame) {
         return is_in_square(p - glm::dvec2(-1.5 + 1.5 * frame, 0.25 * frame));
     });
@@ -101,8 +101,8 @@ TEST(MotionBlur, MC27_AMovingSquareCoversItsShareOfTheTime) {
 TEST(MotionBlur, MC27_FewSamplesShowNoCopies) {
     // A tall bar that moves by 12 pixels, with 4 samples a pixel: blocks of 2x2 pixels see 16 times.
     Scene scene = make_square_scene({0.0, 1.0});
-    scene.nodes[0].scale = glm::dvec3(0.25, 8.0, 1.0);
-    scene.nodes[0].translation = keyed<glm::dvec3>({0.0, at(1)}, {{-1.5, 0.0, 0.0}, {1.5, 0.0, 0.0}});
+    scene.nodes[0].transform.scale = glm::dvec3(0.25, 8.0, 1.0);
+    scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, at(1)}, {{-1.5, 0.0, 0.0}, {1.5, 0.0, 0.0}});
     double squares = 0.0;
     int blocks = 0;
     for (std::uint32_t seed = 0; seed < 16; ++seed) {
@@ -125,7 +125,7 @@ TEST(MotionBlur, MC27_TurnsFollowTheArc) {
         SCOPED_TRACE(degrees);
         const double turn = degrees * std::numbers::pi / 180.0;
         Scene scene = make_square_scene({-0.5, 0.5});
-        scene.nodes[0].axis_rotation =
+        scene.nodes[0].transform.axis_rotation =
             AxisRotation{{0.0, 0.0, 1.0}, keyed<double>({at(-0.5), at(0.5)}, {0.2, 0.2 + turn})};
         expect_coverage(scene, [&](glm::dvec2 p, double frame) {
             const double angle = 0.2 + turn * (frame + 0.5), c = std::cos(angle), s = std::sin(angle);
@@ -136,7 +136,7 @@ TEST(MotionBlur, MC27_TurnsFollowTheArc) {
 
 TEST(MotionBlur, MC27_AScaleThroughZero) {
     Scene scene = make_square_scene({0.0, 1.0});
-    scene.nodes[0].scale = keyed<glm::dvec3>({0.0, at(1)}, {{1.5, 1.0, 1.0}, {-1.5, 1.0, 1.0}});
+    scene.nodes[0].transform.scale = keyed<glm::dvec3>({0.0, at(1)}, {{1.5, 1.0, 1.0}, {-1.5, 1.0, 1.0}});
     expect_coverage(scene, [](glm::dvec2 p, double frame) { return is_in_square({p.x / (1.5 - 3.0 * frame), p.y}); });
 }
 
@@ -148,7 +148,8 @@ TEST(MotionBlur, MC27_AVisibilitySwitch) {
 
 TEST(MotionBlur, MC27_AShutterOfTenFrames) {
     Scene scene = make_square_scene({-5.0, 5.0});
-    scene.nodes[0].translation = keyed<glm::dvec3>({at(-5), at(0), at(5)}, {{-2, -1, 0}, {0, 1, 0}, {2, -1, 0}});
+    scene.nodes[0].transform.translation =
+        keyed<glm::dvec3>({at(-5), at(0), at(5)}, {{-2, -1, 0}, {0, 1, 0}, {2, -1, 0}});
     expect_coverage(scene, [](glm::dvec2 p, double frame) {
         return is_in_square(p - glm::dvec2(0.4 * frame, 1.0 - 0.4 * std::abs(frame)));
     });
@@ -158,8 +159,9 @@ TEST(MotionBlur, MC27_AShutterOfZeroLengthIsOneMoment) {
     // Moving or not: [x, x] is the still picture of that time, and [0, 0] the frame's own.
     const auto render = [](double offset, bool moves, double place) {
         Scene scene = make_square_scene(glm::dvec2(offset));
-        scene.nodes[0].translation = glm::dvec3(place, 0.0, 0.0);
-        if (moves) scene.nodes[0].translation = keyed<glm::dvec3>({0.0, at(2)}, {glm::dvec3(0.0), {3.0, 0.0, 0.0}});
+        scene.nodes[0].transform.translation = glm::dvec3(place, 0.0, 0.0);
+        if (moves)
+            scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, at(2)}, {glm::dvec3(0.0), {3.0, 0.0, 0.0}});
         return Sequence(scene, blur_settings(1)).render(0);
     };
     for (const double offset : {0.0, 0.5, 1.7}) {
@@ -173,10 +175,10 @@ TEST(MotionBlur, MC27_NoGhostOfTheOtherShot) {
     // The camera jumps at frame 5 from a green square to a red one.
     const auto render = [](std::int64_t frame, const glm::dvec2& shutter) {
         Scene scene = make_square_scene(shutter);
-        scene.cuts = {5};
-        scene.materials[0].emission = glm::dvec3(0.0, 1.0, 0.0);
+        scene.film.cuts = {5};
+        scene.materials[0].glow.color = glm::dvec3(0.0, 1.0, 0.0);
         add_mesh(scene, make_quad(2.0, 1.0, add_lambert(scene, glm::dvec3(0.0), {1.0, 0.0, 0.0})), {50.0, 0.0, 0.0});
-        scene.nodes[1].translation =
+        scene.nodes[1].transform.translation =
             keyed<glm::dvec3>({0.0, at(5)}, {{0.0, 0.0, 5.0}, {50.0, 0.0, 5.0}}, Interpolation::step);
         const FrameOutput out = Sequence(scene, blur_settings(1)).render(frame);
         glm::dvec3 sum(0.0);
@@ -197,8 +199,8 @@ TEST(MotionBlur, FX15_LightThatChangesWhereNothingInViewMoves) {
     // A white floor under a lamp. Behind the camera a door opens at a quarter of the shutter, or the lamp fades in.
     for (const bool door : {false, true}) {
         Scene scene;
-        scene.exposure = 1.0;
-        scene.range = FrameRange{0, 10};
+        scene.film.exposure = 1.0;
+        scene.film.range = FrameRange{0, 10};
         add_mesh(scene, make_quad(50.0, 50.0, add_lambert(scene, glm::dvec3(1.0), glm::dvec3(0.0), true)));
         add_light(scene, Light::Kind::directional, glm::dvec3(std::numbers::pi), {0.0, 0.0, 20.0});
         add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
@@ -223,11 +225,11 @@ TEST(MotionBlur, FX15_LightThatChangesWhereNothingInViewMoves) {
 /// A wall, and a lamp that shines in the last quarter of the shutter.
 Scene make_late_lamp(double albedo) {
     Scene scene;
-    scene.exposure = 1.0;
-    scene.range = FrameRange{0, 10};
+    scene.film.exposure = 1.0;
+    scene.film.range = FrameRange{0, 10};
     add_mesh(scene, make_quad(50.0, 50.0, add_lambert(scene, glm::dvec3(albedo), glm::dvec3(0.0), true)));
     const int shining = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true);
-    scene.materials[shining].emission_strength = keyed<double>({0.0, at(0.75)}, {0.0, 100.0}, Interpolation::step);
+    scene.materials[shining].glow.strength = keyed<double>({0.0, at(0.75)}, {0.0, 100.0}, Interpolation::step);
     add_mesh(scene, make_quad(1.0, 1.0, shining), {4.0, 0.0, 6.0});
     add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
     scene.cameras[0].shutter = {0.0, 1.0};
@@ -270,7 +272,7 @@ TEST(MotionBlur, SamplesWithoutARecordDoNotCastTheRaysOfOne) {
 TEST(MotionBlur, MC27_AChangeOfTopologyShowsBothMeshes) {
     // A surface of one triangle in frame 0, of two in frame 1.
     Scene scene = load_scene(source_folder() / "scenes" / "hard" / "changing_topology.json");
-    scene.environment.reset();
+    scene.environment.radiance.reset();
     EXPECT_TRUE(holds([&](Trial& trial) {
         std::vector<Mean> blurred(width * height), still(width * height);
         for (std::uint32_t seed = trial.seed; seed < trial.seed + trial.times(16u); ++seed) {

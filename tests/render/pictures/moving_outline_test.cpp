@@ -22,7 +22,8 @@ Scene make_wall(bool plate) {
     }
     if (plate) {
         const int node = add_mesh(scene, make_quad(1.5, 2.2, moving));
-        scene.nodes[node].translation = keyed<glm::dvec3>({0.0, 10.0 / 30.0}, {{-1.2, 0.1, 1.0}, {13.8, 0.1, 1.0}});
+        scene.nodes[node].transform.translation =
+            keyed<glm::dvec3>({0.0, 10.0 / 30.0}, {{-1.2, 0.1, 1.0}, {13.8, 0.1, 1.0}});
     }
     add_flat_view(scene, 0.5 * outline_height * outline_pixel);
     return scene;
@@ -63,9 +64,9 @@ TEST_P(MovingOutline, MC27_IsWithinTheThresholdOfTheWall) {
                 if (near == 0 || near == 5) continue;
                 ++outline;
                 const float error = std::abs(luminance(out.shaded.color(x, y)) - luminance(reference(x, y))) *
-                                    static_cast<float>(make_wall(true).viewing.display_white);
-                if (error > wall.threshold(x, y)) ++beyond;
-                const float ratio = out.threshold(x, y) / wall.threshold(x, y);
+                                    static_cast<float>(make_wall(true).film.viewing.display_white);
+                if (error > wall.limits.threshold(x, y)) ++beyond;
+                const float ratio = out.limits.threshold(x, y) / wall.limits.threshold(x, y);
                 least = std::min(least, ratio);
                 most = std::max(most, ratio);
             }

@@ -85,9 +85,8 @@ TEST(SeveralBounces, IC23_EachCountsWithoutRecordsAround) {
                                       .settings = settings,
                                       .accuracy = accuracy,
                                       .progress = {},
-                                      .multi_bounce = {.bounces = bounces - 1, .noted = true},
-                                      .bounces_before = 1};
-        const GatherOptions options{.depth = 8, .multi_bounce = context.multi_bounce};
+                                      .bounces = {.further = {.bounces = bounces - 1, .noted = true}, .before = 1}};
+        const GatherOptions options{.depth = 8, .multi_bounce = context.bounces.further};
         IrradianceCache cache = make_cache(stage.shading);
         std::vector<GatheredRays> gathered;
         for (std::uint32_t i = 0; i < 64; ++i) {
@@ -123,8 +122,8 @@ TEST(SeveralBounces, IC23_NoSurfaceBeyondThePathsDepthScatters) {
 TEST(SeveralBounces, IC23_NorDoesOneThatReflects) {
     Scene scene = make_lit_sphere();
     scene.materials[0].base_color = glm::dvec3(0.95);
-    scene.materials[0].metallic = 0.5;
-    scene.materials[0].roughness = 0.7;
+    scene.materials[0].gloss.metallic = 0.5;
+    scene.materials[0].gloss.roughness = 0.7;
     const Stage stage(std::move(scene), 12, 9);
     RenderSettings settings = path_settings(2, 64);
     settings.light.path_depth = 3;
@@ -139,8 +138,8 @@ TEST(SeveralBounces, IC23_NorDoesOneThatReflects) {
 TEST(SeveralBounces, IC23_ALampBehindGlassIsNotFoundAgain) {
     Scene scene;
     Material glass;
-    glass.metallic = glass.roughness = 0.0;
-    glass.transmission = 1.0;
+    glass.gloss.metallic = glass.gloss.roughness = 0.0;
+    glass.glass.transmission = 1.0;
     scene.materials.push_back(glass);
     add_mesh(scene, make_quad(20.0, 20.0, 0), {0.0, 1.0, 0.0}, z_to_down);
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0));

@@ -64,7 +64,7 @@ void expect_within_bound(const LeftOut& out, Decision decision) {
 /// Point lights in a grid, 40 m behind the camera.
 Scene make_far_lights(int count, double power) {
     Scene scene = make_lit_square();
-    scene.range = FrameRange{0, 0};
+    scene.film.range = FrameRange{0, 0};
     for (int i = 0; i < count; ++i) {
         add_light(scene, Light::Kind::point, glm::dvec3(power), {0.2 * (i % 32), 0.2 * (i / 32), 40.0});
     }
@@ -92,7 +92,7 @@ TEST(EffectsBounds, FX14_TheSumOfLightsThatAreLeftOutFits) {
 
 TEST(EffectsBounds, FX14_LampsThatAreLeftOutAreStillSeen) {
     Scene scene = make_lit_square();
-    scene.range = FrameRange{0, 0};
+    scene.film.range = FrameRange{0, 0};
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.5));
     add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, 0.0, 40.0}, z_to_up * z_to_up);
     const EffectsPlan plan = Sequence(scene, seen_settings()).plan(0);
@@ -105,7 +105,7 @@ TEST(EffectsBounds, FX14_LampsThatAreLeftOutAreStillSeen) {
 /// Two walls that face each other, lit by a lamp in front of the camera; one is seen.
 Scene make_corridor(double albedo) {
     Scene scene = make_empty_view();
-    scene.range = FrameRange{0, 0};
+    scene.film.range = FrameRange{0, 0};
     const int wall = add_lambert(scene, glm::dvec3(albedo), glm::dvec3(0.0), true);
     add_mesh(scene, make_quad(2.0, 2.0, wall));
     add_mesh(scene, make_quad(2.0, 2.0, wall), {0.0, 0.0, 4.0});
@@ -137,7 +137,7 @@ TEST(EffectsBounds, FX16_ASecondBounceBetweenDarkWalls) {
 
 TEST(EffectsBounds, FX13_AFarSmallBodySendsHardlyAnyLight) {
     Scene scene = make_lit_square();
-    scene.range = FrameRange{0, 0};
+    scene.film.range = FrameRange{0, 0};
     add_mesh(scene, make_faceted_sphere(0.01, 8, 0), {3.0, 0.0, 30.0});
     RenderSettings settings = seen_settings();
     settings.cache.gather = 4096;
@@ -146,8 +146,8 @@ TEST(EffectsBounds, FX13_AFarSmallBodySendsHardlyAnyLight) {
 
 TEST(EffectsBounds, FX13_AMirrorOutOfViewThatLightsWhatIsInView) {
     Scene scene = make_lit_square();
-    scene.nodes.back().translation = glm::dvec3(0.0, 4.0, 0.5);
-    scene.materials.push_back({.roughness = 0.0});
+    scene.nodes.back().transform.translation = glm::dvec3(0.0, 4.0, 0.5);
+    scene.materials.push_back({.gloss = {.roughness = 0.0}});
     add_mesh(scene, make_quad(3.0, 3.0, 1), {4.0, 0.0, 1.0},
              glm::angleAxis(-0.5 * std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(40.0));
@@ -165,11 +165,11 @@ TEST(EffectsBounds, FX13_AMirrorOutOfViewThatLightsWhatIsInView) {
 
 TEST(EffectsBounds, FX13_GlossThatHardlyReflects) {
     Scene scene = make_lit_square();
-    scene.range = FrameRange{0, 0};
-    scene.materials[0].specular = 1e-4;
-    scene.materials[0].roughness = 0.7;
+    scene.film.range = FrameRange{0, 0};
+    scene.materials[0].gloss.specular = 1e-4;
+    scene.materials[0].gloss.roughness = 0.7;
     expect_within_bound(compare_forced(scene, seen_settings(), Effect::glossy_reflection), Decision::skip);
-    scene.materials[0].specular = 1.0;
+    scene.materials[0].gloss.specular = 1.0;
     EXPECT_EQ(decide(scene, seen_settings(), Effect::glossy_reflection), Decision::simulate);
 }
 
@@ -178,8 +178,8 @@ Scene make_turning_view(double degrees) {
     Scene scene = make_lit_square();
     const double angle = degrees * std::numbers::pi / 180.0;
     scene.cameras[0].shutter = {-0.5, 0.5};
-    const double frame = scene.frame_rate.seconds_of(1);
-    scene.nodes[0].rotation =
+    const double frame = scene.film.frame_rate.seconds_of(1);
+    scene.nodes[0].transform.rotation =
         keyed<glm::dquat>({-0.5 * frame, 0.5 * frame}, {glm::angleAxis(-0.5 * angle, glm::dvec3(0.0, 1.0, 0.0)),
                                                         glm::angleAxis(0.5 * angle, glm::dvec3(0.0, 1.0, 0.0))});
     return scene;
@@ -201,21 +201,21 @@ TEST(EffectsBounds, FX15_WhatChangesWhileTheShutterIsOpen) {
     Scene scene = make_lit_square();
     scene.cameras[0].shutter = {0.0, 0.8};
     EXPECT_EQ(decision(scene), Decision::skip) << "nothing moves";
-    const double frame = scene.frame_rate.seconds_of(1);
+    const double frame = scene.film.frame_rate.seconds_of(1);
     Scene door = scene;
     const int node = add_mesh(door, make_quad(9.0, 9.0, add_lambert(door, glm::dvec3(0.0))), {0.0, 0.0, 9.0});
     door.nodes[node].visible = keyed<double>({0.0, 0.3 * frame}, {1.0, 0.0}, Interpolation::step);
     EXPECT_EQ(decision(door), Decision::simulate) << "a door out of view opens";
     EXPECT_EQ(decision(door, 1), Decision::skip) << "it is open";
     Scene lamp = scene;
-    lamp.nodes.back().translation =
+    lamp.nodes.back().transform.translation =
         keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(0.3, 0.2, 2.0), glm::dvec3(-0.3, 0.2, 2.0)});
     EXPECT_EQ(decision(lamp), Decision::simulate) << "a lamp moves, and no object does";
     Scene glow = scene;
-    glow.materials[0].emission = keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    glow.materials[0].glow.color = keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(0.0), glm::dvec3(1.0)});
     EXPECT_EQ(decision(glow), Decision::simulate);
     Scene entering = scene;
-    entering.nodes[add_mesh(entering, make_quad(0.5, 0.5, 0), {9.0, 0.0, 0.0})].translation =
+    entering.nodes[add_mesh(entering, make_quad(0.5, 0.5, 0), {9.0, 0.0, 0.0})].transform.translation =
         keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(9.0, 0.0, 0.0), glm::dvec3(0.0)});
     EXPECT_EQ(decision(entering), Decision::simulate) << "an object enters";
 }

@@ -54,7 +54,7 @@ std::vector<Case> make_cases() {
     add("the same, lighting keyframes", scene, {"direct_light", "indirect_diffuse", "cache_carry_over"})
         .cache.light_step = 10;
     scene.meshes[1].material = add_material(scene, 1.0, 0.0);
-    scene.nodes.back().translation = glm::dvec3(20.0, 0.0, 0.5);
+    scene.nodes.back().transform.translation = glm::dvec3(20.0, 0.0, 0.5);
     add("a mirror out of view", scene, {"direct_light", "indirect_diffuse", "caustics"});
 
     scene = make_lit_square();
@@ -63,23 +63,23 @@ std::vector<Case> make_cases() {
     scene.meshes[0].material = add_material(scene, 1.0, 0.0);
     make_surroundings(scene, 1.0);
     add("a mirror", scene, {"direct_light", "environment", "mirror_reflection"});
-    Material glass{.metallic = 0.0, .roughness = 0.0, .transmission = 1.0};
+    Material glass{.gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}};
     scene.materials.push_back(glass);
     scene.meshes[0].material = static_cast<int>(scene.materials.size()) - 1;
     add("glass", scene, {"direct_light", "environment", "refraction"});
 
     scene = make_lit_square();
-    scene.materials[0].base_color_texture = add_texture(scene, {200, 100, 50, 255});
+    scene.materials[0].textures[TextureSlot::base_color] = add_texture(scene, {200, 100, 50, 255});
     add("a texture", scene, {"direct_light", "textures"});
-    scene.materials[0].base_color_texture = {};
-    scene.materials[0].normal_texture = add_texture(scene, {128, 128, 255, 255});
+    scene.materials[0].textures[TextureSlot::base_color] = {};
+    scene.materials[0].textures[TextureSlot::normal] = add_texture(scene, {128, 128, 255, 255});
     add("a normal map", scene, {"direct_light", "normal_maps"});
     scene = make_lit_square();
-    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+    scene.materials[0].opacity.mode = Opacity::Mode::mask;
     add("a mask", scene, {"direct_light", "alpha"});
 
     scene = make_lit_square();
-    scene.nodes[1].translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+    scene.nodes[1].transform.translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
     add("motion", scene, {"direct_light", "motion"}).perception.guide = Guide::full;
     add("motion that matters to viewers", scene, {"direct_light", "motion", "saliency"}).perception.guide =
         Guide::saliency;

@@ -22,13 +22,13 @@ TEST(EffectsPlan, FX01_FX09_MotionIsComputedWhereSomethingMoves) {
     settings.perception.guide = Guide::saliency;
     const FrameRequest maps{.frame = true, .maps = true, .progress = {}};
     Scene scene = make_lit_square();
-    scene.nodes[1].translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1)});
+    scene.nodes[1].transform.translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1)});
     EXPECT_EQ(effects_of(scene, settings), Names{"direct_light"}) << "keys that are all equal";
     // The maps are those of the stages that were skipped.
     RenderSettings forced = settings;
     forced.effects.force = all_effects();
     const FrameOutput skipped = Sequence(scene, settings).render(0), computed = Sequence(scene, forced).render(0);
-    EXPECT_EQ(skipped.threshold.pixels, computed.threshold.pixels);
+    EXPECT_EQ(skipped.limits.threshold.pixels, computed.limits.threshold.pixels);
     EXPECT_EQ(skipped.shaded.color.pixels, computed.shaded.color.pixels);
     const FrameOutput still = Sequence(scene, settings).render(0, maps),
                       field = Sequence(scene, forced).render(0, maps);
@@ -36,7 +36,7 @@ TEST(EffectsPlan, FX01_FX09_MotionIsComputedWhereSomethingMoves) {
     EXPECT_EQ(still.motion.validity.pixels, field.motion.validity.pixels);
     EXPECT_EQ(still.perception.saliency.pixels, field.perception.saliency.pixels) << "it is asked for";
 
-    scene.nodes[1].translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1001)});
+    scene.nodes[1].transform.translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1001)});
     EXPECT_EQ(effects_of(scene, settings), (Names{"direct_light", "motion", "saliency"}));
     EXPECT_EQ(effects_of(scene, settings, 3), Names{"direct_light"}) << "the animation is over";
     settings.perception.guide = Guide::full;
@@ -50,10 +50,10 @@ TEST(EffectsPlan, FX02_IndirectLightNeedsSurfacesThatSeeEachOther) {
     add_light(scene, Light::Kind::point, glm::dvec3(3.0), {2.0, 2.0, 2.0});
     const int ball = add_mesh(scene, make_faceted_sphere(0.5, 16, white));
     EXPECT_EQ(effects_of(scene), without) << "one convex body";
-    scene.nodes[ball].scale = glm::dvec3(20.0);
-    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, 9.0);
+    scene.nodes[ball].transform.scale = glm::dvec3(20.0);
+    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, 9.0);
     EXPECT_TRUE(effects_of(scene).contains("indirect_diffuse")) << "the camera is inside";
-    scene.nodes[ball].scale = glm::dvec3(1.0);
+    scene.nodes[ball].transform.scale = glm::dvec3(1.0);
     const int floor = add_mesh(scene, make_quad(4.0, 4.0, white), {0.0, -0.5, 0.0}, z_to_up);
     EXPECT_TRUE(effects_of(scene).contains("indirect_diffuse"));
     scene.nodes[floor].visible = 0.0;
@@ -71,9 +71,9 @@ TEST(EffectsPlan, FX02_OrthographicRaysMayStartInsideABodyBesideTheCamera) {
     const int ball = add_mesh(scene, make_faceted_sphere(1.0, 16, white), {2.0, 0.0, 3.0});
     add_light(scene, Light::Kind::point, glm::dvec3(3.0), {2.0, 0.0, 3.0});
     EXPECT_TRUE(effects_of(scene).contains("indirect_diffuse")) << "the camera's plane cuts the ball";
-    scene.nodes[ball].translation = glm::dvec3(2.0, 0.0, 0.0);
+    scene.nodes[ball].transform.translation = glm::dvec3(2.0, 0.0, 0.0);
     EXPECT_FALSE(effects_of(scene).contains("indirect_diffuse")) << "the ball is before the plane";
-    scene.nodes[ball].translation = glm::dvec3(12.0, 0.0, 3.0);
+    scene.nodes[ball].transform.translation = glm::dvec3(12.0, 0.0, 3.0);
     EXPECT_FALSE(effects_of(scene).contains("indirect_diffuse")) << "beside the picture";
 }
 
@@ -94,10 +94,10 @@ TEST(EffectsPlan, FX04_LampsThatShine) {
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0));
     add_mesh(scene, make_quad(0.5, 0.5, lamp), {0.0, 0.0, 4.0}, z_to_up * z_to_up);
     EXPECT_EQ(effects_of(scene), Names{"direct_light"}) << "an emission of 0";
-    scene.materials[lamp].emission = glm::dvec3(1.0);
+    scene.materials[lamp].glow.color = glm::dvec3(1.0);
     EXPECT_TRUE(effects_of(scene).contains("emission"));
     // A texture with one bright texel.
-    scene.materials[lamp].emission_texture = add_texture(scene, {0, 0, 0, 255});
+    scene.materials[lamp].textures[TextureSlot::emission] = add_texture(scene, {0, 0, 0, 255});
     EXPECT_FALSE(effects_of(scene).contains("emission")) << "a black texture";
     scene.images.back().bytes(1, 1) = {255, 0, 0, 255};
     EXPECT_TRUE(effects_of(scene).contains("emission"));
@@ -111,7 +111,7 @@ TEST(EffectsPlan, FX05_ShadowsNeedSomethingBetween) {
     const FrameOutput inside = Sequence(scene, planned_settings()).render(0);
     EXPECT_GT(inside.statistics.counts.rays.shadow, 0u) << "the lamp is inside a ball";
     EXPECT_EQ(inside.shaded.color(12, 8), Rgb(0.0f));
-    scene.nodes[ball].translation = glm::dvec3(0.0, 0.0, -5.0);
+    scene.nodes[ball].transform.translation = glm::dvec3(0.0, 0.0, -5.0);
     EXPECT_EQ(Sequence(scene, planned_settings()).render(0).statistics.counts.rays.shadow, 0u) << "behind the square";
 }
 
@@ -125,7 +125,7 @@ TEST(EffectsPlan, FX07_FX08_ShapesThatChange) {
     test.cage.points = 0;
     scene.cages.push_back(test.cage);
     Mesh surface;
-    surface.cage = 0;
+    surface.subdivision.cage = 0;
     surface.material = 0;
     scene.meshes.push_back(surface);
     tessellate_cage(scene, 0);
@@ -137,18 +137,18 @@ TEST(EffectsPlan, FX07_FX08_ShapesThatChange) {
 
     Scene skinned = make_skin_scene();
     add_camera(skinned, {4.0, -3.0, 9.0}, {5.0, -3.0, 2.0});
-    skinned.exposure = 1.0;
+    skinned.film.exposure = 1.0;
     EXPECT_FALSE(effects_of(skinned).contains("deformation")) << "joints at rest";
-    skinned.nodes[2].rotation =
+    skinned.nodes[2].transform.rotation =
         keyed<glm::dquat>({0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dquat(0.6, 0.0, 0.0, 0.8)});
     EXPECT_TRUE(effects_of(skinned).contains("deformation"));
     Mesh& mesh = scene.meshes[0];
     scene.nodes[1].meshes = {0};
-    mesh.targets.resize(1);
-    mesh.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 0.1f));
-    mesh.target_weights = {Track<double>(0.0)};
+    mesh.deformation.targets.resize(1);
+    mesh.deformation.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 0.1f));
+    mesh.deformation.target_weights = {Track<double>(0.0)};
     EXPECT_FALSE(effects_of(scene).contains("deformation")) << "weights of 0";
-    mesh.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
+    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
     EXPECT_TRUE(effects_of(scene).contains("deformation"));
 }
 
@@ -164,14 +164,15 @@ TEST(EffectsPlan, FX11_ABlackEnvironmentIsNone) {
 
 TEST(EffectsPlan, FX17_GlassBeforeABrightWindow) {
     Scene scene = make_lit_square();
-    scene.environment = Track<glm::dvec3>(glm::dvec3(20.0));
-    Material pane{.base_color = glm::dvec3(1.0), .metallic = 0.0, .roughness = 0.0, .transmission = 1.0};
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(20.0));
+    Material pane{
+        .base_color = glm::dvec3(1.0), .gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}};
     scene.materials.push_back(pane);
     const int node = add_mesh(scene, make_quad(0.5, 0.5, 1), {0.0, 0.0, 8.0});
     EXPECT_FALSE(effects_of(scene).contains("refraction")) << "behind the camera";
     for (const double ior : {1.0, 1.5}) {
-        scene.materials[1].ior = ior;
-        scene.nodes[node].translation = glm::dvec3(0.0, 0.9, 0.0);
+        scene.materials[1].gloss.ior = ior;
+        scene.nodes[node].transform.translation = glm::dvec3(0.0, 0.9, 0.0);
         EXPECT_TRUE(effects_of(scene).contains("refraction")) << ior;
         const FrameOutput seen = Sequence(scene, planned_settings()).render(0);
         double brightest = 0.0;

@@ -179,11 +179,11 @@ TEST(SceneSettings, WhatTheRendererWritesComesBackThroughAFile) {
     settings.cache.accuracy = 0.07;
     settings.perception.guide = Guide::full;
     Scene scene;
-    scene.settings = setting_map(settings);
+    scene.source.settings = setting_map(settings);
     const Scene loaded = read_scene_text(write_scene_text(scene, "a.json"), "a.json").scene;
-    EXPECT_EQ(loaded.settings, scene.settings);
+    EXPECT_EQ(loaded.source.settings, scene.source.settings);
     RenderSettings again;
-    apply_settings(again, loaded.settings, "a.json");
+    apply_settings(again, loaded.source.settings, "a.json");
     EXPECT_EQ(again, settings);
 }
 

@@ -13,13 +13,13 @@ namespace {
 /// A ball and a box on a floor, with everything that causes rays: lamp, point light, sky, glossy surfaces.
 Scene make_everything(bool mirrored = false) {
     Scene scene;
-    scene.exposure = 1.0;
-    scene.environment = Track<glm::dvec3>(glm::dvec3(0.2, 0.25, 0.3));
+    scene.film.exposure = 1.0;
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.2, 0.25, 0.3));
     const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(8.0, 7.0, 5.0));
-    scene.materials.push_back({.base_color = glm::dvec3(0.8, 0.3, 0.2), .metallic = 0.2, .roughness = 0.3});
+    scene.materials.push_back({.base_color = glm::dvec3(0.8, 0.3, 0.2), .gloss = {.metallic = 0.2, .roughness = 0.3}});
     const int root = add_node(scene, glm::dvec3(0.0), no_turn);
-    if (mirrored) scene.nodes[0].scale = glm::dvec3(-1.0, 1.0, 1.0);
+    if (mirrored) scene.nodes[0].transform.scale = glm::dvec3(-1.0, 1.0, 1.0);
     Shape ball{.kind = Shape::Kind::sphere, .radius = 0.6, .segments = 32};
     add_mesh(scene, make_quad(6.0, 6.0, white), glm::dvec3(0.0), z_to_up, root);
     add_mesh(scene, make_shape_mesh(ball, 2), {0.7, 0.6, 0.2}, no_turn, root);
@@ -91,7 +91,7 @@ TEST(Frame, RecordsPerPixelAddUp) {
 
 TEST(Frame, EmissionCoverageAndBackground) {
     Scene scene;
-    scene.environment = Track<glm::dvec3>(glm::dvec3(0.5, 0.25, 0.125));
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.5, 0.25, 0.125));
     add_mesh(scene, make_quad(1.0, 20.0, add_lambert(scene, glm::dvec3(0.0), {2.0, 4.0, 8.0})), {0.5, 0.0, -2.0});
     add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
     const Stage stage(std::move(scene), 16, 12);
@@ -133,7 +133,7 @@ TEST(Frame, SamplesOfAPixelFollowItsArea) {
 TEST(Frame, MC03_SamplesThatAreNotFiniteAreThrownAwayAndCounted) {
     Scene scene;
     add_mesh(scene, make_quad(1.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(3e38))), {0.5, 0.0, -2.0});
-    scene.materials[0].emission_strength = 10.0;  // more than a float can hold
+    scene.materials[0].glow.strength = 10.0;  // more than a float can hold
     add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
     const Stage stage(std::move(scene), 16, 12);
     const ShadedFrame out = shade(stage, plain_settings(0.15, 16));
@@ -149,7 +149,7 @@ TEST(Frame, MC03_SamplesThatAreNotFiniteAreThrownAwayAndCounted) {
 TEST(Frame, ManySamplesOfOneValueKeepThatValue) {
     // A float sum of 65,536 samples of .1 is off by 0.06 %.
     Scene scene;
-    scene.environment = Track<glm::dvec3>(glm::dvec3(0.1, 0.7, 1.0 / 3.0));
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.1, 0.7, 1.0 / 3.0));
     const Stage stage(std::move(scene), 2, 2);
     RenderSettings settings = plain_settings(0.15, 16);
     settings.sampling.spp = 65'536;
@@ -176,8 +176,8 @@ TEST(Frame, TheSeedChangesNoiseOnly) {
 /// Without randomness: point light, no bounces or reflections, flat facets.
 Scene make_plain_scene(bool mirrored) {
     Scene scene = make_everything(mirrored);
-    scene.environment.reset();
-    scene.materials[1].emission = glm::dvec3(0.0);
+    scene.environment.radiance.reset();
+    scene.materials[1].glow.color = glm::dvec3(0.0);
     return scene;
 }
 
@@ -231,7 +231,7 @@ TEST(Frame, KF17_MirroredWithLampAndBounce) {
 TEST(Frame, KF18_FlattenedObjectsLeaveAPictureWithoutHoles) {
     const auto render = [](const glm::dvec3& scale, bool keep) {
         Scene scene = make_everything();
-        scene.nodes[3].scale = scale;  // the box
+        scene.nodes[3].transform.scale = scale;  // the box
         if (!keep) scene.nodes[3].visible = 0.0;
         const Stage stage(std::move(scene), 40, 30);
         const ShadedFrame out = shade(stage, plain_settings(0.2, 32));
@@ -249,7 +249,7 @@ TEST(Frame, KF20_ScaleThroughZero) {
     scale.sampling.kind = TimeSampling::Kind::acyclic;
     scale.sampling.times = {0.0, 2.0 / 30.0};
     scale.values = {glm::dvec3(1.0), glm::dvec3(1.0, -1.0, 1.0)};
-    scene.nodes[3].scale = scale;
+    scene.nodes[3].transform.scale = scale;
     RenderSettings settings = plain_settings(0.3, 16);
     settings.picture.width = 40;
     settings.picture.height = 30;
@@ -263,8 +263,8 @@ TEST(Frame, KF20_ScaleThroughZero) {
         bool box_seen = false;
         for (std::size_t i = 0; i < out.hits.size(); ++i) {
             box_seen = box_seen || out.hits.pixels[i].instance == 2;
-            ASSERT_TRUE(std::isfinite(out.velocity.pixels[i]) && std::isfinite(out.alpha.pixels[i]));
-            ASSERT_GE(out.alpha.pixels[i], 0.3f * 0.9999f);
+            ASSERT_TRUE(std::isfinite(out.velocity.pixels[i]) && std::isfinite(out.limits.alpha.pixels[i]));
+            ASSERT_GE(out.limits.alpha.pixels[i], 0.3f * 0.9999f);
             ASSERT_TRUE(std::isfinite(out.shaded.color.pixels[i].x));
         }
         // Upright, without volume, upside down.

@@ -88,7 +88,7 @@ int count_beyond_threshold(const Scene& scene, RenderSettings settings, const Tr
     for (int y = 0; y < settings.picture.height; ++y) {
         for (int x = 0; x < settings.picture.width; ++x) {
             const double error = std::abs(luminance(out.shaded.color(x, y)) - truth(x, y));
-            if (error * scene.viewing.display_white > out.threshold(x, y)) ++beyond;
+            if (error * scene.film.viewing.display_white > out.limits.threshold(x, y)) ++beyond;
         }
     }
     return beyond;
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(All, SamplingRules,
 
 TEST_P(SamplingRules, MC17_WithoutLightEveryPixelIsBlackAndStops) {
     Scene scene = make_scene_seen_along_z(1.0);
-    scene.environment.reset();
+    scene.environment.radiance.reset();
     add_mesh(scene, make_quad(5.0, 5.0, add_lambert(scene, glm::dvec3(0.5))));
     const FrameOutput out = Sequence(scene, settings_of(GetParam(), 12, 8)).render(0);
     for (const Rgb& color : out.shaded.color.pixels) EXPECT_EQ(color, Rgb(0.0f));
@@ -116,7 +116,7 @@ constexpr double floor_pixel = 0.025;  // m
 /// The floor under the edge, seen from above.
 Scene make_penumbra() {
     Scene scene = Penumbra::make_scene();
-    scene.exposure = 1.0;
+    scene.film.exposure = 1.0;
     add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(Penumbra::albedo))), glm::dvec3(0.0), z_to_up);
     add_camera(scene, {0.0, 0.9, 0.0}, glm::dvec3(0.0));
     scene.cameras[0].orthographic = true;
@@ -196,7 +196,7 @@ TEST_P(SamplingRules, MC23_AThousandMovingLights) {
     if (GetParam() == Sampling::threshold) return;  // as below
     Scene scene = make_many_lights();
     for (int i = 0; i < lit_points; ++i) {
-        scene.nodes[scene.nodes.size() - lit_points + static_cast<std::size_t>(i)].translation =
+        scene.nodes[scene.nodes.size() - lit_points + static_cast<std::size_t>(i)].transform.translation =
             keyed<glm::dvec3>({0.0, 10.0 / frame_rate}, {place_light(i), place_light(i, 0.8)});
     }
     RenderSettings settings = settings_of(GetParam(), lit_width, lit_height);
@@ -237,7 +237,7 @@ TEST_P(SamplingRules, MC27_ATurningSquareWhileTheShutterIsOpen) {
     const int node = add_mesh(scene, make_quad(2.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true)));
     AxisRotation rotation{.axis = {0.0, 0.0, 1.0},
                           .angle = keyed<double>({-0.5 / frame_rate, 0.5 / frame_rate}, {0.2, 0.2 + turn})};
-    scene.nodes[node].axis_rotation = rotation;
+    scene.nodes[node].transform.axis_rotation = rotation;
     const Truth truth = [turn](int x, int y) {
         constexpr int times = 4096;
         int inside = 0;

@@ -77,8 +77,8 @@ TEST(RunStudy, StoppedAnywhereEndsWithTheSameNumbers) {
     const ScratchFolder whole, stopped;
     Study study = small_study();
     study.sweep.pop_back();
-    study.seeds = {0, 5};
-    study.repeats = 2;
+    study.runs.seeds = {0, 5};
+    study.runs.repeats = 2;
     const PreparedStudy prepared = prepare_study(study);
     const StudyResults expected = run_study(prepared, whole.path());
     EXPECT_EQ(expected.made, 8u);
@@ -109,7 +109,7 @@ TEST(RunStudy, TwoSeedsTellWhatChanceChanges) {
     study.sweep = {{"spp", {1.0}}};
     study.scenes[0].frames = "3,4,6";
     const auto run = [&](std::vector<std::uint32_t> seeds) {
-        study.seeds = std::move(seeds);
+        study.runs.seeds = std::move(seeds);
         return run_study(prepare_study(study), folder.path()).variants.front();
     };
     EXPECT_FALSE(run({0}).metrics.contains("seed_seen"));

@@ -149,8 +149,8 @@ TEST(StudyFile, HoldsWhatTheTextSays) {
     EXPECT_EQ(study.reference.passes, 3);
     EXPECT_EQ(study.reference.spp, 5);
     EXPECT_EQ(study.reference.settings, (SettingMap{{"gather", 64.0}}));
-    EXPECT_EQ(study.repeats, 2);
-    EXPECT_EQ(study.seeds, (std::vector<std::uint32_t>{0, 7}));
+    EXPECT_EQ(study.runs.repeats, 2);
+    EXPECT_EQ(study.runs.seeds, (std::vector<std::uint32_t>{0, 7}));
     std::vector<std::string> names;
     for (const StudyVariant& variant : list_variants(study)) names.push_back(variant.name);
     EXPECT_EQ(names, (std::vector<std::string>{"guide=none,error=0.5", "guide=none,error=1", "guide=full,error=0.5",
@@ -165,7 +165,7 @@ TEST(StudyFile, HasDefaults) {
     EXPECT_EQ(study.title, "s");
     EXPECT_EQ(std::get<std::string>(study.settings.at("size")), "320x240");
     EXPECT_EQ(study.reference.kind, "path");
-    EXPECT_EQ(study.seeds, std::vector<std::uint32_t>{0});
+    EXPECT_EQ(study.runs.seeds, std::vector<std::uint32_t>{0});
     EXPECT_EQ(study.viewers.size(), 1u);
     for (const Metric& metric : list_metrics(study)) EXPECT_FALSE(metric.name.starts_with("seed_")) << "needs two";
 }

@@ -20,7 +20,7 @@ TEST(Bsdf, MC15_Reciprocity) {
     for (const float alpha : widths) {
         for (const float stretch : {0.0f, 0.5f}) {
             SurfaceMaterial material = make_white_plastic(alpha);
-            material.stretch = stretch;
+            material.gloss.stretch = stretch;
             int lit = 0;
             for (int i = 0; i < 4000; ++i) {
                 const glm::vec3 a = direction_of(unit(engine), angle(engine));
@@ -152,7 +152,7 @@ TEST(Bsdf, MC08_SampleWeightsDoNotExceedOne) {
 TEST(Bsdf, FresnelStaysBetweenZeroAndOne) {
     for (const float f0 : {0.0f, 0.04f, 1.0f}) {
         SurfaceMaterial material = make_white_plastic(0.5f);
-        material.f0_max = f0;
+        material.gloss.f0_max = f0;
         for (int i = 0; i <= 100; ++i) {
             const float transmission = diffuse_transmission(material, static_cast<float>(i) / 100.0f);
             ASSERT_GE(transmission, 0.0f);

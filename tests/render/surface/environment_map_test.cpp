@@ -77,7 +77,7 @@ TEST(EnvironmentMap, FX11_MC24_ABlackPictureIsNoLight) {
     add_mesh(scene, make_quad(8.0, 8.0, add_lambert(scene, glm::dvec3(0.8))), {0.0, 0.0, -2.0});
     const Stage stage(std::move(scene), 8, 6);
     EXPECT_EQ(stage.lights.count(), 0);
-    EXPECT_EQ(sample_environment(*stage.shading.environment_map, {0.3f, 0.4f}).pdf, 0.0f);
+    EXPECT_EQ(sample_environment(*stage.shading.environment.map, {0.3f, 0.4f}).pdf, 0.0f);
     const ShadedFrame out = shade(stage, path_settings(2, 4));
     for (const Rgb& pixel : out.color.pixels) EXPECT_EQ(pixel, Rgb(0.0f));
     EXPECT_EQ(out.counts.invalid_samples, 0u);
@@ -212,7 +212,7 @@ TEST(EnvironmentMap, MC24_ATurnedPictureIsATurnedScene) {
     Scene still, turned;
     add_surroundings(still, picture);
     add_surroundings(turned, picture);
-    turned.environment_rotation = turn;
+    turned.environment.rotation = turn;
     const Stage a(still), b(turned);
     std::mt19937 engine(8);
     std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);

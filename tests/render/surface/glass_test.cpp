@@ -110,10 +110,10 @@ TEST(Glass, MC25_SmoothRefractionFollowsSnell) {
 TEST(Glass, MC25_ThicknessZeroIsASheetThatTurnsNothing) {
     const glm::vec3 view = direction_of(0.3f);
     SurfaceMaterial sheet = make_glass(0.0f, 1.5f, false);
-    sheet.glass_tint = {0.5f, 0.25f, 1.0f};
+    sheet.glass.tint = {0.5f, 0.25f, 1.0f};
     const GlassSample passed = sample_glass(sheet, view, {0.4f, 0.6f}, 0.99f);
     EXPECT_EQ(passed.light, -view);
-    EXPECT_EQ(passed.weight, sheet.glass_tint);
+    EXPECT_EQ(passed.weight, sheet.glass.tint);
     const GlassSample reflected = sample_glass(sheet, view, {0.4f, 0.6f}, 0.0f);
     EXPECT_EQ(reflected.light, glm::vec3(-view.x, -view.y, view.z));
     EXPECT_EQ(reflected.weight, Rgb(1.0f));
@@ -158,7 +158,7 @@ ViewedSurface make_wall(int material, float ior, bool front, float attenuation =
     ViewedSurface surface = make_viewed(make_glass(0.0f, ior, true), {0.0f, 0.0f, 1.0f});
     surface.point.material = material;
     surface.point.front = front;
-    surface.material.attenuation = Rgb(attenuation);
+    surface.material.glass.attenuation = Rgb(attenuation);
     return surface;
 }
 

@@ -58,7 +58,7 @@ TEST(LambertHit, PacketsFindTheNormalsOfSingleRays) {
     Scene scene = make_colored_scene();
     const int white = add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true);
     add_mesh(scene, make_box({0.3, 0.3, 0.3}, white), {-0.6, -0.4, 0.2});
-    scene.nodes.back().axis_rotation = AxisRotation{{0.0, 0.6, 0.8}, keyed<double>({0.0, 1.0}, {0.1, 0.9})};
+    scene.nodes.back().transform.axis_rotation = AxisRotation{{0.0, 0.6, 0.8}, keyed<double>({0.0, 1.0}, {0.1, 0.9})};
     const Stage stage(std::move(scene), 40, 30);
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
     std::vector<Ray> rays;

@@ -44,11 +44,11 @@ void expect_equal(double found, double expected) {
 }
 
 TEST(Layers, AnisotropicLobe) {
-    Material material{.base_color = glm::dvec3(0.8), .roughness = 0.5};
+    Material material{.base_color = glm::dvec3(0.8), .gloss = {.roughness = 0.5}};
     SurfaceMaterial brushed = evaluate_plain(material);
     // strength 0.6 along x
-    brushed.stretch = 0.36f;
-    brushed.tangent = {1.0f, 0.0f, 0.0f};
+    brushed.gloss.stretch = 0.36f;
+    brushed.gloss.tangent = {1.0f, 0.0f, 0.0f};
     const double at = 0.25 * (1.0 - 0.36) + 0.36, ab = 0.25;
     for (const Directions& d : some_directions()) {
         const double fresnel = schlick(0.8, 1.0, glm::dot(d.view, d.half()));
@@ -59,21 +59,22 @@ TEST(Layers, AnisotropicLobe) {
 TEST(Layers, AnisotropyTurnsWithItsAngle) {
     // Unit texture coordinates on a unit quad, so that the tangent is x.
     for (const double angle : {0.0, 0.5, 2.0}) {
-        MaterialStage square({.anisotropy = 0.6, .anisotropy_rotation = angle});
+        MaterialStage square({.layers = {.anisotropy = 0.6, .anisotropy_rotation = angle}});
         square.point.edges[0] = {1.0f, 0.0f, 0.0f};
         square.point.edges[1] = {0.0f, 1.0f, 0.0f};
         square.point.uv_edges[0][0] = {1.0f, 0.0f};
         square.point.uv_edges[0][1] = {0.0f, -1.0f};  // glTF's v grows downwards
         const SurfaceMaterial surface = square.evaluate();
-        EXPECT_NEAR(surface.stretch, 0.36f, 1e-6f);
-        EXPECT_NEAR(surface.tangent.x, std::cos(angle), 1e-6);
-        EXPECT_NEAR(surface.tangent.y, std::sin(angle), 1e-6);
+        EXPECT_NEAR(surface.gloss.stretch, 0.36f, 1e-6f);
+        EXPECT_NEAR(surface.gloss.tangent.x, std::cos(angle), 1e-6);
+        EXPECT_NEAR(surface.gloss.tangent.y, std::sin(angle), 1e-6);
     }
 }
 
 TEST(Layers, Clearcoat) {
-    Material material{
-        .base_color = glm::dvec3(0.6), .metallic = 0.0, .specular = 0.0, .clearcoat = 0.7, .clearcoat_roughness = 0.5};
+    Material material{.base_color = glm::dvec3(0.6),
+                      .gloss = {.metallic = 0.0, .specular = 0.0},
+                      .layers = {.clearcoat = 0.7, .clearcoat_roughness = 0.5}};
     const SurfaceMaterial coated = evaluate_plain(material);
     for (const Directions& d : some_directions()) {
         // mix(base, D V, clearcoat * fresnel(0.04, N.V))
@@ -84,10 +85,8 @@ TEST(Layers, Clearcoat) {
 
 TEST(Layers, Sheen) {
     Material material{.base_color = glm::dvec3(0.0),
-                      .metallic = 0.0,
-                      .specular = 0.0,
-                      .sheen_color = glm::dvec3(0.3),
-                      .sheen_roughness = 0.6};
+                      .gloss = {.metallic = 0.0, .specular = 0.0},
+                      .layers = {.sheen_color = glm::dvec3(0.3), .sheen_roughness = 0.6}};
     const SurfaceMaterial cloth = evaluate_plain(material);
     for (const Directions& d : some_directions()) {
         const double cos_h = d.half().z, n = 1.0 / 0.36;
@@ -99,7 +98,8 @@ TEST(Layers, Sheen) {
 
 /// KHR_materials_transmission: the light's direction is mirrored at the surface; 1 - F of it passes, tinted.
 TEST(Layers, Transmission) {
-    Material material{.base_color = glm::dvec3(0.6), .metallic = 0.0, .roughness = 0.6, .transmission = 1.0};
+    Material material{
+        .base_color = glm::dvec3(0.6), .gloss = {.metallic = 0.0, .roughness = 0.6}, .glass = {.transmission = 1.0}};
     const SurfaceMaterial frosted = evaluate_plain(material);
     EXPECT_FALSE(frosted.has_diffuse());
     EXPECT_FALSE(frosted.has_glossy());
@@ -111,47 +111,46 @@ TEST(Layers, Transmission) {
         expect_equal(scattered(frosted, {d.view, {d.light.x, d.light.y, -d.light.z}}), 0.6 * (1.0 - fresnel) * lobe);
     }
     // Half of the base passes light, and metal does not at all.
-    material.transmission = 0.5;
-    material.metallic = 0.2;
+    material.glass.transmission = 0.5;
+    material.gloss.metallic = 0.2;
     const SurfaceMaterial mixed = evaluate_plain(material);
-    EXPECT_NEAR(mixed.glass, 0.4f, 1e-6f);
+    EXPECT_NEAR(mixed.glass.share, 0.4f, 1e-6f);
     EXPECT_NEAR(mixed.diffuse.x, 0.6f * 0.8f * 0.5f, 1e-6f);
-    EXPECT_NEAR(mixed.f0.x, 0.04f * 0.4f + 0.6f * 0.2f, 1e-6f);
+    EXPECT_NEAR(mixed.gloss.f0.x, 0.04f * 0.4f + 0.6f * 0.2f, 1e-6f);
 }
 
 /// KHR_materials_volume: transmittance is colour^(distance / attenuation distance).
 TEST(Layers, Volume) {
-    Material material{.metallic = 0.0,
-                      .roughness = 0.0,
-                      .ior = 1.4,
-                      .transmission = 1.0,
-                      .attenuation_distance = 0.2,
-                      .attenuation_color = glm::dvec3(0.5, 0.25, 1.0)};
+    Material material{
+        .gloss = {.metallic = 0.0, .roughness = 0.0, .ior = 1.4},
+        .glass = {.transmission = 1.0, .attenuation_distance = 0.2, .attenuation_color = glm::dvec3(0.5, 0.25, 1.0)}};
     const SurfaceMaterial sheet = evaluate_plain(material);
-    EXPECT_FALSE(sheet.volume);
-    EXPECT_EQ(sheet.attenuation, Rgb(0.0f));
-    EXPECT_FLOAT_EQ(evaluate_plain(material, false).ior_ratio, 1.4f);
-    material.thickness = 0.01;
+    EXPECT_FALSE(sheet.glass.volume);
+    EXPECT_EQ(sheet.glass.attenuation, Rgb(0.0f));
+    EXPECT_FLOAT_EQ(evaluate_plain(material, false).glass.ior_ratio, 1.4f);
+    material.glass.thickness = 0.01;
     for (const bool front : {true, false}) {
         const SurfaceMaterial solid = evaluate_plain(material, front);
-        EXPECT_TRUE(solid.volume);
-        EXPECT_FLOAT_EQ(solid.ior_ratio, front ? 1.4f : 1.0f / 1.4f);
-        EXPECT_NEAR(std::exp(-solid.attenuation.x * 0.4f), 0.25f, 1e-6f);
-        EXPECT_NEAR(std::exp(-solid.attenuation.y * 0.1f), 0.5f, 1e-6f);
-        EXPECT_EQ(solid.attenuation.z, 0.0f);
+        EXPECT_TRUE(solid.glass.volume);
+        EXPECT_FLOAT_EQ(solid.glass.ior_ratio, front ? 1.4f : 1.0f / 1.4f);
+        EXPECT_NEAR(std::exp(-solid.glass.attenuation.x * 0.4f), 0.25f, 1e-6f);
+        EXPECT_NEAR(std::exp(-solid.glass.attenuation.y * 0.1f), 0.5f, 1e-6f);
+        EXPECT_EQ(solid.glass.attenuation.z, 0.0f);
     }
-    material.attenuation_distance = 0.0;
-    EXPECT_EQ(evaluate_plain(material).attenuation, Rgb(0.0f));
+    material.glass.attenuation_distance = 0.0;
+    EXPECT_EQ(evaluate_plain(material).glass.attenuation, Rgb(0.0f));
     // Black lets 1e-6 through instead of none, so that the logarithm is finite.
-    material.attenuation_distance = 1.0;
-    material.attenuation_color = glm::dvec3(0.0);
-    EXPECT_NEAR(evaluate_plain(material).attenuation.x, 13.8155f, 1e-3f);
+    material.glass.attenuation_distance = 1.0;
+    material.glass.attenuation_color = glm::dvec3(0.0);
+    EXPECT_NEAR(evaluate_plain(material).glass.attenuation.x, 13.8155f, 1e-3f);
 }
 
 /// KHR_materials_unlit: a constant base colour; all other properties are ignored.
 TEST(SurfaceMaterial, UnlitShowsItsBaseColourAndReflectsNothing) {
-    Material material{
-        .base_color = glm::dvec3(0.5, 0.25, 0.75), .metallic = 0.5, .emission = glm::dvec3(9.0), .unlit = true};
+    Material material{.base_color = glm::dvec3(0.5, 0.25, 0.75),
+                      .glow = {.color = glm::dvec3(9.0)},
+                      .gloss = {.metallic = 0.5},
+                      .unlit = true};
     for (const bool front : {true, false}) {
         const SurfaceMaterial surface = evaluate_plain(material, front, {0.5f, 1.0f, 1.0f, 1.0f});
         EXPECT_EQ(surface.emission, Rgb(0.25f, 0.25f, 0.75f));
@@ -161,7 +160,7 @@ TEST(SurfaceMaterial, UnlitShowsItsBaseColourAndReflectsNothing) {
 }
 
 TEST(SurfaceMaterial, SpecularZeroIsPureLambert) {
-    Material material{.base_color = glm::dvec3(0.2, 0.5, 0.8), .metallic = 0.0, .specular = 0.0};
+    Material material{.base_color = glm::dvec3(0.2, 0.5, 0.8), .gloss = {.metallic = 0.0, .specular = 0.0}};
     const SurfaceMaterial surface = evaluate_plain(material);
     EXPECT_FALSE(surface.has_glossy());
     EXPECT_EQ(surface.diffuse, Rgb(0.2f, 0.5f, 0.8f));
@@ -172,33 +171,33 @@ TEST(SurfaceMaterial, SpecularZeroIsPureLambert) {
 }
 
 TEST(SurfaceMaterial, GltfNumbersBecomeTheTwoLayers) {
-    Material plastic{.base_color = glm::dvec3(0.5), .metallic = 0.0, .roughness = 0.5};
+    Material plastic{.base_color = glm::dvec3(0.5), .gloss = {.metallic = 0.0, .roughness = 0.5}};
     SurfaceMaterial surface = evaluate_plain(plastic);
-    EXPECT_NEAR(surface.f0.x, 0.04f, 1e-6f);  // index 1.5
-    EXPECT_EQ(surface.f90, 1.0f);
-    EXPECT_EQ(surface.alpha, 0.25f);
+    EXPECT_NEAR(surface.gloss.f0.x, 0.04f, 1e-6f);  // index 1.5
+    EXPECT_EQ(surface.gloss.f90, 1.0f);
+    EXPECT_EQ(surface.gloss.alpha, 0.25f);
     EXPECT_EQ(surface.diffuse.x, 0.5f);
 
-    Material metal{.base_color = glm::dvec3(0.9, 0.6, 0.2), .roughness = 0.0};
+    Material metal{.base_color = glm::dvec3(0.9, 0.6, 0.2), .gloss = {.roughness = 0.0}};
     surface = evaluate_plain(metal);
-    EXPECT_EQ(surface.f0, Rgb(0.9f, 0.6f, 0.2f));
+    EXPECT_EQ(surface.gloss.f0, Rgb(0.9f, 0.6f, 0.2f));
     EXPECT_FALSE(surface.has_diffuse());
-    EXPECT_EQ(surface.alpha, 0.0f);
+    EXPECT_EQ(surface.gloss.alpha, 0.0f);
     EXPECT_TRUE(surface.is_mirror());
 
-    plastic.specular_color = glm::dvec3(2.0, 1.0, 0.5);  // above 1 is allowed, F0 stays at most 1
-    plastic.ior = 2.0;
+    plastic.gloss.specular_color = glm::dvec3(2.0, 1.0, 0.5);  // above 1 is allowed, F0 stays at most 1
+    plastic.gloss.ior = 2.0;
     surface = evaluate_plain(plastic);
-    EXPECT_NEAR(surface.f0.x, 2.0f / 9.0f, 1e-6f);
-    EXPECT_NEAR(surface.f0.z, 0.5f / 9.0f, 1e-6f);
-    EXPECT_NEAR(surface.f0_max, 2.0f / 9.0f, 1e-6f);
+    EXPECT_NEAR(surface.gloss.f0.x, 2.0f / 9.0f, 1e-6f);
+    EXPECT_NEAR(surface.gloss.f0.z, 0.5f / 9.0f, 1e-6f);
+    EXPECT_NEAR(surface.gloss.f0_max, 2.0f / 9.0f, 1e-6f);
 
     surface = evaluate_plain(metal, true, {0.5f, 1.0f, 1.0f, 1.0f});
-    EXPECT_NEAR(surface.f0.x, 0.45f, 1e-6f);  // vertex colours multiply
+    EXPECT_NEAR(surface.gloss.f0.x, 0.45f, 1e-6f);  // vertex colours multiply
 }
 
 TEST(SurfaceMaterial, EmissionLeavesTheFrontAndBothSidesIfDoubleSided) {
-    Material lamp{.emission = glm::dvec3(1.0, 2.0, 3.0), .emission_strength = 2.0};
+    Material lamp{.glow = {.color = glm::dvec3(1.0, 2.0, 3.0), .strength = 2.0}};
     EXPECT_EQ(evaluate_plain(lamp, true).emission, Rgb(2.0f, 4.0f, 6.0f));
     EXPECT_EQ(evaluate_plain(lamp, false).emission, Rgb(0.0f));
     lamp.double_sided = true;
@@ -206,16 +205,16 @@ TEST(SurfaceMaterial, EmissionLeavesTheFrontAndBothSidesIfDoubleSided) {
 }
 
 TEST(SurfaceMaterial, TexturesMultiplyTheFactors) {
-    Material material{.emission = glm::dvec3(10.0)};
-    material.base_color_texture.image = material.metallic_roughness_texture.image = 0;
-    material.emission_texture.image = material.specular_texture.image = 0;
+    Material material{.glow = {.color = glm::dvec3(10.0)}};
+    material.textures[TextureSlot::base_color].image = material.textures[TextureSlot::metallic_roughness].image = 0;
+    material.textures[TextureSlot::emission].image = material.textures[TextureSlot::specular].image = 0;
     const SurfaceMaterial surface =
         MaterialStage(material, {{.bytes = Image<glm::u8vec4>(1, 1, glm::u8vec4(255, 128, 51, 0))}}).evaluate();
     const float rough = 128.0f / 255.0f, metal = 51.0f / 255.0f, green = srgb_to_linear(128.0f / 255.0f);
-    EXPECT_NEAR(surface.alpha, rough * rough, 1e-6f);
+    EXPECT_NEAR(surface.gloss.alpha, rough * rough, 1e-6f);
     EXPECT_NEAR(surface.diffuse.y, green * (1.0f - metal), 1e-6f);
-    EXPECT_NEAR(surface.f0.x, metal, 1e-6f);  // specular 0 by the texture's A: only the metal's share is left
-    EXPECT_NEAR(surface.f90, metal, 1e-6f);
+    EXPECT_NEAR(surface.gloss.f0.x, metal, 1e-6f);  // specular 0 by the texture's A: only the metal's share is left
+    EXPECT_NEAR(surface.gloss.f90, metal, 1e-6f);
     EXPECT_NEAR(surface.emission.y, 10.0f * green, 1e-5f);
 }
 

@@ -37,11 +37,9 @@ TEST(Microfacets, MC07_RoughnessZeroIsAMirror) {
     const glm::vec3 view = direction_of(0.4f);
     for (const double roughness : {0.0, 1e-6, 0.03}) {
         Material metal{.base_color = glm::dvec3(0.5),
-                       .metallic = 0.5,
-                       .roughness = roughness,
-                       .transmission = 0.5,
-                       .clearcoat = 1.0,
-                       .clearcoat_roughness = roughness};
+                       .gloss = {.metallic = 0.5, .roughness = roughness},
+                       .glass = {.transmission = 0.5},
+                       .layers = {.clearcoat = 1.0, .clearcoat_roughness = roughness}};
         const SurfaceMaterial material = evaluate_plain(metal);
         EXPECT_TRUE(material.is_mirror() && material.is_coat_mirror() && material.is_glass_smooth());
         EXPECT_EQ(evaluate_glossy(material, view, {-view.x, -view.y, view.z}), Rgb(0.0f));
@@ -63,10 +61,10 @@ TEST(Microfacets, MC07_RoughnessZeroIsAMirror) {
 
 TEST(Microfacets, MC07_BrushedAtRoughnessZeroIsNoMirror) {
     SurfaceMaterial material = make_metal(0.0f);
-    material.stretch = 1.0f;
+    material.gloss.stretch = 1.0f;
     EXPECT_FALSE(material.is_mirror());
     EXPECT_EQ(material.widths(), glm::vec2(1.0f, min_ggx_alpha));
-    material.stretch = 1e-4f;
+    material.gloss.stretch = 1e-4f;
     EXPECT_TRUE(material.is_mirror());
 }
 

@@ -18,17 +18,17 @@ struct Kind {
 
 std::vector<Kind> list_kinds() {
     Material lambert, metal, mirror, plastic, coated, cloth;
-    lambert.metallic = lambert.specular = 0.0;
-    metal.roughness = 0.4;
-    mirror.roughness = 0.0;
-    plastic.metallic = 0.0;
-    plastic.roughness = 0.6;
+    lambert.gloss.metallic = lambert.gloss.specular = 0.0;
+    metal.gloss.roughness = 0.4;
+    mirror.gloss.roughness = 0.0;
+    plastic.gloss.metallic = 0.0;
+    plastic.gloss.roughness = 0.6;
     coated = plastic;
-    coated.clearcoat = 1.0;
-    coated.clearcoat_roughness = 0.3;
+    coated.layers.clearcoat = 1.0;
+    coated.layers.clearcoat_roughness = 0.3;
     cloth = lambert;
-    cloth.sheen_color = glm::dvec3(1.0);
-    cloth.sheen_roughness = 0.5;
+    cloth.layers.sheen_color = glm::dvec3(1.0);
+    cloth.layers.sheen_roughness = 0.5;
     return {{"Lambert", lambert}, {"metal", metal},   {"mirror", mirror},
             {"plastic", plastic}, {"coated", coated}, {"cloth", cloth}};
 }
@@ -38,7 +38,7 @@ Scene make_mapped_quad(Material material, const glm::u8vec4& texel) {
     Scene scene;
     SceneImage image{.bytes = Image<glm::u8vec4>(1, 1, texel)};
     scene.images.push_back(image);
-    material.normal_texture.image = material.clearcoat_normal_texture.image = 0;
+    material.textures[TextureSlot::normal].image = material.textures[TextureSlot::clearcoat_normal].image = 0;
     scene.materials.push_back(std::move(material));
     add_mesh(scene, make_quad(4.0, 4.0, 0));
     add_light(scene, Light::Kind::point, glm::dvec3(100.0), {0.3, -0.2, -1.0});
@@ -153,7 +153,7 @@ TEST(NormalMap, MC18_TangentsOfNarrowTriangles) {
     std::mt19937 engine(5);
     std::uniform_real_distribution<float> unit(0.1f, 1.0f), wide(1.0f, 2.0f);
     std::uniform_int_distribution<int> ulps(-8, 8);
-    MaterialStage square({.anisotropy = 1.0});
+    MaterialStage square({.layers = {.anisotropy = 1.0}});
     SurfacePoint& point = square.point;
     int narrow = 0;
     for (int i = 0; i < 5000; ++i) {
@@ -168,11 +168,11 @@ TEST(NormalMap, MC18_TangentsOfNarrowTriangles) {
         point.edges[1] = {nudge(point.edges[0].x), nudge(point.edges[0].y), 0.0f};
         const SurfaceMaterial surface = square.evaluate();
         if (static_cast<double>(d1.x) * d2.y == static_cast<double>(d1.y) * d2.x) {
-            EXPECT_EQ(surface.stretch, 0.0f) << "no area";
+            EXPECT_EQ(surface.gloss.stretch, 0.0f) << "no area";
             continue;
         }
         ++narrow;
-        ASSERT_NEAR(glm::distance(surface.tangent, exact_tangent(point)), 0.0f, 1e-6f) << i;
+        ASSERT_NEAR(glm::distance(surface.gloss.tangent, exact_tangent(point)), 0.0f, 1e-6f) << i;
     }
     EXPECT_GT(narrow, 4000);
 }

@@ -17,14 +17,11 @@ struct NamedMaterial {
 
 /// Every lobe of a material of glTF that has them all.
 SurfaceMaterial make_mixture(bool volume, bool front, double roughness) {
-    Material material{.metallic = 0.3,
-                      .roughness = roughness,
-                      .transmission = 0.5,
-                      .thickness = volume ? 1.0 : 0.0,
-                      .clearcoat = 0.7,
-                      .clearcoat_roughness = 0.6,
-                      .sheen_color = glm::dvec3(0.5),
-                      .sheen_roughness = 0.4};
+    Material material{
+        .gloss = {.metallic = 0.3, .roughness = roughness},
+        .glass = {.transmission = 0.5, .thickness = volume ? 1.0 : 0.0},
+        .layers = {
+            .clearcoat = 0.7, .clearcoat_roughness = 0.6, .sheen_color = glm::dvec3(0.5), .sheen_roughness = 0.4}};
     return evaluate_plain(material, front);
 }
 
@@ -41,9 +38,9 @@ std::vector<NamedMaterial> list_white_materials() {
         add("coat on metal", alpha, with_coat(make_metal(0.0f), alpha));
         add("coat on plastic", alpha, with_coat(make_white_plastic(0.5f), alpha, 0.8f));
         SurfaceMaterial brushed = make_metal(alpha);
-        brushed.tangent = {0.6f, 0.8f, 0.0f};
+        brushed.gloss.tangent = {0.6f, 0.8f, 0.0f};
         for (const float stretch : {0.04f, 0.8f, 1.0f}) {
-            brushed.stretch = stretch;
+            brushed.gloss.stretch = stretch;
             add("brushed metal, stretch " + std::to_string(stretch), alpha, brushed);
         }
         for (const float ratio : {1.0f, 1.001f, 1.05f, 1.5f, 1.0f / 1.5f, 2.4f, 0.7f, 0.0f}) {
@@ -132,10 +129,10 @@ TEST(Scatter, SheenTakesItsAlbedoFromTheLayerBelow) {
 /// Materials without mirrors, wide enough for a grid of directions.
 std::vector<NamedMaterial> list_rough_materials() {
     SurfaceMaterial brushed = make_metal(0.3f);
-    brushed.stretch = 0.5f;
-    brushed.tangent = {1.0f, 0.0f, 0.0f};
+    brushed.gloss.stretch = 0.5f;
+    brushed.gloss.tangent = {1.0f, 0.0f, 0.0f};
     SurfaceMaterial bumpy = with_coat(make_white_plastic(0.5f), 0.4f);
-    bumpy.coat_normal = glm::normalize(glm::vec3(0.2f, -0.1f, 1.0f));
+    bumpy.coat.normal = glm::normalize(glm::vec3(0.2f, -0.1f, 1.0f));
     return {{"metal", make_metal(0.4f)},
             {"brushed", brushed},
             {"plastic without f0", make_white_plastic(0.6f, 0.0f)},

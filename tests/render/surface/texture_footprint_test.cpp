@@ -27,7 +27,7 @@ Scene make_plane(const glm::dvec3& at = glm::dvec3(0.0)) {
     mesh.uv[1] = mesh.uv[0];
     for (glm::vec2& uv : mesh.uv[1]) uv = {7.0f * uv.y + 0.5f * uv.x, 3.0f * uv.x};
     const int node = add_mesh(scene, mesh, at, glm::angleAxis(0.4, glm::normalize(glm::dvec3(1.0, 2.0, 0.5))));
-    scene.nodes[node].scale = glm::dvec3(1.5, 0.7, 1.0);
+    scene.nodes[node].transform.scale = glm::dvec3(1.5, 0.7, 1.0);
     add_camera(scene, at + glm::dvec3(0.7, 0.4, 5.0), at);
     return scene;
 }
@@ -52,7 +52,7 @@ Scene make_ball() {
     Shape ball{.kind = Shape::Kind::sphere, .radius = 1.0};
     ball.segments = 12;  // large facets, so that neighbouring rays often meet the same
     const int node = add_mesh(scene, make_shape_mesh(ball, add_lambert(scene, glm::dvec3(0.5))));
-    scene.nodes[node].scale = glm::dvec3(-1.0, 1.3, 1.0);  // mirrored
+    scene.nodes[node].transform.scale = glm::dvec3(-1.0, 1.3, 1.0);  // mirrored
     add_camera(scene, {0.3, 1.0, 3.0}, glm::dvec3(0.0));
     return scene;
 }
@@ -194,7 +194,7 @@ struct Checker {
             }
         }
         scene.images.push_back(image);
-        scene.materials[0].base_color_texture = {.image = 0};
+        scene.materials[0].textures[TextureSlot::base_color] = {.image = 0};
         Mesh floor = make_quad(400.0, 400.0, material);
         for (glm::vec2& uv : floor.uv[0]) uv *= 800.0f;
         add_mesh(scene, floor, glm::dvec3(0.0), z_to_up);

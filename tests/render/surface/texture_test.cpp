@@ -120,12 +120,12 @@ TEST(Texture, NoImageIsWhite) {
     Scene scene;
     scene.images.emplace_back();  // a picture without pixels
     scene.materials.resize(2);
-    scene.materials[1].base_color_texture.image = 0;
+    scene.materials[1].textures[TextureSlot::base_color].image = 0;
     const TextureSet set = make_texture_set(scene);
     ASSERT_EQ(set.materials.size(), 3u);  // one more for meshes without a material
     for (const MaterialTextures& textures : set.materials) {
         EXPECT_FALSE(textures.any);
-        EXPECT_EQ(sample_texture(set, textures.base_color, {0.5f, 0.5f}, {}), glm::vec4(1.0f));
+        EXPECT_EQ(sample_texture(set, textures[TextureSlot::base_color], {0.5f, 0.5f}, {}), glm::vec4(1.0f));
     }
 }
 
@@ -134,7 +134,7 @@ template <class Change>
 std::size_t count_pyramids(const Change& change) {
     Scene scene = make_ramp(4, 4);
     scene.materials.resize(1);
-    scene.materials[0].base_color_texture.image = 0;
+    scene.materials[0].textures[TextureSlot::base_color].image = 0;
     scene.meshes.resize(1);
     scene.meshes[0].material = 0;
     scene.nodes.resize(2);
@@ -170,10 +170,11 @@ TEST(Texture, OnePyramidForEachPictureAndSpace) {
     scene.images.emplace_back();
     scene.images[1].bytes = Image<glm::u8vec4>(8, 2, glm::u8vec4(10));
     Material material;
-    material.base_color_texture.image = material.metallic_roughness_texture.image =
-        0;                                                                        // float: one texture for both spaces
-    material.emission_texture.image = material.specular_color_texture.image = 1;  // both sRGB
-    material.specular_texture.image = 1;                                          // linear
+    material.textures[TextureSlot::base_color].image = material.textures[TextureSlot::metallic_roughness].image =
+        0;  // float: one texture for both spaces
+    material.textures[TextureSlot::emission].image = material.textures[TextureSlot::specular_color].image =
+        1;                                               // both sRGB
+    material.textures[TextureSlot::specular].image = 1;  // linear
     scene.materials = {material, material};
     scene.meshes.resize(2);
     scene.nodes.resize(1);
@@ -181,10 +182,11 @@ TEST(Texture, OnePyramidForEachPictureAndSpace) {
     for (int i = 0; i < 2; ++i) scene.meshes[i].material = i;
     const TextureSet set = make_texture_set(scene);
     EXPECT_EQ(set.textures.size(), 3u);
-    EXPECT_EQ(set.materials[0].base_color.texture, set.materials[1].metallic_roughness.texture);
-    EXPECT_EQ(set.materials[0].emission.texture, set.materials[0].specular_color.texture);
-    EXPECT_NE(set.materials[0].emission.texture, set.materials[0].specular.texture);
-    const Texture& wide = set.textures[set.materials[0].specular.texture];
+    EXPECT_EQ(set.materials[0][TextureSlot::base_color].texture,
+              set.materials[1][TextureSlot::metallic_roughness].texture);
+    EXPECT_EQ(set.materials[0][TextureSlot::emission].texture, set.materials[0][TextureSlot::specular_color].texture);
+    EXPECT_NE(set.materials[0][TextureSlot::emission].texture, set.materials[0][TextureSlot::specular].texture);
+    const Texture& wide = set.textures[set.materials[0][TextureSlot::specular].texture];
     ASSERT_EQ(wide.coarse.size(), 3u);  // 8x2, 4x1, 2x1, 1x1
     EXPECT_EQ(wide.coarse[1].width, 2);
     EXPECT_EQ(wide.coarse[1].height, 1);

@@ -24,7 +24,7 @@ RenderSettings blurred_settings(Integrator integrator, std::uint32_t seed) {
 
 /// Luminance of frame 0.
 std::vector<double> render_luminance(Scene scene, Integrator integrator, std::uint32_t seed) {
-    scene.exposure = 1.0;
+    scene.film.exposure = 1.0;
     scene.cameras[0].shutter = {0.0, half_second};
     const ShadedFrame shaded = Sequence(std::move(scene), blurred_settings(integrator, seed)).render(0).shaded;
     std::vector<double> values;
@@ -72,11 +72,12 @@ void expect_same_light(const Scene& scene, double gain) {
 Scene make_sliding_box() {
     Scene scene = make_shot();
     add_mesh(scene, make_quad(1.2, 1.2, 0), {-1.0, 2.2, -1.0}, z_to_down);
-    scene.nodes[4].translation = glm::dvec3(-0.6, 2.0, 0.6);
-    scene.nodes[4].rotation = glm::quatLookAt(glm::normalize(glm::dvec3(0.0, -2.0, -1.4)), glm::dvec3(0.0, 1.0, 0.0));
+    scene.nodes[4].transform.translation = glm::dvec3(-0.6, 2.0, 0.6);
+    scene.nodes[4].transform.rotation =
+        glm::quatLookAt(glm::normalize(glm::dvec3(0.0, -2.0, -1.4)), glm::dvec3(0.0, 1.0, 0.0));
     scene.cameras[0].fov = 0.7;
     const int node = add_mesh(scene, make_box({0.8, 0.8, 0.8}, add_lambert(scene, glm::dvec3(0.05))));
-    scene.nodes[node].translation = move_between({-1.2, 0.4, -1.0}, {0.6, 0.4, -1.0});
+    scene.nodes[node].transform.translation = move_between({-1.2, 0.4, -1.0}, {0.6, 0.4, -1.0});
     return scene;
 }
 

@@ -138,7 +138,7 @@ TEST(CacheFile, IC22_OtherScenesSettingsAndBuildsAreRefused) {
     changed.meshes[0].positions[0].x += 1e-6f;
     EXPECT_THAT(refusal(folder / "light", changed, settings), testing::HasSubstr("another scene"));
     changed = scene;
-    changed.nodes[1].translation = glm::dvec3(0.0, 1.5, -2.9);
+    changed.nodes[1].transform.translation = glm::dvec3(0.0, 1.5, -2.9);
     EXPECT_THAT(refusal(folder / "light", changed, settings), testing::HasSubstr("another scene"));
 
     CacheFingerprint fingerprint = make_cache_fingerprint(scene, settings, {{0, 0}});

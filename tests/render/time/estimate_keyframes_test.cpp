@@ -22,7 +22,7 @@ RenderSettings estimate_settings(int light_step) {
 /// Walls, floor and lamp move together, so the light rides with the surfaces.
 Scene make_riding_shot() {
     Scene scene = make_shot();
-    Node wagon{.translation = move_between({1.5, 0.0, 0.0}, {-4.5, 0.0, 0.0})};
+    Node wagon{.transform = {.translation = move_between({1.5, 0.0, 0.0}, {-4.5, 0.0, 0.0})}};
     scene.nodes.insert(scene.nodes.begin(), wagon);
     for (std::size_t n = 1; n + 1 < scene.nodes.size(); ++n) scene.nodes[n].parent = 0;
     return scene;
@@ -113,7 +113,7 @@ TEST(EstimateKeyframes, MapsAreThoseOfThePicture) {
             const FrameOutput maps = Sequence(scene, settings).render(frame, only_maps);
             const FrameOutput both = pictures.render(frame, {.frame = true, .maps = true, .progress = {}});
             EXPECT_TRUE(maps.estimate.pixels == both.estimate.pixels) << step << " " << frame;
-            EXPECT_TRUE(maps.alpha.pixels == both.alpha.pixels) << step << " " << frame;
+            EXPECT_TRUE(maps.limits.alpha.pixels == both.limits.alpha.pixels) << step << " " << frame;
         }
     }
 }

@@ -84,7 +84,7 @@ FrameErrors find_errors(const Scene& scene) {
 TEST(LightingKeyframes, IC14_LightOfAnotherTimeIsNotUsed) {
     Scene scene = make_shot();
     const int board = add_mesh(scene, make_box({1.5, 1.5, 0.05}, 1));
-    scene.nodes[board].translation = move_between({-2.0, 0.8, -1.5}, {2.5, 0.8, 0.5});
+    scene.nodes[board].transform.translation = move_between({-2.0, 0.8, -1.5}, {2.5, 0.8, 0.5});
     const auto [own, keyframes] = find_errors(scene);
     EXPECT_LT(keyframes, own + 0.01);
     EXPECT_LT(keyframes, 0.03);
@@ -106,12 +106,12 @@ TEST(LightingKeyframes, IC20_WhatIsAtRestDoesNotFlicker) {
     Image<float> threshold;
     for (int frame = 0; frame < 30; ++frame) {
         const FrameOutput out = sequence.render(frame, {.frame = true, .maps = frame == 0, .progress = {}});
-        if (frame == 0) threshold = out.threshold;
+        if (frame == 0) threshold = out.limits.threshold;
         const Image<Rgb>& now = out.shaded.color;
         for (int y = 0; frame > 0 && y < now.height; ++y) {
             for (int x = 0; x < now.width / 2; ++x) {  // the mover is in the right half
                 const double change = std::abs(luminance(now(x, y)) - luminance(before(x, y)));
-                largest = std::max(largest, change * scene.viewing.display_white / threshold(x, y));
+                largest = std::max(largest, change * scene.film.viewing.display_white / threshold(x, y));
             }
         }
         before = now;
@@ -133,7 +133,7 @@ TEST(LightingKeyframes, FX10_WhereOnlyTheCameraMovesLightIsCarriedOver) {
 TEST(LightingKeyframes, FX10_LightIsCarriedOverWhereTheAnchorChanges) {
     Scene scene = make_shot_with_moving_camera();
     for (Node& node : scene.nodes) {
-        for (glm::dvec3& place : node.translation.values) place.x += 7.0;
+        for (glm::dvec3& place : node.transform.translation.values) place.x += 7.0;
     }
     EXPECT_LT(10 * count_shot_records(scene, 10), count_shot_records(scene, 0));
     EXPECT_LT(relative_rms(render_alone(scene, shot_settings(10), 20), render_alone(scene, shot_settings(0), 20)),
@@ -157,7 +157,7 @@ TEST(LightingKeyframes, FX10_ALampThatBlinksLightsNoFrameBeforeOrAfter) {
 TEST(LightingKeyframes, FX10_AnObjectThatMovesLaterLeavesNoTraceBefore) {
     Scene scene = make_shot();
     const int board = add_mesh(scene, make_box({2.0, 2.0, 0.05}, 1));
-    Track<glm::dvec3>& place = scene.nodes[board].translation;
+    Track<glm::dvec3>& place = scene.nodes[board].transform.translation;
     place.values = {{0.0, 1.0, 8.0}, {0.0, 1.0, 8.0}, {0.0, 1.0, -2.0}};  // from behind the camera
     place.sampling.period = 9.0 / 30.0;
     RenderSettings settings = shot_settings(20);
@@ -179,7 +179,7 @@ Track<glm::dvec3> go_and_return(const glm::dvec3& ends, const glm::dvec3& middle
 void expect_as_own_fill(const Track<glm::dvec3>& place) {
     Scene scene = make_shot();
     const int box = add_mesh(scene, make_box(glm::dvec3(0.9), add_lambert(scene, {0.2, 0.3, 0.7})));
-    scene.nodes[box].translation = place;
+    scene.nodes[box].transform.translation = place;
     const auto [own, keyframes] = find_errors(scene);
     EXPECT_LT(keyframes, 1.3 * own);
     EXPECT_LT(keyframes, 0.03);
@@ -202,11 +202,11 @@ TEST(LightingKeyframes, IC14_AnObjectThatCrossesThePictureBetweenMoments) {
 TEST(LightingKeyframes, RecordsRideWithTheirSurfaces) {
     Scene scene = make_shot();
     Node turntable;
-    turntable.rotation.values = {no_turn, glm::angleAxis(1.5, glm::dvec3(0, 1, 0))};
+    turntable.transform.rotation.values = {no_turn, glm::angleAxis(1.5, glm::dvec3(0, 1, 0))};
     scene.nodes.insert(scene.nodes.begin(), turntable);
     for (std::size_t n = 1; n + 1 < scene.nodes.size(); ++n) scene.nodes[n].parent = 0;
-    scene.nodes.back().translation = glm::dvec3(0.0, 9.0, 0.01);
-    scene.nodes.back().rotation = glm::quatLookAt(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
+    scene.nodes.back().transform.translation = glm::dvec3(0.0, 9.0, 0.01);
+    scene.nodes.back().transform.rotation = glm::quatLookAt(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
     Sequence sequence(scene, shot_settings(10));
     const FrameOutput first = sequence.render(0);
     const FrameOutput middle = sequence.render(5);

@@ -11,7 +11,7 @@ namespace {
 
 ShutterInterval open_at(std::int64_t frame, const glm::dvec2& shutter, std::vector<std::int64_t> cuts = {}) {
     Scene scene;
-    scene.cuts = std::move(cuts);
+    scene.film.cuts = std::move(cuts);
     return find_shutter(scene, shutter, frame).value();
 }
 
@@ -55,8 +55,8 @@ TEST(Shutter, MC27_AShutterBeyondTheCutShowsTheLastMomentBeforeIt) {
 
 TEST(Shutter, ItsCenterStaysInTheShot) {
     Scene scene;
-    scene.frame_rate = {30, 1};
-    scene.cuts = {5};
+    scene.film.frame_rate = {30, 1};
+    scene.film.cuts = {5};
     const auto center = [&](const glm::dvec2& shutter, std::int64_t frame) {
         return 30.0 * find_shutter_center(scene, shutter, frame);
     };
@@ -128,7 +128,7 @@ std::optional<Rgb> find_middle(const Scene& scene, float accuracy, float reach =
 
 TEST(ShutterLight, RidesWithSurfacesThatMoveLessThanTheirRecordsReach) {
     Plate plate;
-    plate.scene.nodes[1].translation = move_between({-0.3, 0.0, 0.0}, glm::dvec3(0.0));
+    plate.scene.nodes[1].transform.translation = move_between({-0.3, 0.0, 0.0}, glm::dvec3(0.0));
     const std::optional<Rgb> found = find_middle(plate.scene, 0.5f);
     ASSERT_TRUE(found.has_value());
     EXPECT_NEAR(found->x, -0.3, 0.06) << "where the point was at the frame's own time";
@@ -138,7 +138,7 @@ TEST(ShutterLight, RidesWithSurfacesThatMoveLessThanTheirRecordsReach) {
 
 TEST(ShutterLight, ACameraThatMovesChangesNothing) {
     Plate plate;
-    plate.scene.nodes[3].translation = move_between({700.0, 5.0, 0.0}, {0.0, 5.0, 0.0});
+    plate.scene.nodes[3].transform.translation = move_between({700.0, 5.0, 0.0}, {0.0, 5.0, 0.0});
     const std::optional<Rgb> found = find_middle(plate.scene, 1e-3f, 1e-3f);
     ASSERT_TRUE(found.has_value());
     EXPECT_NEAR(found->x, 0.0, 0.06);
@@ -148,7 +148,7 @@ TEST(ShutterLight, NothingIsKnownOfSurfacesThatTurnOrAppear) {
     const auto turned = [](double degrees) {
         Plate plate;
         const glm::dquat turn = glm::angleAxis(glm::radians(degrees), glm::dvec3(0.0, 0.0, 1.0));
-        plate.scene.nodes[1].rotation.values = {z_to_up, turn * z_to_up};
+        plate.scene.nodes[1].transform.rotation.values = {z_to_up, turn * z_to_up};
         return find_middle(plate.scene, 0.2f);
     };
     EXPECT_TRUE(turned(10.0).has_value());
@@ -163,7 +163,7 @@ TEST(ShutterLight, NothingIsKnownOfSurfacesThatTurnOrAppear) {
 TEST(ShutterLight, NothingIsKnownBesideThingsThatMoveOrAppear) {
     const auto moved = [](const glm::dvec3& from, const glm::dvec3& to) {
         Plate plate;
-        plate.scene.nodes[2].translation = move_between(from, to);
+        plate.scene.nodes[2].transform.translation = move_between(from, to);
         return find_middle(plate.scene, 0.15f).has_value();
     };
     EXPECT_FALSE(moved({0.2, 0.1, 0.0}, {2.0, 0.1, 0.0})) << "it leaves the point";
@@ -172,7 +172,7 @@ TEST(ShutterLight, NothingIsKnownBesideThingsThatMoveOrAppear) {
     EXPECT_TRUE(moved({0.3, 0.1, 0.0}, {0.305, 0.1, 0.0})) << "it hardly moves";
 
     Plate plate;
-    plate.scene.nodes[2].translation = glm::dvec3(0.3, 0.1, 0.0);
+    plate.scene.nodes[2].transform.translation = glm::dvec3(0.3, 0.1, 0.0);
     EXPECT_TRUE(find_middle(plate.scene, 0.15f).has_value());
     plate.scene.nodes[2].visible.values = {0.0, 1.0};
     plate.scene.nodes[2].visible.interpolation = Interpolation::step;

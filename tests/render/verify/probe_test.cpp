@@ -99,8 +99,8 @@ TEST(PictureKeeper, DropsWhatWasNotUsedForLongest) {
 class Probes : public testing::Test {
   protected:
     Probes() : scene(load_scene((source_folder() / "scenes/cornell/scene.json").string())) {
-        scene.frame_rate = {8, 1};
-        scene.viewing.pixels_per_degree = 90.0;
+        scene.film.frame_rate = {8, 1};
+        scene.film.viewing.pixels_per_degree = 90.0;
     }
 
     static RenderSettings traced(int spp, std::uint32_t seed = 0) {
@@ -142,7 +142,7 @@ TEST_F(Probes, PicturesThatAreTheReferenceHaveNoErrors) {
 
 TEST_F(Probes, SayOfBlocksWhatWholePicturesSay) {
     const RenderSettings settings = traced(16);
-    VisibleDifference difference({scene.viewing, scene.frame_rate}, 20);
+    VisibleDifference difference({scene.film.viewing, scene.film.frame_rate}, 20);
     Sequence motion(scene, traced_reference_settings(settings));
     std::vector<VisibleMaps> whole;
     for (const std::int64_t frame : {19, 20, 21}) {
@@ -196,7 +196,7 @@ TEST_F(Probes, AreTheSameForAnyNumberOfThreadsAndProbesBefore) {
 }
 
 TEST_F(Probes, JudgeASingleFrame) {
-    scene.range = FrameRange{20, 20};
+    scene.film.range = FrameRange{20, 20};
     const std::vector<ProbeResult> results = measure(traced(4), 1, {20});
     EXPECT_EQ(results.front().window, 1u);
     EXPECT_GT(results.front().seen, 0.0);

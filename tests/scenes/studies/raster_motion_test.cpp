@@ -11,7 +11,7 @@ namespace {
 /// Largest error, pixels, for a square at rest that is `pixels` wide.
 double largest_error(double pixels) {
     Scene scene;
-    scene.exposure = 1.0;
+    scene.film.exposure = 1.0;
     add_camera(scene, {0.0, 0.0, 3.0}, glm::dvec3(0.0));
     scene.cameras[0].orthographic = true;
     scene.cameras[0].half_height = 0.5;
