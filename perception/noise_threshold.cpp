@@ -102,12 +102,12 @@ std::vector<BandContrasts> find_contrasts(const Image<Rgb>& picture, double whit
     std::vector<BandContrasts> contrasts(picture.size(), BandContrasts{});
     const std::vector<BandShape> shapes = visible_bands(picture.width, picture.height);
     const std::vector<LevelSize> sizes = pyramid_sizes(picture.width, picture.height, shapes.back().level + 1);
-    const std::vector<Image<float>> bands = split_bands(compute_visual_channels(picture, white)[0]);
-    for (std::size_t b = 0; b < std::min<std::size_t>(noise_bands, bands.size()); ++b) {
+    const std::vector<Image<float>> bands = split_bands(compute_visual_channel(picture, white, 0), noise_bands);
+    parallel_for(bands.size(), 1, [&](std::size_t b, std::size_t) {
         const Image<float> amplitude = expand_to_level(local_amplitude(bands[b], shapes[b]), sizes, shapes[b].level, 0);
         for (std::size_t i = 0; i < contrasts.size(); ++i)
             contrasts[i][b] = std::max(0.0f, amplitude.pixels[i]) / clamp_threshold_luminance(adaptation.pixels[i]);
-    }
+    });
     return contrasts;
 }
 
@@ -116,7 +116,7 @@ std::vector<BandContrasts> find_contrasts(const Image<Rgb>& picture, double whit
 NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRate& frame_rate, NoiseOverTime over_time)
     : sensitivity_(static_cast<std::size_t>(luminance_nodes * velocity_nodes * velocity_nodes)) {
     const std::array<Annulus, frequency_nodes> space = annuli();
-    const std::vector<BandShape> shapes = visible_bands(256, 256);
+    const std::vector<BandShape> shapes = visible_bands(256, 256);  // the finest are those of any size
     const int times = over_time == NoiseOverTime::fresh ? time_nodes : 1;
     parallel_for(luminance_nodes, 1, [&](std::size_t l, std::size_t) {
         const double luminance = node_luminance(static_cast<int>(l));

@@ -66,18 +66,20 @@ Image<float> difference(Image<float> a, const Image<float>& b) {
 
 }  // namespace
 
-VisualChannels compute_visual_channels(const Image<Rgb>& picture, double white) {
-    const Matrix matrix = rgb_to_channels();
-    VisualChannels out;
-    for (int c = 0; c < visual_channels; ++c) {
-        out[c] = Image<float>(picture.width, picture.height);
-        for (std::size_t i = 0; i < picture.size(); ++i) {
-            const Rgb& p = picture.pixels[i];
-            out[c].pixels[i] =
-                static_cast<float>(white * (matrix[c][0] * displayed(p.x) + matrix[c][1] * displayed(p.y) +
-                                            matrix[c][2] * displayed(p.z)));
-        }
+Image<float> compute_visual_channel(const Image<Rgb>& picture, double white, int channel) {
+    const std::array<double, 3> weights = rgb_to_channels()[static_cast<std::size_t>(channel)];
+    Image<float> out(picture.width, picture.height);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const Rgb& p = picture.pixels[i];
+        out.pixels[i] = static_cast<float>(white * (weights[0] * displayed(p.x) + weights[1] * displayed(p.y) +
+                                                    weights[2] * displayed(p.z)));
     }
+    return out;
+}
+
+VisualChannels compute_visual_channels(const Image<Rgb>& picture, double white) {
+    VisualChannels out;
+    for (int c = 0; c < visual_channels; ++c) out[c] = compute_visual_channel(picture, white, c);
     return out;
 }
 
@@ -91,15 +93,15 @@ std::vector<BandShape> visible_bands(int width, int height) {
     return bands;
 }
 
-std::vector<Image<float>> split_bands(const Image<float>& channel) {
-    const std::vector<BandShape> shapes = visible_bands(channel.width, channel.height);
+std::vector<Image<float>> split_bands(const Image<float>& channel, std::size_t most) {
+    const std::size_t count = std::min(most, visible_bands(channel.width, channel.height).size());
     std::vector<Image<float>> bands;
     const Image<float> soft = soften(channel);
     bands.push_back(difference(channel, soft));
     Image<float> coarse = reduce(channel);
     bands.push_back(difference(soft, expand(coarse, {channel.width, channel.height})));
     LevelSize finer{channel.width, channel.height};
-    while (bands.size() < shapes.size()) {
+    while (bands.size() < count) {
         const LevelSize size{coarse.width, coarse.height};
         Image<float> next = reduce(coarse);
         bands.push_back(expand(difference(coarse, expand(next, size)), finer));

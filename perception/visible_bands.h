@@ -14,9 +14,10 @@ namespace aleph {
 inline constexpr int visual_channels = 3;
 using VisualChannels = std::array<Image<float>, visual_channels>;
 
-/// What a display emits: components are clamped to [0,1], NaN counts as 0.
+/// What a display emits, in one channel: components are clamped to [0,1], NaN counts as 0.
 /// @param picture  linear RGB, Rec.709, white = 1
 /// @param white    cd/m2
+Image<float> compute_visual_channel(const Image<Rgb>& picture, double white, int channel);
 VisualChannels compute_visual_channels(const Image<Rgb>& picture, double white);
 
 /// A band of a decomposition, on levels of a pyramid: pixel i of level n lies on the picture's pixel 2^n i (pyramid.h).
@@ -32,8 +33,8 @@ struct BandShape {
 /// the bands' thresholds give a grating of .01 to .4 cycles per pixel its own threshold within 10 % (at 100 cd/m2).
 std::vector<BandShape> visible_bands(int width, int height);
 
-/// The signal of a channel in each band; the rest below the last one is left out.
-std::vector<Image<float>> split_bands(const Image<float>& channel);
+/// The signal of a channel in its finest bands, `most` at most; the rest below the last one is left out.
+std::vector<Image<float>> split_bands(const Image<float>& channel, std::size_t most = 64);
 
 /// Amplitude of a band's signal around each pixel of its level: sqrt(2 mean of squares), times the band's gain.
 Image<float> local_amplitude(Image<float> signal, const BandShape& band);

@@ -6,7 +6,7 @@
 namespace aleph {
 
 /// Errors of pixels within so many on either side add up, as energy, to what is seen at one: half a cycle where noise
-/// is seen best.
+/// is seen best at 31 pixels per degree.
 inline constexpr int seen_reach = 4;
 
 /// Mean of the values in seen_reach of each pixel.

@@ -12,9 +12,8 @@ namespace aleph {
 /// times its own root mean square at 99 % of the pixels (chi-square of 8 degrees of freedom).
 inline constexpr double error_deviations = 1.585;
 
-/// What error of samples goes unseen, over what noise of single pixels does (NoiseVisibility): pixel_sequence.h makes
-/// it finer than such noise, but halves of few samples tell too little of it. Measured in pool and art-gallery with the
-/// instrument of compare/visible_difference.h (scenes/studies/README.md).
+/// What error of samples goes unseen, over what noise of single pixels does (NoiseVisibility): measured in pool and
+/// art-gallery with the instrument of compare/visible_difference.h (scenes/studies/README.md).
 inline constexpr double noise_allowance = 0.9;
 
 /// The mean of a pixel's samples, as its neighbours tell it. A pixel's own samples never decide when it stops: a pixel
