@@ -8,6 +8,7 @@
 
 #include "render/light/light_cut.h"
 #include "render/light/seen_light.h"
+#include "render/pixels/lattice.h"
 
 namespace aleph {
 
@@ -61,24 +62,9 @@ class ShadowBatch {
     std::array<Rgb, batch_size> contributions_;
 };
 
-/// compute_sampled_light's samples: at random points, weighted against sampling of the lobes.
-struct RandomPattern {
-    RandomStream& random;
-    LightPoints points;
-    LobeShares shares;
-
-    glm::vec2 next_shift() { return random.next_2d(); }
-    float light_share(int) const { return 0.0f; }
-};
-
-/// estimate_direct_light's samples: the same points for every pixel.
-struct FixedPattern {
-    LightPoints points;
-    LobeShares shares{};  ///< no lobe is sampled
-
-    glm::vec2 next_shift() { return {0.0f, 0.25f}; }
-    float light_share(int count) const { return 1.0f / static_cast<float>(count); }
-};
+/// Of the quick estimate: the same points for every pixel, and no lobe is sampled.
+constexpr glm::vec2 estimate_shift{0.0f, 0.25f};
+constexpr LobeShares estimate_shares{};
 
 /// A narrow lobe would show single points of the fixed pattern as sparkles.
 ViewedSurface widen_lobes(ViewedSurface surface) {
@@ -131,41 +117,35 @@ class ChosenLights {
     SeenLights seen_;
 };
 
-/// As many samples as 16 lights would have, of lights that are chosen among more.
-template <class Pattern>
-Rgb sample_chosen_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, Pattern pattern) {
-    ChosenLights lights(context, lit, pattern.shares);
+/// The quick estimate of more than LightCut::few lights: samples of lights that are chosen, as many as the few would
+/// have.
+Rgb estimate_chosen_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples) {
+    ChosenLights lights(context, lit, estimate_shares);
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
     Rgb sum(0.0f);
     ShadowBatch shadows(context, task, sum);
-    LightPoints points = pattern.points;
-    points.count *= LightCut::few;
-    const glm::vec2 shift = pattern.next_shift();
-    for (int i = 0; i < points.count; ++i) {
-        lights.add_sample(points.at(i, shift), points.count, pattern.light_share(pattern.points.count), shadows);
-    }
+    const int count = samples * LightCut::few;
+    for (int i = 0; i < count; ++i)
+        lights.add_sample(lattice_point(i, count, estimate_shift), count, 1.0f / static_cast<float>(samples), shadows);
     shadows.flush();
     return sum;
 }
 
-/// The scattered light of samples of every light, as a pattern places and weighs them.
-template <class Pattern>
-Rgb sample_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, Pattern pattern) {
-    if (context.lights.count() > LightCut::few) return sample_chosen_lights(context, task, lit, pattern);
+/// The quick estimate of a few lights: samples of each.
+Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples) {
     Rgb sum(0.0f);
     ShadowBatch shadows(context, task, sum);
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
     for (int light = 0; light < context.lights.count(); ++light) {
-        const LightPoints points = has_area(context.lights, light) ? pattern.points : LightPoints{};
-        const glm::vec2 shift = pattern.next_shift();
+        const int count = has_area(context.lights, light) ? samples : 1;
+        const float share = 1.0f / static_cast<float>(count);
         const SeenLight seen = see_light(context.lights, light, receiver.position);
-        for (int i = 0; i < points.count; ++i) {
+        for (int i = 0; i < count; ++i) {
             const LightSample sample = sample_seen_light(context.shading, context.lights, seen, receiver,
-                                                         points.at(i, shift), pattern.light_share(points.count));
+                                                         lattice_point(i, count, estimate_shift), share);
             if (!lit.is_reached(sample.direction)) continue;
             shadows.add(make_shadow_ray(lit, sample), sample.pdf,
-                        scatter_towards(lit, sample.direction, sample.pdf, pattern.shares) * sample.incoming /
-                            static_cast<float>(points.count));
+                        scatter_towards(lit, sample.direction, sample.pdf, estimate_shares) * sample.incoming * share);
         }
     }
     shadows.flush();
@@ -192,14 +172,6 @@ float bound_reflection(const LitSurface& lit) {
     return bound;
 }
 
-/// Returns whether all samples of the lobes have the same direction.
-bool is_single_mirror(const LitSurface& lit, const LobeShares& shares) {
-    const auto share = [&](Lobe lobe) { return shares[static_cast<std::size_t>(lobe)]; };
-    const SurfaceMaterial& material = lit.material;
-    return (material.is_mirror() && share(Lobe::gloss) == 1.0f) ||
-           (material.is_coat_mirror() && share(Lobe::coat) == 1.0f);
-}
-
 }  // namespace
 
 Rgb sample_direct_light(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
@@ -221,36 +193,11 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
     return sum;
 }
 
-SampledLight compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
-                                   const LightPoints& points, RandomStream& random, const LobePaths& paths) {
-    const LitSurface lit(surface);
-    const bool lights_can_be_met = !context.lights.emitters.empty() || context.lights.has_environment;
-    LobeShares shares{};
-    if (lights_can_be_met || paths.beyond.left.depth > 0) {
-        shares = paths.shares != nullptr ? *paths.shares : share_lobes(lit, LobeSet::specular);
-    }
-    SampledLight light{sample_lights(context, task, lit, RandomPattern{random, points, shares})};
-    const glm::vec2 shift = random.next_2d();
-    const float pick_shift = random.next();
-    if (shares == LobeShares{}) return light;
-    const int count = is_single_mirror(lit, shares) ? 1 : points.count;
-    PathState state = paths.beyond;
-    if (count < points.count) {
-        state.light_samples *= points.count;
-        state.survival *= static_cast<float>(points.count);
-    }
-    for (int i = 0; i < count; ++i) {
-        const float pick = fraction(pick_shift + static_cast<float>(i * points.parts + points.part) * 0.75487767f);
-        const ScatterSample sample = sample_scatter(lit, shares, pick, points.at(i, shift), paths.random.next());
-        light.lobes += follow_sample(context, task, lit, sample, state, paths.random);
-    }
-    light.lobes /= static_cast<float>(count);
-    return light;
-}
-
 Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples) {
     const ViewedSurface widened = widen_lobes(surface);
-    return sample_lights(context, task, LitSurface(widened), FixedPattern{{samples}});
+    const LitSurface lit(widened);
+    const bool few = context.lights.count() <= LightCut::few;
+    return few ? estimate_few_lights(context, task, lit, samples) : estimate_chosen_lights(context, task, lit, samples);
 }
 
 }  // namespace aleph

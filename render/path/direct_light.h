@@ -2,26 +2,9 @@
 // Light that reaches a surface point straight from the lights.
 
 #include "render/path/path.h"
-#include "render/pixels/lattice.h"
 #include "render/pixels/pixel_sequence.h"
 
 namespace aleph {
-
-/// The points on each light: part `part` of `parts`. With the same shift, all parts together are one lattice of
-/// count * parts points, and each part is even by itself.
-struct LightPoints {
-    int count = 1;  ///< per part
-    int part = 0;
-    int parts = 1;
-
-    glm::vec2 at(int i, const glm::vec2& shift) const { return lattice_point(i * parts + part, count * parts, shift); }
-};
-
-/// Light that a surface scatters, without its own emission.
-struct SampledLight {
-    Rgb direct{0.0f};  ///< found by sampling the lights
-    Rgb lobes{0.0f};   ///< found by sampling the lobes
-};
 
 /// Samples of direct light, shared out among all lights.
 struct DirectSamples {
@@ -42,26 +25,9 @@ struct DirectSamples {
 Rgb sample_direct_light(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
                         const PixelSequence& sequence, const DirectSamples& samples);
 
-/// Paths that go on from samples of the lobes.
-struct LobePaths {
-    PathState beyond;
-    RandomStream& random;
-    const LobeShares* shares = nullptr;  ///< of sampled lobes (choose_sampled_lobes); null: all but the Lambert layer
-};
-
-/// Radiance that a surface scatters from the lights, without its own emission. The Lambert layer samples lights only;
-/// the other lobes combine light and lobe sampling by the power heuristic (Veach 1997). Unbiased.
-/// Within the limits of `paths.beyond`, the rays that are sampled from the lobes go on as paths: they find reflections,
-/// and what glass shows. With a depth of 0 the result is direct light alone. More than 16 lights share the samples that
-/// 16 would have.
-/// @param points  per light that has an area, and as many samples of the lobes
-/// @param random  moved on by a fixed number of dimensions per call
-SampledLight compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
-                                   const LightPoints& points, RandomStream& random, const LobePaths& paths);
-
 /// Direct light from a fixed pattern of points on each light. The pattern is the same for every pixel, so the result
 /// has no noise that the model of vision would take for detail. Biased: penumbrae come in steps, and narrow highlights
-/// are widened.
+/// are widened. More than 16 lights share the samples that 16 would have.
 /// @param samples  per light that has an area
 Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples);
 

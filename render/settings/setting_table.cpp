@@ -159,7 +159,7 @@ std::vector<Setting> method_settings() {
                        "path tracing, unbiased, with the variance of each pixel (path)",
                        at(&S::light, &L::integrator), {{"cache", Integrator::cache}, {"path", Integrator::path}}),
         with_unit(number_setting("light_samples",
-                                 "samples of direct light per pixel and light, shared out among the pixel's spp",
+                                 "samples of direct light per sample of a pixel, shared out among the lights",
                                  at(&S::light, &L::light_samples), 1, 65536),
                   "samples"),
         rarely_set(with_unit(

@@ -95,7 +95,7 @@ struct LightSettings {
     Integrator integrator = Integrator::cache;
     int bounces = 1;         ///< of indirect diffuse light
     int path_depth = 32;     ///< longest path: surfaces that scatter, of all kinds
-    int light_samples = 16;  ///< direct-light samples per pixel and light, shared out among its spp
+    int light_samples = 4;   ///< samples of direct light, per sample of a pixel; shared out among the lights
 
     bool operator==(const LightSettings&) const = default;
 };

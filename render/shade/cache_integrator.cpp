@@ -13,8 +13,6 @@ namespace aleph {
 
 namespace {
 
-constexpr int progressive_light_samples = 4;  // of direct light, per pixel sample
-
 class CacheIntegrator final : public LightIntegrator {
   public:
     explicit CacheIntegrator(const IntegratorInput& input)
@@ -48,8 +46,6 @@ class CacheIntegrator final : public LightIntegrator {
 
     void begin(const SampleScene& scene) override {
         scene_ = &scene;
-        const RenderSettings& settings = context_.settings;
-        const bool uniform = settings.sampling.rule == Sampling::uniform;
         shutter_.reset();
         if (blurred_ && cached_) {
             shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_, shade_reach);
@@ -62,9 +58,6 @@ class CacheIntegrator final : public LightIntegrator {
                           .known = blurred_ ? nullptr : &known_,
                           .blurred = blurred_,
                           .shutter = shutter_ ? &*shutter_ : nullptr,
-                          .points = {(settings.light.light_samples + settings.sampling.spp - 1) / settings.sampling.spp,
-                                     0, settings.sampling.spp},
-                          .light_samples = uniform ? 0 : progressive_light_samples,
                           .tolerance = input_.tolerance ? &*input_.tolerance : nullptr,
                           .uses = uses_.empty() ? nullptr : &uses_});
     }

@@ -128,19 +128,9 @@ void add_with_cache(const SampleShading& shading, const SampleScene& scene, Shad
     const LitSurface lit(surface);
     const SampledLobes lobes = choose_lobes(shading, surface, lit, irradiance);
     light[LightPart::surface] = surface.material.emission + lobes.radiance;
-    if (shading.light_samples == 0) {
-        RandomStream random({settings.seed, shading.noise_key, surface.pixel, 0});  // one lattice for all samples
-        RandomStream path_random = path_stream(shading, surface);
-        LightPoints points = shading.points;
-        points.part = surface.sample;
-        const SampledLight sampled = compute_sampled_light(
-            lighting, task, surface, points, random, {start_beyond(shading, surface), path_random, &lobes.shares});
-        light[LightPart::direct] = sampled.direct;
-        light[LightPart::gloss] = sampled.lobes;
-        return;
-    }
     const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
-    DirectSamples samples{surface.sample * shading.light_samples, shading.light_samples};
+    const int count = settings.light.light_samples;
+    DirectSamples samples{surface.sample * count, count};
     if (shading.tolerance != nullptr) samples.tolerance = shading.tolerance->lights(surface.x, surface.y);
     light[LightPart::direct] = sample_direct_light(lighting, task, lit, lobes.shares, sequence, samples);
     if (lobes.shares != LobeShares{}) {

@@ -42,9 +42,6 @@ struct SampleShading {
     const KnownIrradiance* known = nullptr;  ///< to paths; null: they find all light by themselves
     bool blurred = false;                    ///< the shutter is open: what `shutter` does not know is found by paths
     const ShutterLight* shutter = nullptr;   ///< null: it knows nothing
-    LightPoints points{};                    ///< uniform sampling: on each light, of a pixel's first sample
-    /// Progressive sampling: samples of direct light per pixel sample, shared out among all lights; 0: uniform.
-    int light_samples = 0;
     const SystematicTolerance* tolerance = nullptr;  ///< null: nothing may be left out
     Image<RecordUse>* uses = nullptr;                ///< records that were read; null: not asked for
 };

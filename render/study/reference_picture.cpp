@@ -55,9 +55,7 @@ ChannelImage render_pass(const Scene& scene, RenderSettings settings, std::int64
                          const FrameProgress& progress) {
     // New noise in every frame, also of a camera that never moves: what lasts is then a mean over frames.
     settings.seed = reference_seed + static_cast<std::uint32_t>(pass) + static_cast<std::uint32_t>(frame) * 0x9e3779b9u;
-    const int light_samples_each = std::max(1, settings.light.light_samples / settings.sampling.spp);
     settings.sampling.spp += static_cast<int>(pass);
-    settings.light.light_samples = light_samples_each * settings.sampling.spp;
     Sequence sequence(scene, settings);
     FrameRequest request;
     request.progress = progress;

@@ -36,17 +36,11 @@ class Deck {
     std::uint64_t key_;
 };
 
-/// What is rendered: names of other settings replaced, and without what has no effect.
+/// What is rendered: without what has no effect.
 SettingMap make_candidate(const Study& study, const std::vector<std::size_t>& choice) {
     SettingMap settings;
     const std::vector<StudyAxis>& axes = study.search->settings;
     for (std::size_t i = 0; i < axes.size(); ++i) settings[axes[i].setting] = axes[i].values[choice[i]];
-    const SettingMap chosen = settings;
-    for (auto& [key, value] : settings) {
-        const std::string* text = std::get_if<std::string>(&value);
-        const auto other = text == nullptr || *text == key ? chosen.end() : chosen.find(*text);
-        if (other != chosen.end()) value = other->second;
-    }
     SettingMap all = settings;
     all.insert(study.settings.begin(), study.settings.end());
     const auto guide = all.find("guide");
@@ -99,7 +93,7 @@ StudySearch default_search() {
                        {"accuracy", {0.0, 0.05, 0.1, 0.15, 0.3, 0.5}},
                        {"gather", {64.0, 128.0, 256.0, 512.0}},
                        {"spp", {4.0, 8.0, 16.0, 32.0, 64.0, 128.0}},
-                       {"light_samples", {Text("spp"), 16.0}},
+                       {"light_samples", {1.0, 4.0}},
                        {"light_step", {0.0, 5.0, 10.0}}};
     return search;
 }

@@ -13,9 +13,8 @@ StudySearch default_search();
 
 /// Different candidates, all with uniform sampling and no asked error, named "fixed 1", "fixed 2", ... The values of a
 /// setting are dealt from a deck that is shuffled anew when it is empty, so that any number of candidates has all
-/// values about equally often; more candidates begin with the same ones. A text that is the name of another setting of
-/// the search ("spp") stands for that one's value. Without a guide there is no adapter. If there are fewer combinations
-/// than candidates, all of them are tried.
+/// values about equally often; more candidates begin with the same ones. Without a guide
+/// there is no adapter. If there are fewer combinations than candidates, all of them are tried.
 /// @param study  with a search
 std::vector<StudyVariant> list_candidates(const Study& study);
 

@@ -169,6 +169,7 @@ inline RenderSettings plain_settings(double accuracy, int gather) {
     RenderSettings settings;
     settings.perception.guide = Guide::none;
     settings.sampling.spp = 1;
+    settings.light.light_samples = 16;
     settings.picture.filter = PixelFilter::box;
     settings.cache.accuracy = accuracy;
     settings.cache.gather = gather;
@@ -188,7 +189,7 @@ inline RenderSettings path_settings(int bounces, int spp, std::uint32_t seed = 0
     RenderSettings settings = plain_settings(0.0, 64);
     settings.light.integrator = Integrator::path;
     settings.light.bounces = bounces;
-    settings.sampling.spp = settings.light.light_samples = spp;
+    settings.sampling.spp = spp;
     settings.seed = seed;
     return settings;
 }

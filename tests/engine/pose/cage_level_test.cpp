@@ -134,6 +134,22 @@ TEST(CageLevel, OrthographicCamerasDoNotNear) {
     EXPECT_GT(level_of(scene), level);
 }
 
+/// Of large faces the nearest point counts, not the nearest corner: a camera without perspective that shows as large
+/// what is there needs the same level.
+TEST(CageLevel, NearestPointOfATriangleDecides) {
+    for (const glm::dvec2& place : {glm::dvec2(5.0, 5.0), {6.0, 4.5}, {4.0, 7.0}}) {
+        for (const double distance : {0.02, 0.2, 1.0}) {
+            Scene scene = make_sheet(distance, 0.02);
+            scene.nodes[0].transform.scale = glm::dvec3(10.0);
+            scene.nodes[1].transform.translation = glm::dvec3(place, distance);
+            Scene flat = scene;
+            flat.cameras[0].orthographic = true;
+            flat.cameras[0].half_height = distance * std::tan(std::numbers::pi / 8.0);
+            EXPECT_EQ(level_of(scene), level_of(flat)) << place.x << ' ' << place.y << ' ' << distance;
+        }
+    }
+}
+
 TEST(CageLevel, WhatIsNotInViewKeepsItsLevel) {
     Scene beside = make_sheet(3.0);
     beside.nodes[0].transform.translation = glm::dvec3(100.0, 0.0, 0.0);

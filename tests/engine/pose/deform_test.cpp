@@ -183,6 +183,26 @@ TEST(Deform, SkinFollowsItsJointsWhateverItsOwnNodeDoes) {
     for (const glm::dvec3& p : flat.meshes[0].positions) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
 }
 
+/// A quarter of one joint, which rests, and three of one that stretches and moves.
+TEST(Deform, JointsAreBlendedByTheirWeights) {
+    for (const float whole : {1.0f, 0.5f}) {
+        Scene scene = make_skin_scene();
+        scene.nodes[0].transform = Transform{};
+        scene.nodes[2].transform.translation = glm::dvec3(4.0, 0.0, 1.0);
+        scene.nodes[2].transform.scale = glm::dvec3(1.0, 5.0, 1.0);
+        Mesh& mesh = scene.meshes[0];
+        mesh.normals.assign(mesh.positions.size(), glm::normalize(glm::vec3(1.0f, 1.0f, 0.0f)));
+        for (std::size_t i = 0; i < mesh.deformation.joint_weights.size(); ++i)
+            mesh.deformation.joint_weights[i].weight = (i % 2 == 0 ? 0.25f : 0.75f) * whole;
+        const PosedMesh posed = pose(scene, 0.0).meshes[0];
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            const glm::dvec3 rest(mesh.positions[v]);
+            expect_near(posed.positions[v], glm::dvec3(rest.x + 3.0, 4.0 * rest.y, rest.z), 1e-6);
+            expect_near(posed.normals[v], glm::normalize(glm::dvec3(1.0, 0.25, 0.0)), 1e-6);
+        }
+    }
+}
+
 TEST(Deform, VerticesWithoutWeightsStayAtRest) {
     Scene scene = make_skin_scene();
     Mesh& mesh = scene.meshes[0];

@@ -112,5 +112,25 @@ TEST(AlphaCutout, TexturesAreReadAsTheirReferenceSays) {
     EXPECT_EQ(at(float_nan, 0.0f), at(0.0f, 0.0f));
 }
 
+/// KHR_texture_transform: scaled, then turned, then moved.
+TEST(AlphaCutout, TexturesAreTransformed) {
+    Scene scene = make_masked_scene(Opacity::Mode::mask);
+    scene.images[0].bytes = Image<glm::u8vec4>(5, 3, glm::u8vec4(255));
+    for (int i = 0; i < 15; ++i) scene.images[0].bytes(i % 5, i / 5).w = static_cast<std::uint8_t>(37 * i % 256);
+    TextureRef plain = scene.materials[0].textures[TextureSlot::base_color];
+    plain.nearest = false;
+    TextureRef moved = plain;
+    moved.uv_rotation = 0.4;
+    moved.uv_scale = {1.5, 0.7};
+    moved.uv_offset = {0.1, -0.2};
+    const AlphaTexture before = make_alpha_texture(scene, plain), after = make_alpha_texture(scene, moved);
+    for (const glm::dvec2& uv : {glm::dvec2(0.2, 0.3), {0.9, 0.1}, {0.4, 0.8}, {-0.6, 1.7}}) {
+        const double u = 1.5 * uv.x, v = 0.7 * uv.y;
+        const glm::vec2 there(0.1 + std::cos(0.4) * u + std::sin(0.4) * v,
+                              -0.2 + std::cos(0.4) * v - std::sin(0.4) * u);
+        EXPECT_NEAR(after.sample(glm::vec2(uv)), before.sample(there), 1e-5f);
+    }
+}
+
 }  // namespace
 }  // namespace aleph

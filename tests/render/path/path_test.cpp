@@ -26,7 +26,7 @@ Mean mean_of(const Stage& stage, const RenderSettings& settings) {
 void expect_value(const Stage& stage, RenderSettings settings, double expected) {
     EXPECT_TRUE(holds([&](Trial& trial) {
         settings.seed = trial.seed;
-        settings.sampling.spp = settings.light.light_samples = trial.times(64);
+        settings.sampling.spp = trial.times(64);
         const Mean mean = mean_of(stage, settings);
         trial.near(mean, expected, 1e-4 * expected);
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);

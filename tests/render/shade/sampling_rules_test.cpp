@@ -26,7 +26,7 @@ RenderSettings make_settings(int width, int height) {
 RenderSettings settings_of(Sampling rule, int width, int height) {
     RenderSettings settings = make_settings(width, height);
     settings.sampling.rule = rule;
-    settings.sampling.spp = settings.light.light_samples = rule == Sampling::uniform ? 16 : 32;
+    settings.sampling.spp = rule == Sampling::uniform ? 16 : 32;
     if (rule == Sampling::threshold) settings.error = 1.0;
     return settings;
 }

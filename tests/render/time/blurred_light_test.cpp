@@ -16,7 +16,7 @@ RenderSettings blurred_settings(Integrator integrator, std::uint32_t seed) {
     RenderSettings settings = shot_settings(0);
     settings.picture.width = columns;
     settings.picture.height = rows;
-    settings.sampling.spp = settings.light.light_samples = 16;
+    settings.sampling.spp = 16;
     settings.light.integrator = integrator;
     settings.seed = seed;
     return settings;
