@@ -8,7 +8,7 @@
 
 #include "engine/base/image.h"
 #include "perception/band_response.h"
-#include "perception/vision_model.h"
+#include "perception/vision/vision_model.h"
 
 namespace aleph {
 

@@ -6,7 +6,7 @@
 
 #include "engine/base/image.h"
 #include "engine/base/pyramid.h"
-#include "perception/band_frequencies.h"
+#include "perception/vision/band_frequencies.h"
 
 namespace aleph {
 

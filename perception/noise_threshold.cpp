@@ -8,10 +8,10 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/base/pyramid.h"
-#include "perception/castle.h"
-#include "perception/display_hold.h"
-#include "perception/luminance_curve.h"
 #include "perception/visible_bands.h"
+#include "perception/vision/castle.h"
+#include "perception/vision/display_hold.h"
+#include "perception/vision/luminance_curve.h"
 
 namespace aleph {
 

@@ -9,7 +9,7 @@
 #include "perception/aleph_map.h"
 #include "perception/band_response.h"
 #include "perception/check_viewing.h"
-#include "perception/saliency.h"
+#include "perception/saliency/saliency.h"
 #include "perception/threshold.h"
 
 namespace aleph {

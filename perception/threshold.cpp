@@ -6,7 +6,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "perception/check_viewing.h"
-#include "perception/luminance_curve.h"
+#include "perception/vision/luminance_curve.h"
 
 namespace aleph {
 

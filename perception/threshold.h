@@ -3,8 +3,8 @@
 
 #include "engine/base/color.h"
 #include "engine/base/image.h"
-#include "perception/vision_list.h"
-#include "perception/vision_model.h"
+#include "perception/vision/vision_list.h"
+#include "perception/vision/vision_model.h"
 
 namespace aleph {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/base/pyramid.h"
-#include "perception/fast_math.h"
+#include "perception/vision/fast_math.h"
 
 namespace aleph {
 
@@ -71,8 +71,8 @@ Image<float> compute_visual_channel(const Image<Rgb>& picture, double white, int
     Image<float> out(picture.width, picture.height);
     for (std::size_t i = 0; i < picture.size(); ++i) {
         const Rgb& p = picture.pixels[i];
-        out.pixels[i] = static_cast<float>(white * (weights[0] * displayed(p.x) + weights[1] * displayed(p.y) +
-                                                    weights[2] * displayed(p.z)));
+        out.pixels[i] = static_cast<float>(
+            white * (weights[0] * displayed(p.x) + weights[1] * displayed(p.y) + weights[2] * displayed(p.z)));
     }
     return out;
 }

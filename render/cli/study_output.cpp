@@ -11,9 +11,9 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "render/study/error_sheet.h"
-#include "render/study/report_page.h"
-#include "render/study/viewer_page.h"
+#include "render/study/pages/error_sheet.h"
+#include "render/study/pages/report_page.h"
+#include "render/study/pages/viewer_page.h"
 
 namespace aleph {
 

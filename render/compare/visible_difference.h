@@ -1,20 +1,20 @@
 #pragma once
 // What a viewer sees of the difference between two sequences: an instrument that judges pictures and guides nothing.
 //
-// Differences of what a display shows, in three channels of colour and in bands of spatial frequency, are followed along
-// the exact motion of the surfaces, as an eye does that follows them. castleCSF weighs them at their luminance and at the
-// velocity that is left on the retina (visible_filters.h); contrast of both pictures masks them. The result is in units
-// of one just visible difference of a viewer who looks at the pixel: no attention. Differences that ride with a surface
-// last; those that change from frame to frame along the motion flicker. Sources: castleCSF (Ashraf et al. 2024);
-// FovVideoVDP (Mantiuk et al. 2021) and ColorVideoVDP (Mantiuk et al. 2024) for bands, channels and masking.
+// Differences of what a display shows, in three channels of colour and in bands of spatial frequency, are followed
+// along the exact motion of the surfaces, as an eye does that follows them. castleCSF weighs them at their luminance
+// and at the velocity that is left on the retina (visible_filters.h); contrast of both pictures masks them. The result
+// is in units of one just visible difference of a viewer who looks at the pixel: no attention. Differences that ride
+// with a surface last; those that change from frame to frame along the motion flicker. Sources: castleCSF (Ashraf et
+// al. 2024); FovVideoVDP (Mantiuk et al. 2021) and ColorVideoVDP (Mantiuk et al. 2024) for bands, channels and masking.
 
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
 
-#include "perception/retinal_velocity.h"
 #include "perception/visible_bands.h"
+#include "perception/vision/retinal_velocity.h"
 #include "render/compare/surface_track.h"
 #include "render/compare/visible_filters.h"
 
@@ -30,15 +30,15 @@ struct ViewingSettings {
 /// Reads whiteLuminance, pixelsPerDegree, displayPersistence and framesPerSecond; others keep their defaults.
 ViewingSettings read_viewing(const ChannelImage& maps);
 
-/// The noise of a reference that is a mean of renderings: half the difference of the means of both halves of them, which
-/// has the spectrum of the mean's own noise. Reads noise.R, noise.G and noise.B; nothing if there are none, or the number
-/// of renderings (`passes`) is odd.
+/// The noise of a reference that is a mean of renderings: half the difference of the means of both halves of them,
+/// which has the spectrum of the mean's own noise. Reads noise.R, noise.G and noise.B; nothing if there are none, or
+/// the number of renderings (`passes`) is odd.
 Image<Rgb> read_noise(const ChannelImage& reference);
 
 /// Two pictures of a frame.
 struct PicturePair {
     Image<Rgb> picture, reference;  ///< linear RGB, Rec.709, white = 1
-    Image<Rgb> noise{};             ///< of the reference (read_noise); its energy is taken off the difference's; may be empty
+    Image<Rgb> noise{};  ///< of the reference (read_noise); its energy is taken off the difference's; may be empty
 };
 
 /// Visible differences of a frame, in just visible differences. A value that is not finite in either picture is
@@ -72,8 +72,8 @@ class VisibleDifference {
         MotionMaps motion;
         std::array<Bands, visual_channels> error, noise;  ///< signals; noise is empty if there is none
         std::array<Bands, visual_channels> masker;        ///< amplitudes of what both pictures have
-        Bands background;                                  ///< L + M that the eye is adapted to, cd/m2, by level
-        std::vector<std::size_t> broken;                   ///< pixels that are not finite
+        Bands background;                                 ///< L + M that the eye is adapted to, cd/m2, by level
+        std::vector<std::size_t> broken;                  ///< pixels that are not finite
     };
 
     void prepare(int width, int height);

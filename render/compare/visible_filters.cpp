@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "perception/castle.h"
-#include "perception/display_hold.h"
-#include "perception/retinal_velocity.h"
+#include "perception/vision/castle.h"
+#include "perception/vision/display_hold.h"
+#include "perception/vision/retinal_velocity.h"
 
 namespace aleph {
 
@@ -23,7 +23,8 @@ double node_luminance(int i) {
 
 double node_velocity(int i) {
     if (i == 0) return 0.0;
-    return lowest_velocity * std::pow(highest_velocity / lowest_velocity, (i - 1) / static_cast<double>(velocity_nodes - 2));
+    return lowest_velocity *
+           std::pow(highest_velocity / lowest_velocity, (i - 1) / static_cast<double>(velocity_nodes - 2));
 }
 
 /// A place between two nodes.
@@ -46,8 +47,9 @@ Place luminance_place(float luminance) {
 Place velocity_place(float velocity) {
     const double v = velocity > 0.0f ? velocity : 0.0;
     if (v <= lowest_velocity) return {0, static_cast<float>(v / lowest_velocity)};
-    return place_of(1.0 + std::log(v / lowest_velocity) / std::log(highest_velocity / lowest_velocity) * (velocity_nodes - 2),
-                    velocity_nodes);
+    return place_of(
+        1.0 + std::log(v / lowest_velocity) / std::log(highest_velocity / lowest_velocity) * (velocity_nodes - 2),
+        velocity_nodes);
 }
 
 double sinc(double x) {
@@ -106,7 +108,8 @@ VisibleFilter::VisibleFilter(int channel, double frequency, const ViewingConditi
             for (int j = 0; j <= reach_; ++j) response[j] = of.held(j * rate / count);
             for (int k = 0; k <= reach_; ++k) {
                 double sum = response[0];
-                for (int j = 1; j <= reach_; ++j) sum += 2.0 * response[j] * std::cos(2.0 * std::numbers::pi * j * k / count);
+                for (int j = 1; j <= reach_; ++j)
+                    sum += 2.0 * response[j] * std::cos(2.0 * std::numbers::pi * j * k / count);
                 *out++ = static_cast<float>(sum / count);
             }
             *out++ = static_cast<float>(response[0]);

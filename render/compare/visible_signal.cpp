@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/parallel.h"
-#include "perception/castle.h"
+#include "perception/vision/castle.h"
 
 namespace aleph {
 

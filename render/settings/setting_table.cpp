@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "perception/vision_model.h"
+#include "perception/vision/vision_model.h"
 #include "render/settings/make_setting.h"
 #include "render/settings/setting_check.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "perception/band_frequencies.h"
+#include "perception/vision/band_frequencies.h"
 #include "render/study/prepared_study.h"
 #include "render/study/study_results.h"
 

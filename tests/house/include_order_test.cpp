@@ -28,12 +28,13 @@ const std::vector<Layer>& layers() {
         const std::vector<std::string> below_load = engine;
         engine.push_back("engine/load");
         std::vector<std::string> stages = engine;
-        for (const char* folder : {"motion", "perception"}) stages.push_back(folder);
+        for (const char* folder : {"motion", "perception/vision", "perception/saliency", "perception"})
+            stages.push_back(folder);
         // Each includes those before it.
         std::vector<Layer> rooms;
-        for (const char* room :
-             {"settings", "surface", "pixels", "guide", "light", "path", "cache", "estimate", "time", "shade", "plan",
-              "frame", "output", "compare", "images", "budget", "verify", "study", "cli"}) {
+        for (const char* room : {"settings", "surface", "pixels", "guide", "light",       "path",   "cache",
+                                 "estimate", "time",    "shade",  "plan",  "frame",       "output", "compare",
+                                 "images",   "budget",  "verify", "study", "study/pages", "cli"}) {
             rooms.push_back({std::string("render/") + room, stages});
             stages.push_back(rooms.back().folder);
         }
@@ -55,7 +56,9 @@ const std::vector<Layer>& layers() {
             {"engine/alembic", with(model, {"engine/json"})},
             {"engine/load", below_load},
             {"motion", engine},
-            {"perception", {"engine/base"}},
+            {"perception/vision", {"engine/base"}},
+            {"perception/saliency", {"engine/base", "perception/vision"}},
+            {"perception", {"engine/base", "perception/vision", "perception/saliency"}},
         };
         // Subcommands, which cli/ names but does not include.
         for (const char* part : {"explain", "compare"}) rooms.push_back({std::string("render/cli/") + part, stages});
@@ -162,6 +165,7 @@ TEST(House, CheckerSeesEveryKindOfViolation) {
     EXPECT_EQ(count("engine/gltf/a.cpp", "#include \"engine/scene_file/fields.h\"\n"), 1u);
     EXPECT_EQ(count("engine/gltf/validate/a.cpp", "#include \"engine/gltf/reader.h\"\n"), 1u);
     EXPECT_EQ(count("engine/image/a.h", "#include \"engine/load/load_scene.h\"\n"), 1u);
+    EXPECT_EQ(count("perception/vision/a.cpp", "#include \"perception/perception.h\"\n"), 1u);
     EXPECT_EQ(count("motion/a.cpp", "#include \"perception/perception.h\"\n"), 1u);
     EXPECT_EQ(count("render/frame/a.cpp", "#include \"render/cli/options.h\"\n"), 1u);
     EXPECT_EQ(count("render/frame/a.cpp", "#include \"../render/settings/settings.h\"\n"), 1u);

@@ -2,9 +2,9 @@
 
 #include "perception/aleph_map.h"
 #include "engine/base/parallel.h"
-#include "perception/fast_math.h"
-#include "perception/kelly_vision.h"
 #include "perception/perception.h"
+#include "perception/vision/fast_math.h"
+#include "perception/vision/kelly_vision.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
 

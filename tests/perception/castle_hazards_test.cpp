@@ -3,10 +3,10 @@
 
 #include <cfloat>
 
-#include "perception/castle.h"
-#include "perception/castle_row.h"
-#include "perception/display_hold.h"
 #include "perception/threshold.h"
+#include "perception/vision/castle.h"
+#include "perception/vision/castle_row.h"
+#include "perception/vision/display_hold.h"
 #include "tests/support/test.h"
 
 namespace aleph {

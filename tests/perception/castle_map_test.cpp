@@ -1,11 +1,11 @@
 // castleCSF in the Aleph map: rows of floats against single values in double, the hold of displays, thresholds.
 
 #include "engine/base/sampling.h"
-#include "perception/castle.h"
-#include "perception/castle_row.h"
-#include "perception/display_hold.h"
 #include "perception/perception.h"
 #include "perception/threshold.h"
+#include "perception/vision/castle.h"
+#include "perception/vision/castle_row.h"
+#include "perception/vision/display_hold.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
 

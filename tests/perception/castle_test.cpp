@@ -1,7 +1,7 @@
 // Published values of castleCSF, and of the elevations of the three models of vision side by side.
 
-#include "perception/castle.h"
-#include "perception/kelly.h"
+#include "perception/vision/castle.h"
+#include "perception/vision/kelly.h"
 #include "tests/support/test.h"
 
 namespace aleph {

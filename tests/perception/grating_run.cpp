@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "perception/perception.h"
-#include "perception/vision_model.h"
+#include "perception/vision/vision_model.h"
 #include "tests/perception/vision_formulas.h"
 
 namespace aleph {

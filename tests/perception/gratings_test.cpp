@@ -1,10 +1,10 @@
 // The vision model on moving gratings, whose bands have a closed form, and known answers of the models themselves.
 
-#include "perception/band_frequencies.h"
-#include "perception/castle.h"
-#include "perception/castle_row.h"
-#include "perception/kelly.h"
-#include "perception/retinal_velocity.h"
+#include "perception/vision/band_frequencies.h"
+#include "perception/vision/castle.h"
+#include "perception/vision/castle_row.h"
+#include "perception/vision/kelly.h"
+#include "perception/vision/retinal_velocity.h"
 #include "tests/perception/grating_run.h"
 #include "tests/perception/vision_formulas.h"
 #include "tests/support/perception_reference.h"

@@ -1,9 +1,9 @@
 // Noise of single pixels, against sums over its frequencies.
 
 #include "perception/noise_threshold.h"
-#include "perception/castle.h"
-#include "perception/display_hold.h"
 #include "perception/visible_bands.h"
+#include "perception/vision/castle.h"
+#include "perception/vision/display_hold.h"
 #include "tests/support/test.h"
 
 namespace aleph::noise_threshold_test {
@@ -98,7 +98,8 @@ TEST(NoiseThreshold, ContrastOfABandMasksTheNoiseInIt) {
     EXPECT_LT(last, contrast_masking(150.0f, 0) * bare);
     EXPECT_EQ(noise.threshold(50.0f, 0.15f, 0.0f, {0.0f, 0.0f, 0.0f, 0.0f}), bare);
     // k = .160, q = 1.303, w = .877, p = 2.264, by hand at ten thresholds.
-    EXPECT_NEAR(contrast_masking(10.0f, 0), std::pow(1.0 + 0.876909 * std::pow(1.60141, 1.302623), 1.0 / 2.264355), 1e-4);
+    EXPECT_NEAR(contrast_masking(10.0f, 0), std::pow(1.0 + 0.876909 * std::pow(1.60141, 1.302623), 1.0 / 2.264355),
+                1e-4);
     EXPECT_EQ(contrast_masking(0.0f, 0), 1.0f);
     EXPECT_EQ(contrast_masking(float_nan, 2), 1.0f);
 }
@@ -107,7 +108,8 @@ TEST(NoiseThreshold, APictureMasksWhereItHasContrast) {
     constexpr int width = 64, height = 32;
     Image<Rgb> picture(width, height, Rgb(0.5f));
     for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width / 2; ++x) picture(x, y) = Rgb(x / 4 % 2 == 0 ? 0.3f : 0.7f);  // an eighth of a cycle a pixel
+        for (int x = 0; x < width / 2; ++x)
+            picture(x, y) = Rgb(x / 4 % 2 == 0 ? 0.3f : 0.7f);  // an eighth of a cycle a pixel
     }
     const Image<float> adaptation(width, height, 50.0f), retinal(width, height, 0.15f);
     const NoiseVisibility noise({}, thirty, NoiseOverTime::fresh);

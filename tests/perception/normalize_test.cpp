@@ -1,7 +1,7 @@
 // N(.) where "the average of all other local maxima" is 0/0, or depends on what counts as a local maximum.
 // Flat pictures: every pixel ties with its neighbours. The search for local maxima must not store all of them.
 
-#include "perception/normalize.h"
+#include "perception/saliency/normalize.h"
 #include "engine/base/parallel.h"
 #include "engine/base/pyramid.h"
 #include "engine/base/sampling.h"

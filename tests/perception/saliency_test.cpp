@@ -1,6 +1,6 @@
 // Saliency and Aleph maps against a slow, direct implementation of the equations (perception_reference.h).
 
-#include "perception/saliency.h"
+#include "perception/saliency/saliency.h"
 #include "perception/perception.h"
 #include "tests/support/perception_reference.h"
 #include "tests/support/perception_scene.h"

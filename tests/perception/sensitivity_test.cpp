@@ -1,8 +1,8 @@
 // The formulas of Yee 2000, section 5.4, against known values.
 
-#include "perception/band_frequencies.h"
-#include "perception/kelly.h"
-#include "perception/retinal_velocity.h"
+#include "perception/vision/band_frequencies.h"
+#include "perception/vision/kelly.h"
+#include "perception/vision/retinal_velocity.h"
 #include "tests/support/test.h"
 
 namespace aleph {

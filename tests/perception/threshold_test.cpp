@@ -2,7 +2,7 @@
 
 #include "perception/threshold.h"
 #include "engine/base/sampling.h"
-#include "perception/tvi.h"
+#include "perception/vision/tvi.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -1,10 +1,10 @@
 // Promises of every model of vision, and models that are not in the list.
 
-#include "perception/vision_model.h"
+#include "perception/vision/vision_model.h"
 #include "engine/base/sampling.h"
 #include "perception/perception.h"
 #include "perception/threshold.h"
-#include "perception/tvi.h"
+#include "perception/vision/tvi.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
 

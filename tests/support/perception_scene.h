@@ -10,8 +10,8 @@
 #include "engine/base/image.h"
 #include "engine/base/sampling.h"
 #include "perception/perception.h"
-#include "perception/tvi.h"
-#include "perception/vision_model.h"
+#include "perception/vision/tvi.h"
+#include "perception/vision/vision_model.h"
 
 namespace aleph {
 

@@ -1,7 +1,7 @@
 // The irradiance cache at thin things: sides of a few millimetres, posts of a few centimetres.
 // The irradiance cache next to walls: no light may leak into a dark room, behind a thin wall or to the front of bars.
 
-#include "perception/tvi.h"
+#include "perception/vision/tvi.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"

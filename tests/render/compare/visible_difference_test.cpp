@@ -1,8 +1,8 @@
 // Visible differences, against castleCSF and what must be so by construction.
 
 #include "render/compare/visible_difference.h"
-#include "perception/castle.h"
-#include "perception/display_hold.h"
+#include "perception/vision/castle.h"
+#include "perception/vision/display_hold.h"
 #include "tests/support/test.h"
 
 namespace aleph::visible_difference_test {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/image/image_file.h"
-#include "render/study/report_layers.h"
-#include "render/study/report_page.h"
-#include "render/study/viewer_page.h"
+#include "render/study/pages/report_layers.h"
+#include "render/study/pages/report_page.h"
+#include "render/study/pages/viewer_page.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"

@@ -1,0 +1,87 @@
+#include "perception/vision/kelly_vision.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "perception/vision/fast_math.h"
+#include "perception/vision/tvi.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr float max_model_velocity = 1e6f;  // deg/s; above 1.8e5 no contrast is visible and every f is 1
+constexpr float log2_e = static_cast<float>(std::numbers::log2e);
+constexpr float log10_2 = 0.30102999566398120f;
+
+}  // namespace
+
+KellyRow::KellyRow(const std::array<double, band_count>& rho, int width, const KellyModel& model)
+    : model_(model), spread_(width), peak_(width) {
+    for (int i = 0; i < band_count; ++i) {
+        slope_[i] = static_cast<float>(rho[i] * model.angular() / csf_rho_numerator);
+    }
+}
+
+void KellyRow::load(const StimulusRow& row) {
+    // CSF_max = k c0 c2 v rho_max^2 e^-2
+    const auto peak_factor =
+        static_cast<float>(model_.c0 * model_.c2 * csf_rho_numerator * csf_rho_numerator * std::exp(-2.0));
+    const auto log_offset = static_cast<float>(std::log10(model_.c2 / csf_k_velocity));
+    const auto c2 = static_cast<float>(model_.c2), slowest = static_cast<float>(model_.min_velocity);
+    const std::size_t width = spread_.size();
+    const float* const velocity = row.retinal;
+    float* const spread = spread_.data();
+    float* const peak = peak_.data();
+    float largest = 0.0f;
+#pragma omp simd reduction(max : largest)
+    for (std::size_t x = 0; x < width; ++x) {
+        const float limited = velocity[x] < max_model_velocity ? velocity[x] : max_model_velocity;
+        const float v = limited > slowest ? limited : slowest;
+        const float s = c2 * v + static_cast<float>(csf_rho_offset);
+        const float l = std::abs(log10_2 * fast_log2(v) + log_offset);
+        const float k = static_cast<float>(csf_k_offset) + static_cast<float>(csf_k_slope) * (l * l * l);
+        spread[x] = s;
+        largest = s > largest ? s : largest;
+        peak[x] = peak_factor * k * v / (s * s);
+    }
+    max_spread_ = largest;
+}
+
+bool KellyRow::is_one(int band) const {
+    return !(slope_[band] * max_spread_ > 1.0f);
+}
+
+void KellyRow::elevations(int band, float* out) const {
+    // k, c0 and c2 v cancel: CSF_max / CSF = e^(2x-2) / x^2 with x = rho / rho_peak. Where CSF < 1, f is CSF_max.
+    const float slope = slope_[band];
+    const std::size_t width = spread_.size();
+    const float* const spread = spread_.data();
+    const float* const peak = peak_.data();
+    for (std::size_t x = 0; x < width; ++x) {
+        const float ratio = slope * spread[x];
+        const float f = fast_exp2(2.0f * log2_e * (ratio - 1.0f)) / (ratio * ratio);
+        const float clamped = f < peak[x] ? f : peak[x];
+        const float at_least_one = clamped > 1.0f ? clamped : 1.0f;
+        out[x] = ratio > 1.0f ? at_least_one : 1.0f;
+    }
+}
+
+double KellyVision::elevation(const Stimulus& stimulus, const Presentation& /*shown*/) const {
+    return aleph::elevation(stimulus.frequency, stimulus.retinal, model_);
+}
+
+double KellyVision::threshold(double luminance) const {
+    return tvi(luminance);
+}
+
+ElevationRowMaker KellyVision::make_rows(const std::array<double, band_count>& rho,
+                                         const Presentation& /*shown*/) const {
+    return [rho, model = model_](int width) { return std::make_unique<KellyRow>(rho, width, model); };
+}
+
+void KellyVision::thresholds(const float* luminance, std::size_t count, float* out) const {
+    tvi_row(luminance, count, out);
+}
+
+}  // namespace aleph
