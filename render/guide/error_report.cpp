@@ -78,6 +78,7 @@ const std::array<std::string, cause_count>& cause_names() {
 ErrorMaps estimate_errors(const ErrorInput& input) {
     const int width = input.pixels.width, height = input.pixels.height;
     ErrorMaps maps;
+    maps.reach = input.reach;
     maps.total = Image<float>(width, height);
     for (Image<float>& map : maps.by_cause) map = Image<float>(width, height);
     parallel_rows(height, 4, [&](int begin, int end) {
@@ -100,11 +101,11 @@ ErrorMaps estimate_errors(const ErrorInput& input) {
 }
 
 ErrorShares count_errors(const ErrorMaps& maps, double asked) {
-    const auto mean_share = [asked](const Image<float>& map) {
+    const auto mean_share = [asked, reach = maps.reach](const Image<float>& map) {
         Image<float> energy = map;
         for (float& value : energy.pixels) value *= value;
         double sum = 0.0;
-        for (const float around : mean_around(energy, true).pixels)
+        for (const float around : mean_around(energy, reach, true).pixels)
             sum += share_beyond(std::sqrt(static_cast<double>(around)), asked);
         return map.empty() ? 0.0 : sum / static_cast<double>(map.size());
     };

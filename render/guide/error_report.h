@@ -25,6 +25,7 @@ struct ErrorInput {
     const Image<Outline>& outlines;
     double luminance_scale = 1.0;  ///< cd/m2 for a luminance of 1 of the samples: exposure times display white
     bool blurred = false;          ///< the shutter or the lens is open
+    int reach = 1;                 ///< find_seen_reach
 };
 
 /// From the halves of the samples of a pixel and the eight around it (PixelSamples), and from the accuracy of cached

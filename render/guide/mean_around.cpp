@@ -1,6 +1,7 @@
 #include "render/guide/mean_around.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/parallel.h"
 
@@ -24,14 +25,19 @@ Sum known(float value) {
 
 }  // namespace
 
-Image<float> mean_around(const Image<float>& values, bool with_own) {
+int find_seen_reach(double pixels_per_degree) {
+    constexpr double degrees = 4.0 / 31.0;
+    return static_cast<int>(std::clamp(std::round(degrees * pixels_per_degree), 1.0, 1000.0));
+}
+
+Image<float> mean_around(const Image<float>& values, int reach, bool with_own) {
     const int width = values.width, height = values.height;
     Image<Sum> rows(width, height);
     Image<float> means(width, height);
     parallel_rows(height, 8, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < width; ++x) {
-                for (int nx = std::max(0, x - seen_reach); nx <= std::min(width - 1, x + seen_reach); ++nx)
+                for (int nx = std::max(0, x - reach); nx <= std::min(width - 1, x + reach); ++nx)
                     rows(x, y).add(known(values(nx, y)));
             }
         }
@@ -40,7 +46,7 @@ Image<float> mean_around(const Image<float>& values, bool with_own) {
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < width; ++x) {
                 Sum sum;
-                for (int ny = std::max(0, y - seen_reach); ny <= std::min(height - 1, y + seen_reach); ++ny)
+                for (int ny = std::max(0, y - reach); ny <= std::min(height - 1, y + reach); ++ny)
                     sum.add(rows(x, ny));
                 const Sum own = known(values(x, y));
                 if (!with_own && sum.count > own.count) sum.add(own, -1);

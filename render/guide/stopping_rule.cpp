@@ -56,7 +56,7 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outlin
     return estimate;
 }
 
-Image<float> deviations_around(const Image<PixelSamples>& pixels) {
+Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach) {
     constexpr float normal = 0.797884561f;  // mean size of a normal number: the halves of a pixel tell one
     Image<float> deviations(pixels.width, pixels.height);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -64,7 +64,7 @@ Image<float> deviations_around(const Image<PixelSamples>& pixels) {
         deviations.pixels[i] =
             error.samples == 0 ? -1.0f : std::sqrt(error.total * static_cast<float>(error.samples)) / normal;
     }
-    return mean_around(deviations, false);
+    return mean_around(deviations, reach, false);
 }
 
 bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance) {

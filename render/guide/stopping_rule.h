@@ -28,7 +28,7 @@ struct MeanEstimate {
 
 /// Mean over the pixels around, without the pixel itself (mean_around), of the standard deviation of their samples'
 /// luminance: of independent samples with as much error as theirs.
-Image<float> deviations_around(const Image<PixelSamples>& pixels);
+Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach);
 
 /// The larger of what the eight pixels around (x, y) tell, and the 24. Only those count that have an outline as it has,
 /// or have none as it has none: beside an outline the noise is another. Where there is no such pixel, all eight
@@ -41,7 +41,7 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outlin
 /// variance (6.12): the standard error of independent samples is below the tolerance; or as printed their standard
 /// deviation, which does not fall with their number.
 /// threshold: n samples are enough if error_deviations^2 s S / n is within the tolerance squared, with s the deviation
-/// of the pixel's samples and S that of those around. The energy of the errors in seen_reach is then within it, with
+/// of the pixel's samples and S that of those around. The energy of the errors around is then within it, with
 /// the fewest samples in all (Neyman 1934): where deviations are equal, when error_deviations standard errors are
 /// within the tolerance; at a lone outline with fewer samples, around it with more.
 /// @param tolerance  of luminance, in the samples' unit. 0 or less is met by an error of 0 only

@@ -25,6 +25,7 @@ inline constexpr std::size_t cause_count = 5;
 struct ErrorMaps {
     Image<float> total;
     std::array<Image<float>, cause_count> by_cause;
+    int reach = 1;  ///< pixels on either side whose errors are seen together (find_seen_reach)
 };
 
 /// Estimated shares of pixels whose error is larger than what was asked for.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/guide/accuracy_map.h"
+#include "render/guide/mean_around.h"
 
 namespace aleph {
 
@@ -60,6 +61,7 @@ SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSetting
     plan.tolerance = compute_sampling_tolerance(*limits, settings, exposure);
     plan.aleph = limits->aleph;
     plan.outlines = limits->outlines;
+    plan.reach = find_seen_reach(limits->viewing.pixels_per_degree);
     return plan;
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/base/parallel.h"
 #include "render/guide/error_report.h"
+#include "render/guide/mean_around.h"
 #include "render/pixels/sample_place.h"
 #include "render/settings/measure.h"
 #include "render/shade/integrator.h"
@@ -142,7 +143,8 @@ class FrameShading {
                                        .accuracy = options_.limits->accuracy,
                                        .outlines = options_.limits->outlines,
                                        .luminance_scale = exposure_ * options_.limits->viewing.display_white,
-                                       .blurred = options_.at_sample || options_.lens.radius > 0.0});
+                                       .blurred = options_.at_sample || options_.lens.radius > 0.0,
+                                       .reach = find_seen_reach(options_.limits->viewing.pixels_per_degree)});
         out_.error_shares = count_errors(out_.errors, settings.error > 0.0 ? settings.error : 1.0);
     }
 

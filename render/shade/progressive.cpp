@@ -28,7 +28,7 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
 std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
                                     const std::vector<PixelRange>& stage) {
     std::vector<std::uint8_t> goes_on(stage.size());
-    const Image<float> around = plan.rule == Sampling::threshold ? deviations_around(pixels) : Image<float>();
+    const Image<float> around = plan.rule == Sampling::threshold ? deviations_around(pixels, plan.reach) : Image<float>();
     parallel_for(stage.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const PixelRange& range = stage[i];

@@ -18,6 +18,7 @@ struct SamplingPlan {
     Image<float> tolerance;   ///< of luminance, in the samples' unit (is_enough); empty for `uniform` and `protocol`
     Image<float> aleph;       ///< for `protocol`
     Image<Outline> outlines;  ///< for `threshold`; empty: none
+    int reach = 1;            ///< for `threshold`: pixels on either side that are seen together (find_seen_reach)
     const PicturePart* part = nullptr;  ///< pixels that take samples; null: all
 };
 

@@ -187,7 +187,7 @@ TEST(Deform, SkinFollowsItsJointsWhateverItsOwnNodeDoes) {
 TEST(Deform, JointsAreBlendedByTheirWeights) {
     for (const float whole : {1.0f, 0.5f}) {
         Scene scene = make_skin_scene();
-        scene.nodes[0].transform = Transform{};
+        scene.nodes[0].transform = {};
         scene.nodes[2].transform.translation = glm::dvec3(4.0, 0.0, 1.0);
         scene.nodes[2].transform.scale = glm::dvec3(1.0, 5.0, 1.0);
         Mesh& mesh = scene.meshes[0];

@@ -42,6 +42,7 @@ SamplingPlan make_plan(Sampling rule, int most, int width, int height, float tol
     SamplingPlan plan;
     plan.rule = rule;
     plan.most = most;
+    plan.reach = 4;
     plan.aleph = Image<float>(width, height, aleph);
     if (rule != Sampling::protocol && rule != Sampling::uniform)
         plan.tolerance = Image<float>(width, height, tolerance);
@@ -175,19 +176,27 @@ Image<PixelSamples> pixels_of_deviations(int width, int height, const std::funct
 TEST(StoppingRule, DeviationsAroundAreMeansOfOtherPixels) {
     Image<PixelSamples> pixels = pixels_of_deviations(12, 7, [](int x, int) { return x < 6 ? 1.0f : 3.0f; });
     const double one = std::sqrt(2.0) / std::sqrt(2.0 / std::numbers::pi);  // halves of one sample each
-    const Image<float> around = deviations_around(pixels);
+    const Image<float> around = deviations_around(pixels, 4);
     EXPECT_NEAR(around(0, 3), one, 1e-5);
     EXPECT_NEAR(around(11, 0), one * 3.0, 1e-5);
     EXPECT_NEAR(around(5, 6), one * (5.0 * 5.0 + 4.0 * 5.0 * 3.0 - 1.0) / (9.0 * 5.0 - 1.0), 1e-5);
     pixels(0, 0) = PixelSamples();  // not known
     for (const float value : {0.0f, 100.0f}) pixels(1, 0).add(grey(value));
-    EXPECT_NEAR(deviations_around(pixels)(6, 6), around(6, 6), 1e-6) << "beyond reach";
-    EXPECT_NEAR(deviations_around(pixels_of_deviations(1, 1, [](int, int) { return 2.0f; }))(0, 0), 2.0 * one, 1e-5);
+    EXPECT_NEAR(deviations_around(pixels, 4)(6, 6), around(6, 6), 1e-6) << "beyond reach";
+    EXPECT_NEAR(deviations_around(pixels_of_deviations(1, 1, [](int, int) { return 2.0f; }), 4)(0, 0), 2.0 * one, 1e-5);
     Image<float> values(20, 1, 1.0f);
     values(10, 0) = 9.0f;
-    EXPECT_EQ(mean_around(values, false)(10, 0), 1.0f);
-    EXPECT_FLOAT_EQ(mean_around(values, true)(10, 0), 17.0f / 9.0f);
-    EXPECT_LT(mean_around(Image<float>(3, 3, -1.0f), true)(1, 1), 0.0f);
+    EXPECT_EQ(mean_around(values, 4, false)(10, 0), 1.0f);
+    EXPECT_FLOAT_EQ(mean_around(values, 4, true)(10, 0), 17.0f / 9.0f);
+    EXPECT_EQ(mean_around(values, 2, true)(13, 0), 1.0f) << "beyond reach";
+    EXPECT_LT(mean_around(Image<float>(3, 3, -1.0f), 4, true)(1, 1), 0.0f);
+}
+
+TEST(StoppingRule, TheEyesReachIsAnAngle) {
+    EXPECT_EQ(find_seen_reach(31.0), 4);
+    EXPECT_EQ(find_seen_reach(62.0), 8);
+    EXPECT_EQ(find_seen_reach(2.0), 1);
+    EXPECT_EQ(find_seen_reach(1e300), 1000);
 }
 
 TEST(StoppingRule, AnOutlineNeedsFewerSamplesThanItsOwnErrorSays) {

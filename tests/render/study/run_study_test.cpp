@@ -137,7 +137,7 @@ TEST(RunStudy, MakesAgainWhatIsMissingOrOfOtherSettings) {
         }
     }
     EXPECT_EQ(run_study(prepare_study(study), folder.path()).made, 1u) << "a picture is missing";
-    study.settings["light_samples"] = 4.0;
+    study.settings["light_samples"] = 5.0;
     EXPECT_EQ(run_study(prepare_study(study), folder.path()).made, 2u) << "another setting";
     study.scenes[0].frames = "4";
     EXPECT_EQ(run_study(prepare_study(study), folder.path()).made, 2u) << "another frame";
