@@ -2,6 +2,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "engine/scene/operations.h"
 #include "motion/turn.h"
 #include "tests/support/motion_scenes.h"
 #include "tests/support/test.h"
@@ -60,6 +61,21 @@ TEST(Turn, AllOperationsThatTurnAddUp) {
     EXPECT_EQ(turn_of(node, 3.0, 9.0), 0.0);
     Node single{.transform = {.operations = OperationStack{{OperationStack::Kind::rotate_x}, {}, {1.0}}}};
     EXPECT_EQ(turn_of(single, 0.0, 1.0), 0.0);
+}
+
+TEST(Turn, RotationsAreAboutAnyAxis) {
+    using Kind = OperationStack::Kind;
+    for (const glm::dvec3& axis : {glm::dvec3(1.0, 2.0, -3.0), {0.0, 0.0, 2.0}, {-0.3, 0.1, 0.0}}) {
+        for (const double angle : {0.7, -2.5}) {
+            const OperationStack stack{{Kind::rotate}, {}, {axis.x, axis.y, axis.z, angle}};
+            const glm::dmat4 expected = glm::mat4_cast(glm::angleAxis(angle, glm::normalize(axis)));
+            const glm::dmat4 found = evaluate(stack, 0.0);
+            for (int column = 0; column < 4; ++column) {
+                for (int row = 0; row < 4; ++row) EXPECT_NEAR(found[column][row], expected[column][row], 1e-14);
+            }
+        }
+    }
+    EXPECT_EQ(evaluate(OperationStack{{Kind::rotate}, {}, {0.0, 0.0, 0.0, 1.0}}, 0.0), glm::dmat4(1.0));
 }
 
 TEST(Turn, ASplineSwingsBeyondItsKeys) {

@@ -20,7 +20,8 @@ FOLDERS = {
     "cache": ["render/cache/", "render/pixels/pixel_filter"],
 }
 PROGRAMS = {
-    "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_scene_file", "test_render"],
+    "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_scene_file", "test_render", "test_gltf",
+               "test_alembic"],
     "motion": ["test_motion", "test_pose", "test_render"],
     "perception": ["test_perception", "test_gratings"],
     "cache": ["test_render", "test_cache", "test_lighting_keyframes", "test_sequence"],

@@ -143,6 +143,20 @@ TEST(Shapes, BoxSidesHaveTheirImagesUpright) {
     }
 }
 
+TEST(Shapes, CylinderWallUnrollsItsImage) {
+    const Shape shape = make_shape(Shape::Kind::cylinder, 12);
+    const Mesh mesh = make_shape_mesh(shape);
+    for (std::size_t i = 0; i <= 12; ++i) {
+        for (const std::size_t end : {0u, 1u}) {
+            const glm::vec2 uv = mesh.uv[0][2 * i + end];
+            EXPECT_FLOAT_EQ(uv.x, static_cast<float>(i) / 12.0f);
+            EXPECT_EQ(uv.y, static_cast<float>(end));
+            EXPECT_FLOAT_EQ(mesh.positions[2 * i + end].y,
+                            (end == 0 ? 0.5f : -0.5f) * static_cast<float>(shape.height));
+        }
+    }
+}
+
 TEST(Shapes, TextureRepeats) {
     Shape shape = make_shape(Shape::Kind::quad);
     shape.uv_scale = {4.0, 0.5};
