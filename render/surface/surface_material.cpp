@@ -190,6 +190,7 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
             surface.emission = base;
             return surface;
         }
+        base = glm::min(base, Rgb(1.0f));  // a texture or vertex colour may have more; no surface reflects more
         const float ior_reflectance = (values.gloss.ior - 1.0f) / (values.gloss.ior + 1.0f);
         const Rgb dielectric_f0 = glm::min(ior_reflectance * ior_reflectance * specular_color, Rgb(1.0f)) * specular;
         const float dielectric = 1.0f - metallic, opaque = dielectric * (1.0f - transmission);

@@ -32,6 +32,10 @@ OPERATOR = re.compile(r"(?<=[\w)\]}]) (<=|>=|==|!=|<|>|\+|-|\*|/)(?= |$)")
 SKIPPED = re.compile(r"^\s*(#|//|\*|template|using|requires|static_assert|case )|operator|\bconcept\b|<=>|sizeof\.\.\.|"
                      r"\bconstexpr [^()]*=|if constexpr|std::array<[^>]* [-+*/] [^>]*>")
 
+# The smaller or larger of two values: where they are equal, either is right.
+VALUE = r"(-?[\w.\[\]]+|static_cast<\w+>\(\w+\))"
+CHOICE = re.compile(rf"(?<![\w.]){VALUE} [<>] {VALUE} \? (?:\1 : \2|\2 : \1)(?![\w.\[(])")
+
 
 def code_of(line):
     """The line's length without a comment, and whether it has strings, in which operators are text."""
@@ -45,7 +49,10 @@ def mutate(path, sites):
         code, text = code_of(line)
         if SKIPPED.search(line) or text or not code.strip():
             continue
+        free = {choice.end(1) + 1 for choice in CHOICE.finditer(code)}
         def replace(match):
+            if match.start(1) in free:
+                return match.group(0)
             sites.append((str(path.relative_to(WORK / "tree")), number + 1, match.group(1), line.strip()))
             return f" {match.group(1)}ALEPH_SITE({len(sites) - 1}){match.group(1)}"
         lines[number] = OPERATOR.sub(replace, code) + line[len(code):]

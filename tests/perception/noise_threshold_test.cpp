@@ -12,9 +12,9 @@ namespace {
 constexpr FrameRate thirty{30, 1};
 
 /// D L / sigma by a dense sum over the square of frequencies and over time.
-double sensitivity(double luminance, double retinal, double tracked, NoiseOverTime over_time) {
+double sensitivity(double luminance, double retinal, double tracked, NoiseOverTime over_time,
+                   const ViewingConditions& viewing = {}) {
     constexpr int cells = 150, times = 8;
-    const ViewingConditions viewing;
     double energy = 0.0;
     for (int y = 0; y < cells; ++y) {
         for (int x = 0; x < cells; ++x) {
@@ -48,6 +48,34 @@ TEST(NoiseThreshold, IsTheSumOverTheFrequenciesOfTheNoise) {
                 }
             }
         }
+    }
+}
+
+/// With large pixels, noise is seen at the corners of the pixel grid's square of frequencies too.
+TEST(NoiseThreshold, LargePixelsShowAllFrequencies) {
+    ViewingConditions viewing;
+    viewing.pixels_per_degree = 6.0;
+    const NoiseVisibility noise(viewing, thirty, NoiseOverTime::lasts);
+    const double exact = 100.0 / sensitivity(100.0, 0.15, 0.0, NoiseOverTime::lasts, viewing);
+    EXPECT_NEAR(noise.threshold(100.0f, 0.15f, 0.0f) / exact, 1.0, 0.06);
+}
+
+/// The energy of one pixel spreads as wide as so many passes of the kernel, whose variance is .9, say.
+TEST(VisibleBands, AmplitudesAreBlurredAsOftenAsABandSays) {
+    for (const BandShape& band : visible_bands(4, 4)) {
+        Image<float> signal(41, 41);
+        signal(20, 20) = 3.0f;
+        const Image<float> amplitude = local_amplitude(signal, band);
+        double energy = 0.0, second = 0.0;
+        for (int y = 0; y < 41; ++y) {
+            for (int x = 0; x < 41; ++x) {
+                const double part = std::pow(amplitude(x, y) / band.gain, 2.0) / 2.0;
+                energy += part;
+                second += part * (x - 20) * (x - 20);
+            }
+        }
+        EXPECT_NEAR(energy, 9.0, 1e-4);
+        EXPECT_NEAR(second / energy, 0.9 * band.blurs, 1e-4);
     }
 }
 

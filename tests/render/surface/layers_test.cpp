@@ -159,6 +159,16 @@ TEST(SurfaceMaterial, UnlitShowsItsBaseColourAndReflectsNothing) {
     }
 }
 
+TEST(SurfaceMaterial, NoSurfaceReflectsMoreThanItReceives) {
+    const glm::vec4 bright(4.0f, 1.0f, 0.5f, 1.0f);  // of a vertex
+    Material material{.base_color = glm::dvec3(0.5), .gloss = {.metallic = 0.0, .specular = 0.0}};
+    EXPECT_EQ(evaluate_plain(material, true, bright).diffuse, Rgb(1.0f, 0.5f, 0.25f));
+    material.gloss.metallic = 1.0;
+    EXPECT_EQ(evaluate_plain(material, true, bright).gloss.f0, Rgb(1.0f, 0.5f, 0.25f));
+    material.unlit = true;
+    EXPECT_EQ(evaluate_plain(material, true, bright).emission, Rgb(2.0f, 0.5f, 0.25f)) << "this is light";
+}
+
 TEST(SurfaceMaterial, SpecularZeroIsPureLambert) {
     Material material{.base_color = glm::dvec3(0.2, 0.5, 0.8), .gloss = {.metallic = 0.0, .specular = 0.0}};
     const SurfaceMaterial surface = evaluate_plain(material);
