@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/errors.h"
 #include "engine/image/codec.h"
@@ -97,19 +96,6 @@ Image<std::array<T, 4>> colors_of(const Interleaved<T>& pixels, T opaque) {
     return colours;
 }
 
-/// Light and reflectance are finite and not below 0.
-void check_texels(Image<std::array<float, 4>>& texels, const std::string& name) {
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        for (float& value : texels.pixels[i]) {
-            if (!std::isfinite(value)) {
-                const auto width = static_cast<std::size_t>(texels.width);
-                throw InputError(name, "", fmt::format("texel {},{} has the value {}", i % width, i / width, value));
-            }
-            value = std::max(value, 0.0f);
-        }
-    }
-}
-
 }  // namespace
 
 ChannelImage decode_image(ByteView bytes, const std::string& name) {
@@ -140,7 +126,6 @@ DecodedTexture decode_texture(const std::vector<std::uint8_t>& encoded, const st
             texture.bytes = colors_of(decode_with_library<std::uint8_t>(encoded, format, name), std::uint8_t{255});
             break;
     }
-    check_texels(texture.floats, name);
     return texture;
 }
 

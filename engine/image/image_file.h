@@ -60,9 +60,8 @@ struct DecodedTexture {
     Image<std::array<float, 4>> floats;
 };
 
-/// Values below 0, which filters and conversions of colour leave in pictures, are read as 0.
 /// @param name  of the texture in messages
-/// @throws InputError (file = name) if the bytes are of another format or do not decode, or a value is not finite
+/// @throws InputError (file = name) if the bytes are of another format or do not decode
 DecodedTexture decode_texture(const std::vector<std::uint8_t>& encoded, const std::string& name);
 
 }  // namespace aleph
