@@ -24,8 +24,8 @@ case $kind in
     rows=(test_perception test_render test_materials test_paths test_lighting_keyframes)
     row_filter='*.PY*:*.IC*:*.MC*-FlatPicture.*:StoppingRule.*:*.IC11_TheIndexFinds*:*.IC15*:PathValues.MC13*'
     row_filter+=':Accumulation.*:FurnaceScenes.*:Path.MC14*:Path.MC19*:PathLights.MC23*'
-    # Sequences of pictures, compared by what they show, and two processes with one cache file.
-    row_filter+=':*.IC14_*Between*:*.IC14_LightOf*:*.IC22_TwoProcesses*'
+    # Pictures that are compared by what they show, and two processes with one cache file.
+    row_filter+=':*.IC14_*Between*:*.IC14_LightOf*:*.IC22_TwoProcesses*:*.IC23_*:MotionBlur.MC27_IndirectLight*'
     optimize=-O1
     ;;
   thread)

@@ -48,7 +48,7 @@ TEST_P(PathGather, OneBounceIsThePictureOfTheGather) {
         std::vector<Mean> paths(width * height), gathers(width * height);
         Mean all_paths, all_gathers;
         for (std::uint32_t seed = trial.seed; seed < trial.seed + trial.times(seeds); ++seed) {
-            RenderSettings settings = path_settings(1, GetParam() == Walls::mirrors ? 32 : 4, seed);
+            RenderSettings settings = path_settings(1, GetParam() == Walls::mirrors ? 16 : 4, seed);
             const auto add = [&](std::vector<Mean>& pixels, Mean& all) {
                 const ShadedFrame out = shade(stage, settings);
                 double sum = 0.0;
