@@ -32,17 +32,18 @@ Bytes read_regular_file(const fs::path& path, const std::string& file, const std
     if (!fs::exists(status)) throw InputError(file, place, fmt::format("file not found: {}", name));
     // Only regular files: a folder reports absurd sizes, a device or pipe has no end.
     if (!fs::is_regular_file(status)) throw InputError(file, place, fmt::format("not a regular file: {}", name));
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (error) throw InputError(file, place, fmt::format("cannot read {}: {}", name, error.message()));
+    // The size is that of the file that is open: another program may put a new one in its place.
+    std::ifstream stream(path, std::ios::binary | std::ios::ate);
+    const std::streamoff end = stream ? std::streamoff(stream.tellg()) : -1;
+    if (end < 0) throw InputError(file, place, fmt::format("cannot read {}", name));
+    const std::uintmax_t size = static_cast<std::uintmax_t>(end);
     if (size > max_file_bytes) {
         throw InputError(file, place, fmt::format("{} has {} bytes, more than {}", name, size, max_file_bytes));
     }
     Bytes bytes(static_cast<std::size_t>(size));
-    std::ifstream stream(path, std::ios::binary);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!stream || static_cast<std::uintmax_t>(stream.gcount()) != size) {
-        throw InputError(file, place, fmt::format("cannot read {}", name));
-    }
+    stream.seekg(0);
+    stream.read(reinterpret_cast<char*>(bytes.data()), end);
+    if (stream.gcount() != end) throw InputError(file, place, fmt::format("cannot read {}", name));
     if (read_files != nullptr) read_files->add(path);
     return bytes;
 }
