@@ -107,7 +107,7 @@ PathState start_beyond(const SampleShading& shading, const PixelSurface& surface
     PathState beyond = start_path(shading.context.settings);
     --beyond.left.depth;
     beyond.roulette_after = 0;  // most lobes reflect little, and there are many samples
-    beyond.survival = 40.0f;    // but one that ends early leaves bright dots: lamps shine in gloss that gloss shows
+    beyond.survival = 40.0f;    // but those that end by chance leave bright dots, where gloss shows a lamp in gloss
     beyond.known = shading.known;
     beyond.accuracy = shading.context.accuracy(surface.x, surface.y);
     beyond.light_samples = lights_in_mirrors;
