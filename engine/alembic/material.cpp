@@ -88,7 +88,7 @@ void collect_material(AlembicReader& reader, int object, Found& found) {
 }
 
 Material make_neutral(const std::string& name) {
-    return {.name = name, .base_color = glm::dvec3(neutral_gray), .gloss = {.metallic = 0.0}};
+    return {.name = name, .base_color = glm::dvec3(neutral_gray)};
 }
 
 void set_parameters(const Found& found, Material& material) {

@@ -169,4 +169,12 @@ void read_materials(GltfReader& reader) {
     }
 }
 
+int default_material(GltfReader& reader) {
+    if (reader.default_material == no_index) {
+        reader.default_material = static_cast<int>(reader.part.materials.size());
+        reader.part.materials.push_back({.name = "default", .gloss = {.metallic = 1.0}});
+    }
+    return reader.default_material;
+}
+
 }  // namespace aleph

@@ -73,7 +73,7 @@ void read_triangles(GltfReader& reader, const GltfMeshUse& use, int mode, const 
 Mesh read_primitive(GltfReader& reader, const GltfMeshUse& use, const tinygltf::Primitive& primitive,
                     const std::string& place) {
     Mesh mesh;
-    mesh.material = primitive.material;
+    mesh.material = primitive.material < 0 ? default_material(reader) : primitive.material;
     mesh.positions = read_vectors<glm::vec3>(reader, primitive, "POSITION");
     mesh.normals = read_vectors<glm::vec3>(reader, primitive, "NORMAL");
     // Texture coordinates have no place in the world: any finite ones will do.

@@ -28,6 +28,7 @@ struct GltfReader {
     std::vector<GltfMeshUse> uses;            ///< of the meshes in `meshes_of`, which come first in the part
     std::vector<int> node_of;                 ///< glTF node -> scene node, or no_index outside the scene
     std::vector<std::vector<int>> morphs_of;  ///< glTF node -> scene meshes whose targets its weights move
+    int default_material = no_index;          ///< of the part, once a primitive needs it
     std::vector<int> skin_of;                 ///< glTF skin -> scene skin, or no_index where no node uses it
 
     void warn(const std::string& place, const std::string& text) {
@@ -45,6 +46,9 @@ void read_skins(GltfReader& reader);
 void read_animations(GltfReader& reader, const std::vector<std::string>* names);
 /// Warns of a scene without a mesh, and of nodes that always shrink their meshes to a point.
 void warn_of_invisible_meshes(GltfReader& reader);
+
+/// The material of primitives that name none, a white metal: added to the part on first use.
+int default_material(GltfReader& reader);
 
 /// The scene meshes that stand under a node: shared ones of a rigid mesh, the node's own of one that deforms.
 /// @param node  of the file

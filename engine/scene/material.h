@@ -111,7 +111,7 @@ struct TextureSlots {
 /// What reflects: metal, and the dielectric's surface.
 template <class Number, class Color>
 struct GlossOf {
-    Number metallic{1.0};
+    Number metallic{0.0};
     Number roughness{1.0};
     Number specular{1.0};  ///< KHR_materials_specular: 0 is a pure Lambert surface
     Color specular_color{glm::dvec3(1.0)};
@@ -176,7 +176,7 @@ struct MaterialImages : TextureSlots<TextureRef> {
     bool operator==(const MaterialImages&) const = default;
 };
 
-/// glTF 2.0 metallic-roughness, its defaults.
+/// glTF 2.0 metallic-roughness. Unlike in glTF, `metallic` is 0 if not given: a colour alone means a plain surface.
 struct Material {
     std::string name{};
     Track<glm::dvec3> base_color{glm::dvec3(1.0)};

@@ -169,7 +169,7 @@ struct Mesh {
     std::vector<glm::vec2> uv[2];      ///< v grows downwards, row 0 of the image at v = 0 (glTF)
     std::vector<glm::vec4> colors;     ///< linear, multiplies the base colour
     std::vector<glm::uvec3> triangles;
-    int material = no_index;  ///< no_index: glTF's default material
+    int material = no_index;  ///< no_index: Material{}
     std::optional<Shape> shape;
 
     Deformation deformation;

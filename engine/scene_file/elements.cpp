@@ -74,8 +74,7 @@ TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
 int add_material(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const FrameRate& rate = reader.scene.film.frame_rate;
     reader.charge(sizeof(Material) + 900, at, "let shapes share materials");
-    Material material = absent_material();
-    material.name = name;
+    Material material{.name = name};
     for (const auto& field : material_numbers) {
         if (const auto value = at.find(field.key)) field.in(material) = read_number(*value, rate, field.range);
     }

@@ -114,12 +114,6 @@ inline constexpr std::array shape_numbers{
     Field<Shape, double>{"height", {at<&Shape::height>}},
 };
 
-/// The material of an empty object. Unlike in glTF an absent `metallic` is 0: in a file written by hand a colour alone
-/// means a plain surface.
-inline Material absent_material() {
-    return {.gloss = {.metallic = 0.0}};
-}
-
 // Words of enumerations, in the order of their values.
 inline constexpr std::array interpolation_words{"step", "linear", "nearest", "cubic"};
 inline constexpr std::array alpha_words{"opaque", "mask", "blend"};

@@ -99,7 +99,7 @@ struct PointsUse {
 PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 
 /// Adds a mesh. Triangles of shapes and cages are made at the end, by make_meshes.
-/// @param material  absent: glTF's default material
+/// @param material  absent: Material{}
 int read_mesh(SceneReader& reader, const JsonRef& shape, const std::optional<JsonRef>& material,
               const std::optional<JsonRef>& present, const std::string& name);
 

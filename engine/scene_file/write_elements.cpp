@@ -52,7 +52,7 @@ void SceneWriting::rotation(ordered_json& out, const char* key, const Track<glm:
 }
 
 ordered_json write_material(const SceneWriting& at, const Material& material) {
-    const Material absent = absent_material();
+    const Material absent;
     ordered_json out = ordered_json::object();
     for (const auto& field : material_colors) {
         at.track(out, field.key, field.in(material), field.in(absent), write_vector);

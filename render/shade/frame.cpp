@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "render/guide/error_report.h"
@@ -79,12 +80,14 @@ class FrameShading {
 
     /// Takes the samples of a stage.
     void take(std::span<const PixelRange> ranges) {
+        const std::size_t before = std::exchange(stage_pixels_, ranges.size());
+        expected_ = taken_ + sum_samples(ranges);
+        if (!plan_.tolerance.empty()) expected_ += predict_samples(ranges, before, plan_.most);
         if (!options_.at_sample) {
             take_at({context_.lighting, context_.view}, ranges);
         } else {
             take_in_turn(ranges, [this](int i, int c, auto now) { take_at(options_.at_sample(i, c), now); });
         }
-        ++stage_;
     }
 
     void take_at(const SampleScene& scene, std::span<const PixelRange> ranges) {
@@ -96,7 +99,7 @@ class FrameShading {
                 take_ranges(scene, task, slice.subspan(first, last - first));
                 finish(task);
             });
-            report_progress(static_cast<double>(begin + slice.size()) / static_cast<double>(ranges.size()));
+            report_progress(slice);
         }
     }
 
@@ -158,14 +161,13 @@ class FrameShading {
         out_.counts.invalid_samples += task.invalid;
     }
 
-    /// How many stages follow is not known: each is taken for half of what was left.
-    void report_progress(double stage) {
+    /// The share of the samples that are expected. It never falls when more turn out to be needed.
+    void report_progress(std::span<const PixelRange> taken) {
         if (!context_.progress) return;
+        taken_ += sum_samples(taken);
+        done_ = std::max(done_, std::min(taken_ / expected_, 1.0));
         const double begin = integrator_->shares_light() ? fill_share : 0.0;
-        const Sampling rule = context_.settings.sampling.rule;
-        const bool only_one = rule == Sampling::uniform || rule == Sampling::protocol;
-        const double left = std::pow(0.5, stage_), done = only_one ? stage : 1.0 - left + 0.5 * left * stage;
-        context_.progress(begin + (1.0 - begin) * done, "shade");
+        context_.progress(begin + (1.0 - begin) * done_, "shade");
     }
 
     const IndirectContext& context_;
@@ -179,7 +181,9 @@ class FrameShading {
     const std::unique_ptr<LightIntegrator> integrator_;
     const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
     SampleHits cast_first_;
-    int stage_ = 0;
+    double taken_ = 0.0, expected_ = 0.0;  ///< samples so far, and in the end, for progress only
+    double done_ = 0.0;                    ///< share of them
+    std::size_t stage_pixels_ = 0;         ///< of the last stage
     std::mutex mutex_;
 };
 

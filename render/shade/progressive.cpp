@@ -28,7 +28,8 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
 std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
                                     const std::vector<PixelRange>& stage) {
     std::vector<std::uint8_t> goes_on(stage.size());
-    const Image<float> around = plan.rule == Sampling::threshold ? deviations_around(pixels, plan.reach) : Image<float>();
+    const Image<float> around =
+        plan.rule == Sampling::threshold ? deviations_around(pixels, plan.reach) : Image<float>();
     parallel_for(stage.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const PixelRange& range = stage[i];
@@ -57,6 +58,24 @@ std::vector<PixelRange> select_sample(std::span<const PixelRange> ranges, int in
 }
 
 }  // namespace
+
+double sum_samples(std::span<const PixelRange> ranges) {
+    double count = 0.0;
+    for (const PixelRange& range : ranges) count += range.last - range.first;
+    return count;
+}
+
+double predict_samples(std::span<const PixelRange> stage, std::size_t before, int most) {
+    constexpr double typical_share = 0.4;
+    const double seen_share = before == 0 ? 0.0 : static_cast<double>(stage.size()) / static_cast<double>(before);
+    const double share = std::max(seen_share, typical_share);
+    double pixels = static_cast<double>(stage.size()), count = 0.0;
+    for (int last = stage.front().last; last < most; last = std::min(2 * last, most)) {
+        pixels *= share;
+        count += pixels * (std::min(2 * last, most) - last);
+    }
+    return count;
+}
 
 void take_in_turn(std::span<const PixelRange> ranges, const TakeSample& take) {
     int first = ranges.front().first, last = 0;

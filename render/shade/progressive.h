@@ -28,6 +28,13 @@ struct PixelRange {
     int first = 0, last = 0;
 };
 
+double sum_samples(std::span<const PixelRange> ranges);
+
+/// The samples that stages after this one are expected to take, for progress: the share of the pixels that goes on is
+/// taken to stay what it was, or to be what is typical if that is more.
+/// @param before  pixels of the stage before; 0 if this is the first
+double predict_samples(std::span<const PixelRange> stage, std::size_t before, int most);
+
 /// One sample of all pixels of a class (shutter.h) after the other: each has a time of its own.
 using TakeSample = std::function<void(int sample, int pixel_class, std::span<const PixelRange> ranges)>;
 void take_in_turn(std::span<const PixelRange> ranges, const TakeSample& take);

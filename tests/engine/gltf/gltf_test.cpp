@@ -27,7 +27,9 @@ TEST_F(Gltf, Triangle) {
     EXPECT_EQ(scene.meshes[0].positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     EXPECT_EQ(scene.meshes[0].triangles, (std::vector<glm::uvec3>{{0, 1, 2}}));
     EXPECT_TRUE(scene.meshes[0].normals.empty());
-    EXPECT_EQ(scene.meshes[0].material, no_index);
+    ASSERT_EQ(scene.materials.size(), 1u);  // the format's default
+    EXPECT_EQ(scene.materials[0], (Material{.name = "default", .gloss = {.metallic = 1.0}, .include = 0}));
+    EXPECT_EQ(scene.meshes[0].material, 0);
     EXPECT_TRUE(scene.source.warnings.empty());
 }
 

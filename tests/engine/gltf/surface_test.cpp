@@ -105,7 +105,7 @@ TEST_F(GltfSurface, DefaultMaterialIsTheSpecifications) {
     draft.json["materials"] = {Json::object()};
     draft.primitive()["material"] = 0;
     const Scene scene = load(draft);
-    Material expected{.name = "material0", .include = 0};
+    Material expected{.name = "material0", .gloss = {.metallic = 1.0}, .include = 0};
     ASSERT_EQ(scene.materials.size(), 1u);
     EXPECT_EQ(scene.materials[0], expected);
     EXPECT_EQ(scene.meshes[0].material, 0);

@@ -233,7 +233,7 @@ std::pair<int, int> count_differences(const Material& a, const Material& b) {
 
 TEST(SceneJsonWrite, TheFullSceneSetsEveryTrackAndTextureOfItsMaterials) {
     Numbers numbers;
-    const Material material = make_full_scene(numbers).materials[1], absent = absent_material();
+    const Material material = make_full_scene(numbers).materials[1], absent;
     const auto [different, all] = count_differences(material, absent);
     EXPECT_EQ(different, all);
     EXPECT_EQ(all, 19);

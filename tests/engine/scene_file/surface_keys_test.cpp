@@ -15,7 +15,7 @@ TEST(SceneJsonSurfaces, EveryNumberOfAMaterial) {
         "attenuation_color": [0.1, 0.2, 0.3], "clearcoat": 0.75, "clearcoat_roughness": 0.125, "sheen_color": [0.4, 0.5, 0.6],
         "sheen_roughness": 0.3, "anisotropy": 0.8, "anisotropy_rotation": -30, "normal_scale": -2,
         "clearcoat_normal_scale": 0.5}})");
-    Material m = absent_material();
+    Material m;
     m.name = "m";
     m.glass.transmission = 1.0;
     m.glass.thickness = 0.5;

@@ -60,7 +60,7 @@ TEST(SceneJsonWrite, KF24_ChainOfAHundredThousandNodes) {
 TEST(SceneJsonWrite, ManyNamesCostNoMoreThanTheyShould) {
     Scene scene;
     for (int i = 0; i < 30000; ++i) {
-        scene.materials.push_back(absent_material());
+        scene.materials.emplace_back();
         scene.materials.back().name = fmt::format("{} of a material whose name is long", 30000 - i);
     }
     EXPECT_TRUE(again(scene) == scene);

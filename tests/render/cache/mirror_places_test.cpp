@@ -20,7 +20,7 @@ struct Mirror {
         Scene scene;
         const int white = add_lambert(scene, glm::dvec3(0.5));
         scene.materials.push_back({.base_color = glm::dvec3(reflectance),
-                                   .gloss = {.roughness = roughness},
+                                   .gloss = {.metallic = 1.0, .roughness = roughness},
                                    .layers = {.anisotropy = anisotropy}});
         add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
         add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, 3.0},

@@ -233,6 +233,16 @@ TEST(StoppingRule, AnOutlineNeedsFewerSamplesThanItsOwnErrorSays) {
     EXPECT_GT(pixels(22, 4).taken(), pixels(20, 4).taken());
 }
 
+TEST(StoppingRule, LaterSamplesArePredictedFromThoseThatGoOn) {
+    const std::vector<PixelRange> stage(100, PixelRange{0, 0, 4, 8});
+    EXPECT_EQ(sum_samples(stage), 400.0);
+    EXPECT_EQ(predict_samples(stage, 100, 32), 100.0 * (8 + 16));  // all go on
+    EXPECT_NEAR(predict_samples(stage, 125, 40), 80.0 * 8 + 64.0 * 16 + 51.2 * 8, 1e-9);
+    EXPECT_NEAR(predict_samples(stage, 0, 16), 40.0 * 8, 1e-9);  // none went before
+    EXPECT_NEAR(predict_samples(stage, 1000, 16), 40.0 * 8, 1e-9);
+    EXPECT_EQ(predict_samples(stage, 100, 8), 0.0);
+}
+
 TEST(StoppingRule, TheVarianceRuleReadsDeviationOrError) {
     const MeanEstimate mean{64, 0.0, 0.04};
     EXPECT_TRUE(is_enough(Sampling::variance, VarianceTest::standard_error, mean, 0.026));

@@ -147,7 +147,7 @@ TEST(EffectsBounds, FX13_AFarSmallBodySendsHardlyAnyLight) {
 TEST(EffectsBounds, FX13_AMirrorOutOfViewThatLightsWhatIsInView) {
     Scene scene = make_lit_square();
     scene.nodes.back().transform.translation = glm::dvec3(0.0, 4.0, 0.5);
-    scene.materials.push_back({.gloss = {.roughness = 0.0}});
+    scene.materials.push_back({.gloss = {.metallic = 1.0, .roughness = 0.0}});
     add_mesh(scene, make_quad(3.0, 3.0, 1), {4.0, 0.0, 1.0},
              glm::angleAxis(-0.5 * std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(40.0));

@@ -44,7 +44,7 @@ void expect_equal(double found, double expected) {
 }
 
 TEST(Layers, AnisotropicLobe) {
-    Material material{.base_color = glm::dvec3(0.8), .gloss = {.roughness = 0.5}};
+    Material material{.base_color = glm::dvec3(0.8), .gloss = {.metallic = 1.0, .roughness = 0.5}};
     SurfaceMaterial brushed = evaluate_plain(material);
     // strength 0.6 along x
     brushed.gloss.stretch = 0.36f;
@@ -188,7 +188,7 @@ TEST(SurfaceMaterial, GltfNumbersBecomeTheTwoLayers) {
     EXPECT_EQ(surface.gloss.alpha, 0.25f);
     EXPECT_EQ(surface.diffuse.x, 0.5f);
 
-    Material metal{.base_color = glm::dvec3(0.9, 0.6, 0.2), .gloss = {.roughness = 0.0}};
+    Material metal{.base_color = glm::dvec3(0.9, 0.6, 0.2), .gloss = {.metallic = 1.0, .roughness = 0.0}};
     surface = evaluate_plain(metal);
     EXPECT_EQ(surface.gloss.f0, Rgb(0.9f, 0.6f, 0.2f));
     EXPECT_FALSE(surface.has_diffuse());
@@ -215,7 +215,7 @@ TEST(SurfaceMaterial, EmissionLeavesTheFrontAndBothSidesIfDoubleSided) {
 }
 
 TEST(SurfaceMaterial, TexturesMultiplyTheFactors) {
-    Material material{.glow = {.color = glm::dvec3(10.0)}};
+    Material material{.glow = {.color = glm::dvec3(10.0)}, .gloss = {.metallic = 1.0}};
     material.textures[TextureSlot::base_color].image = material.textures[TextureSlot::metallic_roughness].image = 0;
     material.textures[TextureSlot::emission].image = material.textures[TextureSlot::specular].image = 0;
     const SurfaceMaterial surface =
