@@ -77,11 +77,13 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     coarse.bounces.before = 1;
     FurtherBounces known{make_cache(context.lighting.shading)};
     known.accuracy = fill_coarsely(known.cache, coarse, fill, tally);
+    const float reach = static_cast<float>(shade_reach) * known.accuracy;
     if (bounces > 1) {
-        const float reach = static_cast<float>(shade_reach) * known.accuracy;
+        known.cache.prepare(reach);
         known.cache.restore(add_bounces(coarse, known.cache, reach, std::move(gathered), bounces, tally.counts.rays));
     }
     known.cache.finish();
+    known.cache.prepare(reach);
     counts.rays += tally.counts.rays;
     counts.multi_bounce_rays += tally.counts.rays.total();
     counts.multi_bounce_records += tally.counts.records;

@@ -112,6 +112,7 @@ void IrradianceCache::compare_with_neighbours(IrradianceRecord& record) {
 }
 
 void IrradianceCache::insert(IrradianceRecord record) {
+    lists_.reset();
     clamp_to_neighbours(record);
     compare_with_neighbours(record);
     ray_variances_ += record.noise.ray_variance;
@@ -198,6 +199,7 @@ void IrradianceCache::finish(std::size_t kept) {
 
 void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
     records_ = std::move(records);
+    lists_.reset();
     index_ = index_.emptied();
     ray_variances_ = irradiances_ = 0.0;
     for (const IrradianceRecord& record : records_) {
@@ -206,6 +208,10 @@ void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
         ray_variances_ += record.noise.ray_variance;
         irradiances_ += luminance(record.irradiance);
     }
+}
+
+void IrradianceCache::prepare(float accuracy) {
+    lists_.emplace(records_, std::min(accuracy, 1.0f));
 }
 
 bool IrradianceCache::covers(const CacheQuery& query) const {
@@ -221,8 +227,7 @@ bool IrradianceCache::covers(const CacheQuery& query) const {
 }
 
 /// 0 where the record must not be used.
-float IrradianceCache::weigh(const IrradianceRecord& record, const CacheQuery& query, float accuracy) {
-    const float error = interpolation_error(record, query.position, query.normal);
+float IrradianceCache::weigh(const IrradianceRecord& record, const CacheQuery& query, float error, float accuracy) {
     if (!is_usable(record, query, error, accuracy)) return 0.0f;
     const float looser = std::max(1.0f, record.accuracy / accuracy);
     return (1.0f - error / accuracy) / (looser * looser);

@@ -17,6 +17,7 @@
 #include "engine/base/color.h"
 #include "render/cache/irradiance_record.h"
 #include "render/cache/record_index.h"
+#include "render/cache/record_lists.h"
 
 namespace aleph {
 
@@ -74,8 +75,12 @@ class IrradianceCache {
     template <class Visit>
     void visit_usable(const CacheQuery& query, const Visit& visit) const {
         const float accuracy = std::min(query.accuracy, 1.0f);
+        const auto take = [&](int i, float error) {
+            if (const float weight = weigh(records_[i], query, error, accuracy); weight > 0.0f) visit(i, weight);
+        };
+        if (lists_ && lists_->accuracy() == accuracy) return lists_->visit(query.position, query.normal, take);
         index_.visit_reaching(query.position, accuracy, [&](int i) {
-            if (const float weight = weigh(records_[i], query, accuracy); weight > 0.0f) visit(i, weight);
+            take(i, interpolation_error(records_[i], query.position, query.normal));
             return true;
         });
     }
@@ -98,16 +103,20 @@ class IrradianceCache {
     /// Replaces all records by those of another cache after finish(), as they are.
     void restore(std::vector<IrradianceRecord> records);
 
+    /// Makes look-ups at this accuracy fast, until the records change.
+    void prepare(float accuracy);
+
     const std::vector<IrradianceRecord>& records() const { return records_; }
 
   private:
-    static float weigh(const IrradianceRecord& record, const CacheQuery& query, float accuracy);
+    static float weigh(const IrradianceRecord& record, const CacheQuery& query, float error, float accuracy);
     void clamp_to_neighbours(IrradianceRecord& record);
     void compare_with_neighbours(IrradianceRecord& record);
     IrradianceRecord smoothed(const IrradianceRecord& record) const;
 
     std::vector<IrradianceRecord> records_;
     RecordIndex index_;
+    std::optional<RecordLists> lists_;
     float max_accuracy_ = 0.0f;                       ///< of the records
     double ray_variances_ = 0.0, irradiances_ = 0.0;  ///< sums over the records
 };

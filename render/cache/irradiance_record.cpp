@@ -17,13 +17,6 @@ constexpr float radius_over_distance = 3.5f;
 /// A record's gradient counts in full if its least radius is at most so many times the radius by distance.
 constexpr float contact_radii = 4.0f;
 
-/// How far a point may lie off the mean of both tangent planes, as a share of R_i: on the record's side of it, where
-/// light from over an edge arrives (Ward 1988 rejects it all; rounding and facets need a little), and on the other.
-constexpr float max_in_front = 0.05f, max_behind = 0.1f;
-
-/// Tolerance of the headroom, as a share of R_i, for rounding.
-constexpr float headroom_tolerance = 1e-3f;
-
 /// The relative error of extrapolation that alpha allows, over alpha.
 constexpr float allowed_error = 0.5f;
 
@@ -81,8 +74,7 @@ float interpolation_error(const IrradianceRecord& record, const glm::vec3& posit
     const glm::vec3 offset = position - record.position;
     const float height = glm::dot(offset, normal + record.normal) * 0.5f;
     if (!(height >= -max_in_front * record.radius && height <= max_behind * record.radius)) return infinite;
-    if (glm::dot(offset, record.normal) > record.space.headroom + headroom_tolerance * record.radius) return infinite;
-    constexpr float inverse_root_two = 0.70710678f;
+    if (glm::dot(offset, record.normal) > most_headroom(record)) return infinite;
     const float distance2 = glm::dot(offset, offset);
     return std::max({std::sqrt(distance2) / record.radius, distance2 * record.growth,
                      glm::length(normal - record.normal) * inverse_root_two});

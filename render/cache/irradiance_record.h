@@ -30,6 +30,12 @@ namespace aleph {
 /// then contribute to it.
 inline constexpr double shade_reach = 1.4;
 
+/// How far a point may lie off the mean of both tangent planes, as a share of R_i: on the record's side of it, where
+/// light from over an edge arrives (Ward 1988 rejects it all; rounding and facets need a little), and on the other.
+inline constexpr float max_in_front = 0.05f, max_behind = 0.1f;
+
+inline constexpr float inverse_root_two = 0.70710678f;
+
 struct GatherNoise {
     float error = 0.0f;         ///< standard error of the gather's luminance over its value
     float ray_variance = 0.0f;  ///< of a single gather ray, relative: error^2 times their number
@@ -63,6 +69,12 @@ struct RadiusBounds {
 /// @param accuracy  alpha of the pixel, above 0
 std::optional<IrradianceRecord> make_record(const glm::vec3& position, const glm::vec3& normal, float accuracy,
                                             const IrradianceSample& sample, const RadiusBounds& bounds);
+
+/// m, with a tolerance for rounding.
+inline float most_headroom(const IrradianceRecord& record) {
+    constexpr float tolerance = 1e-3f;
+    return record.space.headroom + tolerance * record.radius;
+}
 
 /// The error above. The last term is computed as |N - N_i| / sqrt 2, which is equal but does not cancel for small
 /// angles. Infinite where the record must not be used: its normal faces away, the point lies out of its tangent plane

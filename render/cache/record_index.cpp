@@ -2,14 +2,6 @@
 
 namespace aleph {
 
-namespace {
-
-int octant_of(const glm::vec3& center, const glm::vec3& position) {
-    return (position.x > center.x ? 1 : 0) | (position.y > center.y ? 2 : 0) | (position.z > center.z ? 4 : 0);
-}
-
-}  // namespace
-
 RecordIndex::RecordIndex(const glm::vec3& low, const glm::vec3& high) {
     const glm::vec3 size = high - low;
     Cell root;
@@ -21,8 +13,7 @@ RecordIndex::RecordIndex(const glm::vec3& low, const glm::vec3& high) {
 int RecordIndex::add_child(int cell, int octant) {
     Cell added;
     added.half_size = 0.5f * cells_[cell].half_size;
-    added.center = cells_[cell].center +
-                   added.half_size * glm::vec3(octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1);
+    added.center = octant_center(octant, cells_[cell].center, added.half_size);
     cells_[cell].children[octant] = static_cast<int>(cells_.size());
     cells_.push_back(added);
     return cells_[cell].children[octant];

@@ -19,6 +19,16 @@ struct RecordReach {
     float at(float accuracy) const { return std::min(accuracy * radius, std::sqrt(accuracy) * spread); }
 };
 
+/// The part of a cube where a position is: bit i is set where it is above the center along axis i.
+inline int octant_of(const glm::vec3& center, const glm::vec3& position) {
+    return (position.x > center.x ? 1 : 0) | (position.y > center.y ? 2 : 0) | (position.z > center.z ? 4 : 0);
+}
+
+/// @param half_size  of the part
+inline glm::vec3 octant_center(int octant, const glm::vec3& center, float half_size) {
+    return center + half_size * glm::vec3(octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1);
+}
+
 class RecordIndex {
   public:
     /// A cube of the octree.
