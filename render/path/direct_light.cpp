@@ -15,51 +15,26 @@ namespace aleph {
 namespace {
 
 constexpr float min_estimate_alpha = 0.1f;  // GGX width of the quick estimate's lobes
-constexpr int batch_size = 16;              // shadow rays from one point, in one packet
-constexpr std::size_t least_packet = 8;     // fewer are faster one by one
 
-/// Shadow rays collected until a packet is full. The contributions of those that are not blocked are added in order.
-class ShadowBatch {
+/// Adds the light of samples that nothing blocks.
+class Unblocked {
   public:
-    ShadowBatch(const LightingContext& context, RayTask& task, Rgb& sum) : context_(context), task_(task), sum_(sum) {}
+    Unblocked(const LightingContext& context, RayTask& task) : context_(context), task_(task) {}
 
     /// @param pdf  LightSample::pdf
     void add(const Ray& ray, float pdf, const Rgb& contribution) {
         if (contribution == Rgb(0.0f)) return;
-        if (!context_.shading.needs_shadow_ray(pdf)) {
-            sum_ += contribution;
-            return;
-        }
-        if (context_.shading.has_thin_glass) {
-            sum_ += contribution * find_transmittance(context_, task_, ray);
-            return;
-        }
-        rays_[size_] = ray;
-        contributions_[size_++] = contribution;
-        if (size_ == batch_size) flush();
+        Rgb passed(1.0f);
+        if (context_.shading.needs_shadow_ray(pdf)) passed = find_transmittance(context_, task_, ray);
+        if (passed != Rgb(0.0f)) light_ += contribution * passed;
     }
 
-    void flush() {
-        std::array<std::uint8_t, batch_size> blocked;
-        if (size_ < least_packet) {
-            for (std::size_t i = 0; i < size_; ++i) blocked[i] = task_.tracer.occluded(rays_[i]) ? 1 : 0;
-        } else {
-            task_.tracer.occluded(std::span(rays_.data(), size_), std::span(blocked.data(), size_));
-        }
-        task_.counts.shadow += size_;
-        for (std::size_t i = 0; i < size_; ++i) {
-            if (!blocked[i]) sum_ += contributions_[i];
-        }
-        size_ = 0;
-    }
+    const Rgb& light() const { return light_; }
 
   private:
     const LightingContext& context_;
     RayTask& task_;
-    Rgb& sum_;
-    std::size_t size_ = 0;
-    std::array<Ray, batch_size> rays_;
-    std::array<Rgb, batch_size> contributions_;
+    Rgb light_{0.0f};
 };
 
 /// Of the quick estimate: the same points for every pixel, and no lobe is sampled.
@@ -94,15 +69,15 @@ class ChosenLights {
     /// Adds one sample of `count`.
     /// @param u            x chooses the light; what that leaves of it, and y, are the point on it
     /// @param light_share  sample_light
-    void add_sample(const glm::vec2& u, int count, float light_share, ShadowBatch& shadows) {
+    void add_sample(const glm::vec2& u, int count, float light_share, Unblocked& sum) {
         const LightPick pick = pick_light(context_.lights, cut_, receiver_, behind_, u.x);
         if (pick.light == no_index) return;
         const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen_.at(pick.light), receiver_,
                                                      {pick.rest, u.y}, light_share);
         if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return;
-        shadows.add(make_shadow_ray(lit_, sample), sample.pdf,
-                    scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
-                        (pick.probability * static_cast<float>(count)));
+        sum.add(make_shadow_ray(lit_, sample), sample.pdf,
+                scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
+                    (pick.probability * static_cast<float>(count)));
     }
 
     const LightCut& cut() const { return cut_; }
@@ -122,19 +97,16 @@ class ChosenLights {
 Rgb estimate_chosen_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples) {
     ChosenLights lights(context, lit, estimate_shares);
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
-    Rgb sum(0.0f);
-    ShadowBatch shadows(context, task, sum);
+    Unblocked sum(context, task);
     const int count = samples * LightCut::few;
     for (int i = 0; i < count; ++i)
-        lights.add_sample(lattice_point(i, count, estimate_shift), count, 1.0f / static_cast<float>(samples), shadows);
-    shadows.flush();
-    return sum;
+        lights.add_sample(lattice_point(i, count, estimate_shift), count, 1.0f / static_cast<float>(samples), sum);
+    return sum.light();
 }
 
 /// The quick estimate of a few lights: samples of each.
 Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples) {
-    Rgb sum(0.0f);
-    ShadowBatch shadows(context, task, sum);
+    Unblocked sum(context, task);
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
     for (int light = 0; light < context.lights.count(); ++light) {
         const int count = has_area(context.lights, light) ? samples : 1;
@@ -144,12 +116,11 @@ Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const Lit
             const LightSample sample = sample_seen_light(context.shading, context.lights, seen, receiver,
                                                          lattice_point(i, count, estimate_shift), share);
             if (!lit.is_reached(sample.direction)) continue;
-            shadows.add(make_shadow_ray(lit, sample), sample.pdf,
-                        scatter_towards(lit, sample.direction, sample.pdf, estimate_shares) * sample.incoming * share);
+            sum.add(make_shadow_ray(lit, sample), sample.pdf,
+                    scatter_towards(lit, sample.direction, sample.pdf, estimate_shares) * sample.incoming * share);
         }
     }
-    shadows.flush();
-    return sum;
+    return sum.light();
 }
 
 /// No less than the luminance of radiance that a surface scatters, per illuminance from any direction. Infinite if
@@ -183,14 +154,12 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
     if (samples.left_out != nullptr)
         *samples.left_out = limits.left_out > 0.0f ? lights.cut().left_out * reflection : 0.0f;
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
-    Rgb sum(0.0f);
-    ShadowBatch shadows(context, task, sum);
+    Unblocked sum(context, task);
     SequenceOfUse points = sequence.of(SampleUse::light_point);
     for (int i = samples.first; i < samples.first + samples.count; ++i) {
-        lights.add_sample(points.at(i), samples.count, 0.0f, shadows);
+        lights.add_sample(points.at(i), samples.count, 0.0f, sum);
     }
-    shadows.flush();
-    return sum;
+    return sum.light();
 }
 
 Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples) {

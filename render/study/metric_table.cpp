@@ -35,6 +35,7 @@ constexpr Row rows[] = {
     {"rays", "rays", "million", true, false},
     {"gather_rays", "rays for irradiance values", "million", true, false},
     {"samples", "samples per pixel", "", true, false},
+    {"ideal_samples", "samples per pixel if each took what its error asks for", "", true, false},
     {"records", "irradiance values computed", "", true, false},
     {"wall_seconds", "seconds of a clock", "s", true, false},
 };

@@ -168,13 +168,13 @@ class StudyRunner {
         }
         std::size_t first = 0;
         for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();
-        const std::vector<VisibleShares> shares =
+        const std::vector<VisibleErrors> errors =
             measure_visible(std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
                 ChannelImage picture = read_image(run.pictures[i]);
                 ChannelImage reference = expose_like(picture, truths_[s][i].reference);
                 return std::pair(std::move(picture), std::move(reference));
             });
-        for (std::size_t i = 0; i < shares.size(); ++i) add_visible_metrics(shares[i], run.errors[i]);
+        for (std::size_t i = 0; i < errors.size(); ++i) add_visible_metrics(errors[i], run.errors[i]);
     }
 
     static std::string identity(const SceneWithSettings& own, const std::vector<int>& frames) {

@@ -1,5 +1,8 @@
 #include "render/study/visible_metrics.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace aleph {
 
 namespace {
@@ -12,14 +15,29 @@ void add_mean(const char* metric, VariantResult& variant) {
 
 }  // namespace
 
-std::vector<VisibleShares> measure_visible(std::span<const JudgingFrame> frames, const FramePictures& pictures) {
-    std::vector<VisibleShares> shares;
+double find_ideal_samples(const Image<float>& seen, const Image<float>& samples) {
+    std::vector<double> needed;
+    needed.reserve(seen.size());
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        needed.push_back(std::max(1.0, samples.pixels[i] * std::pow(static_cast<double>(seen.pixels[i]), 2.0)));
+    const auto kept = needed.begin() + static_cast<std::ptrdiff_t>((99 * needed.size() + 99) / 100);
+    if (kept != needed.end()) std::ranges::nth_element(needed, kept);
+    needed.erase(kept, needed.end());
+    return mean_of(needed).value;
+}
+
+std::vector<VisibleErrors> measure_visible(std::span<const JudgingFrame> frames, const FramePictures& pictures) {
+    std::vector<VisibleErrors> errors;
+    std::vector<Image<float>> samples;  // of frames that are not finished
     std::optional<VisibleDifference> difference;
     const auto take = [&](const std::vector<VisibleMaps>& finished) {
         for (const VisibleMaps& maps : finished) {
             VisibleCount count;
-            count.add(maps, frames[shares.size()].maps.find("saliency.Y"));
-            shares.push_back(count.shares());
+            count.add(maps, frames[errors.size()].maps.find("saliency.Y"));
+            Image<float>& taken = samples[errors.size()];
+            errors.push_back({count.shares()});
+            if (same_size(taken, maps.seen)) errors.back().ideal_samples = find_ideal_samples(maps.seen, taken);
+            taken = {};
         }
     };
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -28,29 +46,33 @@ std::vector<VisibleShares> measure_visible(std::span<const JudgingFrame> frames,
             difference.emplace(read_viewing(frames[i].maps));
         }
         const auto [picture, reference] = pictures(i);
+        const Image<float>* const taken = picture.find("samples.Y");
+        samples.push_back(taken == nullptr ? Image<float>() : *taken);
         take(difference->add(frames[i].frame, read_pair(picture, reference), read_motion(frames[i].maps)));
     }
     if (difference) take(difference->finish());
-    return shares;
+    return errors;
 }
 
-void add_visible_metrics(const VisibleShares& shares, MetricValues& out) {
+void add_visible_metrics(const VisibleErrors& errors, MetricValues& out) {
+    const VisibleShares& shares = errors.shares;
     out["share_seen"] = shares.seen;
     out["share_flicker"] = shares.flicker;
     out["share_lasting"] = shares.lasting;
     if (shares.noticed) out["share_noticed"] = *shares.noticed;
+    if (errors.ideal_samples) out["ideal_samples"] = *errors.ideal_samples;
 }
 
 void add_seed_metrics(const std::vector<JudgingFrame>& frames, const std::vector<std::string>& one,
                       const std::vector<std::string>& other, VariantResult& variant) {
-    const std::vector<VisibleShares> shares = measure_visible(frames, [&](std::size_t i) {
+    const std::vector<VisibleErrors> errors = measure_visible(frames, [&](std::size_t i) {
         ChannelImage picture = read_image(one.at(i));
         ChannelImage reference = expose_like(picture, read_image(other.at(i)));
         return std::pair(std::move(picture), std::move(reference));
     });
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-        variant.frames.at(i).metrics["seed_seen"] = {shares[i].seen, std::nullopt};
-        variant.frames.at(i).metrics["seed_flicker"] = {shares[i].flicker, std::nullopt};
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        variant.frames.at(i).metrics["seed_seen"] = {errors[i].shares.seen, std::nullopt};
+        variant.frames.at(i).metrics["seed_flicker"] = {errors[i].shares.flicker, std::nullopt};
     }
     add_mean("seed_seen", variant);
     add_mean("seed_flicker", variant);

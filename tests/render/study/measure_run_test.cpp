@@ -3,6 +3,7 @@
 
 #include "render/study/measure_run.h"
 #include "render/study/reference_picture.h"
+#include "render/study/visible_metrics.h"
 #include "tests/support/grey_image.h"
 #include "tests/support/test.h"
 
@@ -99,6 +100,24 @@ TEST(ReferencePicture, FollowsTheExposure) {
     const ChannelImage brighter = with_exposure(mean, 2.0);
     EXPECT_NEAR(brighter.find("R")->pixels[0], 4.0, 1e-6);
     EXPECT_NEAR(brighter.find("variance.Y")->pixels[0], 4.0 * mean.find("variance.Y")->pixels[0], 1e-6);
+}
+
+TEST(VisibleMetrics, AnIdealAllocationGivesEachPixelWhatItsErrorAsksFor) {
+    Image<float> seen(20, 10, 0.5f), samples(20, 10, 16.0f);  // 4 samples are enough
+    EXPECT_DOUBLE_EQ(find_ideal_samples(seen, samples), 4.0);
+    for (int i = 0; i < 20; ++i) {
+        seen.pixels[static_cast<std::size_t>(10 * i)] = 2.0f;        // 64
+        seen.pixels[static_cast<std::size_t>(10 * i + 1)] = 0.125f;  // less than one, so one
+    }
+    EXPECT_DOUBLE_EQ(find_ideal_samples(seen, samples), (160 * 4.0 + 18 * 64.0 + 20 * 1.0) / 198);  // two are left out
+    seen.pixels[0] = seen.pixels[10] = 1e9f;
+    EXPECT_DOUBLE_EQ(find_ideal_samples(seen, samples), (160 * 4.0 + 18 * 64.0 + 20 * 1.0) / 198);
+    // However they were shared out: an error of half the size after four times the samples asks for as many.
+    for (std::size_t i = 0; i < 100; ++i) {
+        seen.pixels[i] *= 0.5f;
+        samples.pixels[i] *= 4.0f;
+    }
+    EXPECT_DOUBLE_EQ(find_ideal_samples(seen, samples), (160 * 4.0 + 18 * 64.0 + 20 * 1.0) / 198);
 }
 
 }  // namespace
