@@ -19,6 +19,12 @@ bool follows_motion(Guide guide) {
     return guide == Guide::full || guide == Guide::saliency;
 }
 
+/// As a display shows it, which emits no more than its white.
+Image<Rgb> clamp_to_white(Image<Rgb> picture) {
+    for (Rgb& value : picture.pixels) value = glm::clamp(value, Rgb(0.0f), Rgb(1.0f));
+    return picture;
+}
+
 }  // namespace
 
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings,
@@ -33,8 +39,10 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     Image<float>& adaptation = out.perception.adaptation;
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.film.viewing);
     out.limits.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
+    // The eye that looks at a display adapts to that. By the light of the scene it would be blinded near every lamp.
+    const Image<float> shown = compute_adaptation_luminance(clamp_to_white(out.estimate), shot.film.viewing);
     out.limits.threshold_noise = compute_noise_threshold(
-        noise, out.estimate, shot.film.viewing.display_white, adaptation, out.perception.retinal_velocity,
+        noise, out.estimate, shot.film.viewing.display_white, shown, out.perception.retinal_velocity,
         follows_motion(settings.perception.guide) ? out.velocity : Image<float>());
     out.limits.alpha = compute_accuracy_map(out.perception.aleph, settings);
     clock.add_to(seconds.perception);

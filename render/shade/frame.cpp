@@ -9,6 +9,7 @@
 #include "render/guide/mean_around.h"
 #include "render/pixels/sample_place.h"
 #include "render/settings/measure.h"
+#include "render/shade/bright_edges.h"
 #include "render/shade/integrator.h"
 #include "render/shade/progressive.h"
 #include "render/shade/resolve.h"
@@ -38,6 +39,8 @@ class FrameShading {
         if (options.limits) systematic_ = compute_systematic_tolerance(*options.limits, context.settings, exposure);
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
         if (place_.centered && as_centers) first_ = &centers;
+        const bool is_sharp = !place_.centered && !options.at_sample && !(options.lens.radius > 0.0);
+        if (is_sharp) bright_edges_ = find_bright_edges(context.lighting.shading, context.view, centers, exposure);
     }
 
     /// Computes shared light for the first of the pixel samples alone. Others that need light beside them find it by
@@ -109,13 +112,17 @@ class FrameShading {
             SampleLight light;
             if (hit.instance == no_index) {
                 light[LightPart::surface] = environment_radiance(scene.lighting.shading, direction);
-                add_sample(task, x, y, light);
-                return;
+            } else {
+                const PixelSurface surface =
+                    make_pixel_surface(scene.lighting.shading, scene.view, at, hit, direction, {x, y});
+                begin_light(surface, light);
+                integrator_->shade(task, surface, pixels_(x, y), light);
             }
-            const PixelSurface surface =
-                make_pixel_surface(scene.lighting.shading, scene.view, at, hit, direction, {x, y});
-            begin_light(surface, light);
-            integrator_->shade(task, surface, pixels_(x, y), light);
+            if (!bright_edges_.empty() && bright_edges_(x, y) != 0) {
+                const glm::ivec2 pixel(x, y);
+                light[LightPart::surface] +=
+                    average_light_seen(scene, task, at, pixel) - light_seen(scene, at, hit, direction, pixel);
+            }
             add_sample(task, x, y, light);
         };
         for (const PixelRange& range : ranges) {
@@ -174,6 +181,7 @@ class FrameShading {
     const SampleOptions& options_;
     ShadedFrame& out_;
     Image<PixelSamples> pixels_;
+    Image<std::uint8_t> bright_edges_;
     SamplePlace place_;  ///< of the first sample
     const double exposure_;
     SamplingPlan plan_;

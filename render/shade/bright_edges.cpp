@@ -1,0 +1,82 @@
+#include "render/shade/bright_edges.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/base/parallel.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double bright = 0.5;  // of white
+constexpr int reach = 2;        // pixels, of filters
+constexpr int rays_of_a_sample = 16;
+constexpr std::uint32_t edge_key_mask = 0x65646765u;  // apart from the samples' own places
+
+bool is_bright(const ShadingScene& shading, const CameraView& view, const SampleHits& centers, int x, int y,
+               double exposure) {
+    const Hit& hit = centers.hits(x, y);
+    if (hit.instance == no_index) {
+        const glm::vec3 direction(make_sample_ray(view, centers.place, x, y).direction);
+        return luminance(environment_radiance(shading, direction)) * exposure >= bright;
+    }
+    const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
+    return material.emits && luminance(material.values.emission) * exposure >= bright;
+}
+
+}  // namespace
+
+Image<std::uint8_t> find_bright_edges(const ShadingScene& shading, const CameraView& view, const SampleHits& centers,
+                                      double exposure) {
+    const int width = centers.hits.width, height = centers.hits.height;
+    Image<std::uint8_t> seen(width, height), edges(width, height);
+    const auto for_rows = [&](const auto& visit) {
+        parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
+            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+                for (int x = 0; x < width; ++x) visit(x, y);
+        });
+    };
+    for_rows([&](int x, int y) { seen(x, y) = is_bright(shading, view, centers, x, y, exposure) ? 1 : 0; });
+    for_rows([&](int x, int y) {
+        bool any = false, all = true;
+        for (int ny = std::max(0, y - reach); ny <= std::min(height - 1, y + reach); ++ny) {
+            for (int nx = std::max(0, x - reach); nx <= std::min(width - 1, x + reach); ++nx) {
+                any = any || seen(nx, ny) != 0;
+                all = all && seen(nx, ny) != 0;
+            }
+        }
+        edges(x, y) = any && !all ? 1 : 0;
+    });
+    return edges;
+}
+
+Rgb light_seen(const SampleScene& scene, const SamplePlace& place, const Hit& hit, const glm::vec3& direction,
+               const glm::ivec2& pixel) {
+    const ShadingScene& shading = scene.lighting.shading;
+    if (hit.instance == no_index) return environment_radiance(shading, direction);
+    const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
+    if (!material.emits) return Rgb(0.0f);
+    const PixelSurface surface = make_pixel_surface(shading, scene.view, place, hit, direction, pixel);
+    return surface.material.emission * share_left(surface);
+}
+
+Rgb average_light_seen(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const glm::ivec2& pixel) {
+    SamplePlace own = place;
+    own.noise_key ^= edge_key_mask;
+    std::array<Ray, rays_of_a_sample> rays;
+    std::array<Hit, rays_of_a_sample> hits;
+    for (int i = 0; i < rays_of_a_sample; ++i) {
+        own.index = place.index * rays_of_a_sample + i;
+        const CameraRay ray = make_sample_ray(scene.view, own, pixel.x, pixel.y);
+        rays[i].origin = glm::vec3(ray.origin - scene.lighting.rays.anchor());
+        rays[i].direction = glm::vec3(ray.direction);
+    }
+    task.tracer.intersect(rays, hits, true);
+    task.counts.primary += rays_of_a_sample;
+    Rgb sum(0.0f);
+    for (int i = 0; i < rays_of_a_sample; ++i) sum += light_seen(scene, place, hits[i], rays[i].direction, pixel);
+    return sum / static_cast<float>(rays_of_a_sample);
+}
+
+}  // namespace aleph
