@@ -96,6 +96,7 @@ TEST(DepthOfField, MC28_FocusAtInfinityKeepsFarThingsSharp) {
 
 TEST(DepthOfField, FX12_MC28_ATinyApertureIsAPinhole) {
     Scene scene = make_disc_scene(3.0, 0.7f);
+    scene.materials.front().glow.strength = 0.4;  // too dark for bright_edges.h
     const int floor = add_lambert(scene, glm::dvec3(0.5));
     add_mesh(scene, make_quad(20.0, 20.0, floor), {0.0, -1.0, 0.0}, z_to_up);
     add_light(scene, Light::Kind::point, glm::dvec3(4.0), {1.0, 1.0, -1.0});
@@ -126,7 +127,7 @@ TEST(DepthOfField, MC28_ALensLargerThanTheSceneIsSharpInFocus) {
     const ShadedFrame sharp = shade_through(stage, 0.0, 1.0), lens = shade_through(stage, 100.0, 3.0);
     double difference = 0.0;
     for (std::size_t i = 0; i < sharp.color.size(); ++i) {
-        difference += std::abs(sharp.color.pixels[i].x - lens.color.pixels[i].x);
+        difference += std::abs(sharp.coverage.pixels[i] - lens.coverage.pixels[i]);
         EXPECT_EQ(lens.color.pixels[i].x, lens.coverage.pixels[i]);
     }
     EXPECT_LT(difference, 1.0);
