@@ -39,7 +39,7 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     Image<float>& adaptation = out.perception.adaptation;
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.film.viewing);
     out.limits.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
-    // The eye that looks at a display adapts to that. By the light of the scene it would be blinded near every lamp.
+    // Noise is seen on the display, to which the eye is adapted: a lamp there is no brighter than white.
     const Image<float> shown = compute_adaptation_luminance(clamp_to_white(out.estimate), shot.film.viewing);
     out.limits.threshold_noise = compute_noise_threshold(
         noise, out.estimate, shot.film.viewing.display_white, shown, out.perception.retinal_velocity,

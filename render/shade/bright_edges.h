@@ -1,7 +1,7 @@
 #pragma once
-// Outlines of what is brighter than its surroundings by itself: lamps, windows, the sky. A pixel there may see a lamp
-// through a thousandth of its filter, and still be twice as bright for it. Few of its samples meet the lamp, and those
-// that do not are no sign that none would. What is seen directly needs no shading, so many more rays tell it.
+// Outlines of lamps, windows and the sky. A lamp of a thousand times the brightness around it doubles that of a pixel
+// whose filter it covers by a thousandth. Hardly any sample meets it, and without one the pixel's variance looks small.
+// Emission that a camera ray meets needs no shading, so each sample of these pixels takes it from many rays.
 
 #include "render/shade/sample_shading.h"
 

@@ -39,8 +39,6 @@ class FrameShading {
         if (options.limits) systematic_ = compute_systematic_tolerance(*options.limits, context.settings, exposure);
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
         if (place_.centered && as_centers) first_ = &centers;
-        const bool is_sharp = !place_.centered && !options.at_sample && !(options.lens.radius > 0.0);
-        if (is_sharp) bright_edges_ = find_bright_edges(context.lighting.shading, context.view, centers, exposure);
     }
 
     /// Computes shared light for the first of the pixel samples alone. Others that need light beside them find it by
@@ -57,7 +55,11 @@ class FrameShading {
         if (options_.at_sample) first_ = nullptr;  // of the shutter's centre
     }
 
-    void shade() {
+    /// @param centers  hits of the pixels' centres
+    void shade(const SampleHits& centers) {
+        // A lens or an open shutter would need rays from all of it: their outlines are soft.
+        if (!place_.centered && !options_.at_sample && !(options_.lens.radius > 0.0))
+            bright_edges_ = find_bright_edges(context_.lighting.shading, context_.view, centers, exposure_);
         sample_by_stages(plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
     }
 
@@ -206,7 +208,7 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     shading.fill();
     clock.add_to(out.fill_seconds);
     if (options.light_only) return out;
-    shading.shade();
+    shading.shade(centers);
     shading.resolve();
     clock.add_to(out.shade_seconds);
     return out;

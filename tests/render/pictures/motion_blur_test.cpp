@@ -23,7 +23,7 @@ RenderSettings blur_settings(std::uint32_t seed) {
     return settings;
 }
 
-/// A square of radiance 2 before black, seen along parallel rays. Node 0 is the square.
+/// A square of radiance .25 before black, seen along parallel rays. Node 0 is the square.
 Scene make_square_scene(const glm::dvec2& shutter) {
     Scene scene;
     add_mesh(scene, make_quad(2.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.25), true)));

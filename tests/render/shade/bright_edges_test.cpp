@@ -1,4 +1,4 @@
-// Outlines of lamps and of the sky, whose light many rays of each sample find.
+// Outlines of lamps and of the sky: emission from many camera rays of each sample.
 
 #include "render/shade/bright_edges.h"
 
@@ -12,7 +12,7 @@ namespace {
 constexpr int edges_width = 32, edges_height = 24;
 constexpr double quad_distance = 4.0, quad_fov = 0.8;
 
-/// Pixels that a meter at the quad's distance takes, and m2 of one pixel.
+/// At the quad's distance.
 double pixels_per_meter() {
     return edges_height / (2.0 * quad_distance * std::tan(0.5 * quad_fov));
 }
@@ -95,8 +95,8 @@ TEST(BrightEdges, AreWhereSomeOfTheNeighboursAreBright) {
     for (const std::uint8_t edge : find(0.2).pixels) EXPECT_EQ(edge, 0) << "too dark";
 }
 
-TEST(NoiseThreshold, ALampBlindsNobodyWhoLooksAtADisplay) {
-    // A white that emits half of what the display can, with and without a lamp of ten thousand times as much in it.
+TEST(NoiseThreshold, AdaptationIsToWhatTheDisplayShows) {
+    // A grey of half of white, with a quad of as much and with a lamp of ten thousand times as much in it.
     const auto threshold_beside = [](double lamp) {
         Scene scene = make_quad_before(glm::dvec3(lamp), glm::dvec3(0.5));
         RenderSettings settings;
