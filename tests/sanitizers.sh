@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Builds with a sanitizer into build-address/ or build-thread/ and runs the tests that can fail under it.
-#   tests/sanitizers.sh address    memory and undefined behaviour; then the maps against the Release build's (DT-07), and
-#                                  small pictures
+#   tests/sanitizers.sh address    memory and undefined behaviour, in loaders, scenes, cache, paths and small pictures
 #   tests/sanitizers.sh thread     races: parallel_for on std::thread, since oneTBB causes false reports (DT-08)
 # JOBS is the number of compilers and test programs at a time (2).
 set -euo pipefail
@@ -15,14 +14,14 @@ kind=${1:-}
 case $kind in
   address)
     programs=(test_base test_pose test_image_io test_motion test_scene_file test_gltf
-      test_alembic test_subdivide test_hostile aleph)
-    # Tests of time, memory and size on large texts are for the Release build. test_hostile covers damaged scene files, and
-    # `aleph maps` below covers perception. A slow reading of image motion is arithmetic; its other tests run here.
+      test_alembic test_subdivide test_hostile)
+    # Tests of time, memory and size on large texts are for the Release build. test_hostile covers damaged scene files. A
+    # slow reading of image motion is arithmetic; its other tests run here.
     filter='-HostileSceneFile.*:DamagedSceneFile.*:SceneJsonWrite.KF24*:SceneJsonWrite.ManyNames*:SceneJsonWrite.DT09*'
     filter+=':SceneJsonWrite.LoadOfSaveIsTheSameScene:Gltf.S13_5_KF24*:ImageMotion.EqualsTheSlowReadingOfTheModel'
     # Pyramids, cache, sampling and materials. Left out: what checks statistics, memory or a growth of work in millions.
     rows=(test_perception test_render test_materials test_paths test_lighting_keyframes)
-    row_filter='*.PY*:*.IC*:*.MC*-FlatPicture.*:StoppingRule.*:*.IC11_TheIndexFinds*:*.IC15*:PathValues.MC13*'
+    row_filter='SmallPictures.*:*.PY*:*.IC*:*.MC*-FlatPicture.*:StoppingRule.*:*.IC11_TheIndexFinds*:*.IC15*:PathValues.MC13*'
     row_filter+=':Accumulation.*:FurnaceScenes.*:Path.MC14*:Path.MC19*:PathLights.MC23*'
     # Pictures that are compared by what they show, and two processes with one cache file.
     row_filter+=':*.IC14_*Between*:*.IC14_LightOf*:*.IC22_TwoProcesses*:*.IC23_*:MotionBlur.MC27_IndirectLight*'
@@ -40,36 +39,6 @@ case $kind in
     ;;
 esac
 build=$root/build-$kind
-
-# The maps of one frame, from this build and from the Release build: other optimization, other floating-point code.
-compare_maps() {
-  local release=$root/build/aleph maps=$build/maps
-  if [ ! -x "$release" ]; then
-    echo "build/aleph is missing: run tests/run.sh or build it first." >&2
-    return 1
-  fi
-  mkdir -p "$maps"
-  local arguments=(maps "$root/scenes/pool/scene.json" --frames 12 --size 160x120 -q)
-  "$release" "${arguments[@]}" -o "$maps/release.exr" &&
-    "${launcher[@]}" "$build/aleph" "${arguments[@]}" -o "$maps/$kind.exr" &&
-    "$release" compare "$maps/$kind.exr" "$maps/release.exr" --tolerance 1e-6 --relative 1e-6
-}
-
-# Small pictures with the irradiance cache and with paths: gathers, cache, frames, every kind of surface, lens and shutter.
-render_pictures() {
-  local pictures=$build/pictures code=0
-  mkdir -p "$pictures"
-  local cached=(--size 40x30 --spp 2 --gather 16 -q)
-  local paths=(--integrator path --size 24x16 --spp 4 --bounces 2 -q)
-  "${launcher[@]}" "$build/aleph" render "$root/scenes/pool/scene.json" --frames 12 "${cached[@]}" -o "$pictures/pool.exr" || code=1
-  "${launcher[@]}" "$build/aleph" render "$root/scenes/cornell/scene.json" --frames 10 "${cached[@]}" --aovs --vision castle \
-    -o "$pictures/cornell.exr" || code=1
-  local scene
-  for scene in metal_ball mirror glass_ball brick_wall curtain layers; do
-    "${launcher[@]}" "$build/aleph" render "$root/scenes/materials/$scene.json" --frames 20 "${paths[@]}" -o "$pictures/$scene.exr" || code=1
-  done
-  return "$code"
-}
 
 # run_filtered FILTER PROGRAM...
 run_filtered() {
@@ -99,14 +68,4 @@ code=0
 rm -rf "$build/results"
 run_filtered "$filter" "${programs[@]}" || code=1
 [ ${#rows[@]} = 0 ] || run_filtered "$row_filter" "${rows[@]}" || code=1
-if [ "$kind" = address ]; then
-  equal=0
-  compare_maps || equal=$?
-  record "$build" DT07_maps_equal_release "$equal"
-  [ "$equal" = 0 ] || code=1
-  rendered=0
-  render_pictures || rendered=$?
-  record "$build" pictures_render "$rendered"
-  [ "$rendered" = 0 ] || code=1
-fi
 exit "$code"

@@ -89,6 +89,10 @@ int protocol_samples(double aleph, int most) {
     return std::min(most, std::max(thesis_samples, static_cast<int>(samples)));
 }
 
+double allow_noise(double error) {
+    return noise_allowance * std::min(error, std::pow(error, 0.8));
+}
+
 int first_samples(Sampling rule, Outline outline, int most) {
     switch (rule) {
         case Sampling::uniform:

@@ -16,6 +16,10 @@ inline constexpr double error_deviations = 1.585;
 /// art-gallery with the instrument of compare/visible_difference.h (scenes/studies/README.md).
 inline constexpr double noise_allowance = 0.9;
 
+/// The same where an error of so many just visible differences is asked for. The share of the pixels in which noise is
+/// seen rises steeply: at 2 it would be a twelfth if noise were twice that of 1.
+double allow_noise(double error);
+
 /// The mean of a pixel's samples, as its neighbours tell it. A pixel's own samples never decide when it stops: a pixel
 /// whose first samples happen to agree would stop early, more often at a value that is too low than at one that is too
 /// high, and the picture would be biased. Neighbours tell both numbers, at this pixel's number of samples.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "engine/base/errors.h"
 #include "render/settings/setting_table.h"
@@ -12,12 +13,13 @@
 namespace aleph {
 
 void follow_error(RenderSettings& settings, double error) {
-    constexpr double accuracy_per_difference = 0.05;
+    // What records leave is smooth and lasts. Twice of it is seen at once, twice the noise of samples is not.
+    const double accuracy = 0.05 * std::min(error, std::sqrt(std::sqrt(error)));
     constexpr int most_samples = 4096, all_bounces = 16;
     settings.error = error;
     settings.sampling.rule = Sampling::threshold;
     settings.guide.adapter = Adapter::none;  // light that follows the map flickers
-    settings.cache.accuracy = std::min(1.0, accuracy_per_difference * error);
+    settings.cache.accuracy = std::min(1.0, accuracy);
     settings.cache.gather = 512;
     settings.cache.light_step = 0;  // the records that pay (record_worth.h) cost less than keyframes
     settings.light.bounces = all_bounces;

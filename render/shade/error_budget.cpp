@@ -39,8 +39,8 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
     if (settings.sampling.rule == Sampling::uniform || settings.sampling.rule == Sampling::protocol) return {};
     const bool by_noise = settings.sampling.rule == Sampling::threshold;
     const Image<float>& limit = by_noise ? limits.noise : limits.threshold;
-    const double error = (settings.error > 0.0 ? settings.error : 1.0) * (by_noise ? noise_allowance : 1.0);
-    const double factor = error / (limits.viewing.display_white * exposure);
+    const double asked = settings.error > 0.0 ? settings.error : 1.0;
+    const double factor = (by_noise ? allow_noise(asked) : asked) / (limits.viewing.display_white * exposure);
     Image<float> tolerance(limits.threshold.width, limits.threshold.height);
     for (int y = 0; y < tolerance.height; ++y) {
         for (int x = 0; x < tolerance.width; ++x) {

@@ -31,7 +31,7 @@ std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLim
                                                                 const RenderSettings& settings, double exposure);
 
 /// The luminance that samples may err by, as they have it (before exposure).
-/// threshold: RenderSettings::error times noise_allowance times what noise of single pixels goes unseen.
+/// threshold: allow_noise of RenderSettings::error, times what noise of single pixels goes unseen.
 /// consecutive, variance: RenderSettings::error times the threshold.
 /// The Aleph map is that of pixel centres. Beside the outline of a moving object, a pixel's samples may belong to
 /// another surface than its centre, which moves less and is seen better. So a pixel there keeps to the strictest

@@ -37,7 +37,7 @@ TEST(ErrorBudget, SamplesKeepToTheNoiseThatGoesUnseen) {
     RenderSettings settings;
     follow_error(settings, 1.5);
     const double white = limits.viewing.display_white;
-    EXPECT_NEAR(compute_sampling_tolerance(limits, settings, 2.0)(1, 1), 1.5 * noise_allowance * 5.0 / white / 2.0, 1e-7);
+    EXPECT_NEAR(compute_sampling_tolerance(limits, settings, 2.0)(1, 1), allow_noise(1.5) * 5.0 / white / 2.0, 1e-7);
     ASSERT_TRUE(compute_systematic_tolerance(limits, settings, 1.0).has_value());
     settings.error = 0.0;
     EXPECT_FALSE(compute_systematic_tolerance(limits, settings, 1.0).has_value());
