@@ -128,15 +128,18 @@ float spot_falloff(const PunctualLight& light, const glm::vec3& towards_light) {
     return share * share;
 }
 
-LightSample sample_punctual(const PunctualLight& light, const glm::vec3& position) {
+LightSample sample_punctual(const PunctualLight& light, const Receiver& receiver) {
+    // Cosine below which a direction is parallel to the surface up to rounding. Where there is no other light, the
+    // automatic exposure would turn what rounding leaves into white.
+    constexpr float parallel = 1e-6f;
     LightSample sample;
     if (light.kind == Light::Kind::directional) {
         sample.direction = -light.direction;
         sample.distance = std::numeric_limits<float>::infinity();
-        sample.incoming = light.intensity;
+        if (std::abs(glm::dot(receiver.normal, sample.direction)) > parallel) sample.incoming = light.intensity;
         return sample;
     }
-    const glm::vec3 to_light = light.position - position;
+    const glm::vec3 to_light = light.position - receiver.position;
     const float distance2 = glm::dot(to_light, to_light);
     if (!(distance2 > 0.0f)) return sample;
     const float distance = std::sqrt(distance2);
@@ -196,7 +199,7 @@ LightSample sample_seen_light(const ShadingScene& shading, const LightSet& light
         return sample_emitter(shading, lights.emitters[seen.light], seen.angles, receiver.position, u, share);
     }
     const int punctual = seen.light - emitters;
-    if (punctual < std::ssize(lights.punctual)) return sample_punctual(lights.punctual[punctual], receiver.position);
+    if (punctual < std::ssize(lights.punctual)) return sample_punctual(lights.punctual[punctual], receiver);
     return sample_surroundings(shading, receiver, u);
 }
 

@@ -36,6 +36,19 @@ TEST(Lights, NumberedEmittersThenPunctualThenEnvironment) {
     EXPECT_NEAR(sky.incoming.x * sky.pdf, 0.5f, 1e-6f);
 }
 
+TEST(Lights, ASunParallelToASurfaceBringsNothing) {
+    Scene scene = make_lamp_scene(1.0, 2.0);
+    add_light(scene, Light::Kind::directional, glm::dvec3(3.0), glm::dvec3(0.0));
+    const Stage stage(std::move(scene));
+    const glm::vec3 towards = sample_light(stage.shading, stage.lights, 1, {glm::vec3(0.0f), up}, {}).direction;
+    const glm::vec3 across = make_basis(towards).tangent;
+    for (const float cosine : {-6e-17f, 6e-17f, 1e-3f, 1.0f}) {
+        const Receiver receiver{glm::vec3(0.0f), glm::normalize(across * (1.0f - cosine) + towards * cosine)};
+        const LightSample sample = sample_light(stage.shading, stage.lights, 1, receiver, {});
+        EXPECT_EQ(sample.incoming.x, std::abs(cosine) > 1e-4f ? 3.0f : 0.0f) << cosine;
+    }
+}
+
 TEST(Lights, AreaAndNormalsFollowTheInstance) {
     Scene scene;
     Shape ball{.kind = Shape::Kind::sphere, .radius = 1.0, .segments = 64};
