@@ -16,8 +16,8 @@ inline constexpr double error_deviations = 1.585;
 /// art-gallery with the instrument of compare/visible_difference.h (scenes/studies/README.md).
 inline constexpr double noise_allowance = 0.9;
 
-/// The same where an error of so many just visible differences is asked for. The share of the pixels in which noise is
-/// seen rises steeply: at 2 it would be a twelfth if noise were twice that of 1.
+/// The same where an error of so many just visible differences is asked for; 0 or more. Up to 1 in proportion to it,
+/// above as its power of .8: the share of the pixels in which noise is seen rises more steeply than the noise.
 double allow_noise(double error);
 
 /// The mean of a pixel's samples, as its neighbours tell it. A pixel's own samples never decide when it stops: a pixel

@@ -13,7 +13,7 @@
 namespace aleph {
 
 void follow_error(RenderSettings& settings, double error) {
-    // What records leave is smooth and lasts. Twice of it is seen at once, twice the noise of samples is not.
+    // Errors of records are smooth and last: they are seen sooner than noise, so they grow less above 1 (allow_noise).
     const double accuracy = 0.05 * std::min(error, std::sqrt(std::sqrt(error)));
     constexpr int most_samples = 4096, all_bounces = 16;
     settings.error = error;
