@@ -80,7 +80,10 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     const VisibleLimits limits{
         out.limits.threshold,     out.limits.threshold_noise, out.perception.aleph, out.limits.alpha, outlines,
         s.shot.scene.film.viewing};
-    if (!out.limits.threshold.empty()) options.limits = &limits;
+    if (!out.limits.threshold.empty()) {
+        options.limits = &limits;
+        options.estimate = &out.estimate;
+    }
     std::optional<KeyframeRisk> risk;
     if (carried != nullptr) risk = find_risk(s, frame);
     if (risk) options.risk = &*risk;

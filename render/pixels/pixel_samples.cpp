@@ -42,6 +42,7 @@ void PixelSamples::add(const SampleLight& light) {
     luminance_.mean += difference / valid_;
     luminance_.squares += difference * (y - luminance_.mean);
     for (std::size_t part = 0; part < luminances_.size(); ++part) luminances_[part] += luminance(light.parts[part]);
+    control_ += light.control;
     end_sample();
 }
 
@@ -66,9 +67,11 @@ void PixelSamples::end_sample() {
             total += difference;
         }
         error_.total = static_cast<float>(share * total * total);
+        const double control = first_half_.control / first - (control_ - first_half_.control) / second;
+        error_.uncorrected = static_cast<float>(share * (total - control) * (total - control));
         error_.samples = valid_;
     }
-    first_half_ = {luminances_, valid_};
+    first_half_ = {luminances_, control_, valid_};
 }
 
 }  // namespace aleph

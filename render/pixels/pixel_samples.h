@@ -43,6 +43,7 @@ struct SampleLight {
     Rgb indirect{0.0f};             ///< what the surface reflects of its indirect irradiance; within LightPart::surface
     std::optional<Rgb> irradiance;  ///< indirect, that was looked up for it
     SampledPlace place{};
+    float control = 0.0f;  ///< luminance of what a control variate added, within LightPart::direct
 
     Rgb& operator[](LightPart part) { return parts[static_cast<std::size_t>(part)]; }
     Rgb total() const { return parts[0] + parts[1] + parts[2]; }
@@ -60,7 +61,8 @@ class PixelSamples {
     struct Error {
         float total = 0.0f;
         std::array<float, light_part_count> parts{};
-        int samples = 0;  ///< that the mean was of; 0: too few to tell
+        float uncorrected = 0.0f;  ///< of the total without control variates
+        int samples = 0;           ///< that the mean was of; 0: too few to tell
     };
 
     void add(const SampleLight& light);
@@ -99,6 +101,7 @@ class PixelSamples {
     };
     struct FirstHalf {
         Luminances luminances{};  ///< of the samples before the present half
+        double control = 0.0;     ///< of these
         int valid = 0;
     };
 
@@ -109,6 +112,7 @@ class PixelSamples {
     int taken_ = 0, valid_ = 0, hits_ = 0;
     Spread luminance_;
     Luminances luminances_{};
+    double control_ = 0.0;
     FirstHalf first_half_;
     Error error_;
     SampledPlace first_;  ///< of the first sample

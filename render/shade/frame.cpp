@@ -14,6 +14,7 @@
 #include "render/shade/progressive.h"
 #include "render/shade/resolve.h"
 #include "render/shade/sample_packet.h"
+#include "render/shade/texture_control.h"
 
 namespace aleph {
 
@@ -57,9 +58,14 @@ class FrameShading {
 
     /// @param centers  hits of the pixels' centres
     void shade(const SampleHits& centers) {
-        // A lens or an open shutter would need rays from all of it: their outlines are soft.
-        if (!place_.centered && !options_.at_sample && !(options_.lens.radius > 0.0))
-            bright_edges_ = find_bright_edges(context_.lighting.shading, context_.view, centers, exposure_);
+        // A lens or an open shutter would need rays from all of it: their outlines and textures are soft.
+        if (!place_.centered && !options_.at_sample && !(options_.lens.radius > 0.0)) {
+            const ShadingScene& shading = context_.lighting.shading;
+            bright_edges_ = find_bright_edges(shading, context_.view, centers, exposure_);
+            // Paths alone are to judge what an estimate guides.
+            if (options_.estimate != nullptr && context_.settings.light.integrator == Integrator::cache)
+                textures_.emplace(shading, context_.view, centers, *options_.estimate, exposure_);
+        }
         sample_by_stages(plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
     }
 
@@ -86,6 +92,7 @@ class FrameShading {
     /// Takes the samples of a stage.
     void take(std::span<const PixelRange> ranges) {
         const std::size_t before = std::exchange(stage_pixels_, ranges.size());
+        if (textures_) textures_->choose(ranges, pixels_);
         expected_ = taken_ + sum_samples(ranges);
         if (!plan_.tolerance.empty()) expected_ += predict_samples(ranges, before, plan_.most);
         if (!options_.at_sample) {
@@ -110,6 +117,8 @@ class FrameShading {
 
     void take_ranges(const SampleScene& scene, ShadingTask& task, std::span<const PixelRange> ranges) {
         SamplePacket samples(scene, task);
+        std::optional<PixelTexture> texture;  // of the pixel `corrected`
+        glm::ivec2 corrected(-1);
         const auto shade = [&](const SamplePlace& at, int x, int y, const glm::vec3& direction, const Hit& hit) {
             SampleLight light;
             if (hit.instance == no_index) {
@@ -119,6 +128,13 @@ class FrameShading {
                     make_pixel_surface(scene.lighting.shading, scene.view, at, hit, direction, {x, y});
                 begin_light(surface, light);
                 integrator_->shade(task, surface, pixels_(x, y), light);
+            }
+            if (textures_ && textures_->corrects(x, y)) {
+                if (corrected != glm::ivec2(x, y)) texture.emplace(textures_->find_texture(x, y));
+                corrected = {x, y};
+                const Rgb correction = texture->correct(at);
+                light[LightPart::direct] += correction;
+                light.control = luminance(correction);
             }
             if (!bright_edges_.empty() && bright_edges_(x, y) != 0) {
                 const glm::ivec2 pixel(x, y);
@@ -184,6 +200,7 @@ class FrameShading {
     ShadedFrame& out_;
     Image<PixelSamples> pixels_;
     Image<std::uint8_t> bright_edges_;
+    std::optional<TextureControl> textures_;
     SamplePlace place_;  ///< of the first sample
     const double exposure_;
     SamplingPlan plan_;

@@ -1,0 +1,131 @@
+#include "render/shade/texture_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/base/parallel.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr std::uint32_t control_key_mask = 0x74657874u;  // apart from the samples' own places
+constexpr int texels = 4;                                // beside that of a sample
+constexpr float least_gain = 1.5f;                       // of the squared error, for which a correction pays
+constexpr float least_texel = 0.02f;                     // darker ones would make a scale of any size
+constexpr float most_scale = 1e20f;
+
+const TextureUse* find_base_color(const ShadingScene& shading, const Hit& hit) {
+    const MaterialTextures& textures = shading.textures->materials[shading.instances[hit.instance].material];
+    const TextureUse& use = textures[TextureSlot::base_color];
+    return textures.any && use.texture != no_index ? &use : nullptr;
+}
+
+/// Calls visit(x, y) for the pixel and those around it.
+template <class Visit>
+void visit_around(int width, int height, int x, int y, const Visit& visit) {
+    for (int ny = std::max(0, y - 1); ny <= std::min(height - 1, y + 1); ++ny)
+        for (int nx = std::max(0, x - 1); nx <= std::min(width - 1, x + 1); ++nx) visit(nx, ny);
+}
+
+UvFootprint find_footprint(const CameraView& view, const PixelSurface& surface, int uv_set) {
+    return make_uv_footprint(surface.point,
+                             make_pixel_footprint(view, surface.point, -surface.view, surface.distance, 1.0f), uv_set);
+}
+
+}  // namespace
+
+PixelTexture::PixelTexture(const ShadingScene& shading, const CameraView& view, const PixelSurface& surface,
+                           const TextureUse& texture, const Rgb& reflected)
+    : shading_(shading),
+      view_(view),
+      texture_(texture),
+      pixel_(surface.x, surface.y),
+      position_(surface.point.position),
+      uv_(surface.point.uv[texture.uv_set]),
+      footprint_(find_footprint(view, surface, texture.uv_set)) {
+    const SurfaceMaterial& material = surface.material;
+    const Rgb texel(sample_texture(*shading.textures, texture, uv_, footprint_));
+    const Rgb reflectance = material.diffuse + material.gloss.f0;
+    for (int c = 0; c < 3; ++c) {
+        const float diffuse = reflectance[c] > 0.0f ? material.diffuse[c] / reflectance[c] : 0.0f;
+        scale_[c] = diffuse * reflected[c] / std::max(texel[c], least_texel);
+    }
+    const glm::dvec3 e1(surface.point.edges[0]), e2(surface.point.edges[1]), normal = glm::cross(e1, e2);
+    const double squared = glm::dot(normal, normal);
+    const bool is_good = glm::all(glm::lessThan(glm::abs(scale_), Rgb(most_scale)));  // not if one is NaN
+    if (!(squared > 0.0) || !is_good) return;
+    const auto& uv_edges = surface.point.uv_edges[texture.uv_set];
+    for (int c = 0; c < 2; ++c) {
+        uv_slopes_[c] = (glm::cross(e2, normal) * static_cast<double>(uv_edges[0][c]) +
+                         glm::cross(normal, e1) * static_cast<double>(uv_edges[1][c])) /
+                        squared;
+    }
+    normal_ = normal;
+}
+
+Rgb PixelTexture::expect(const glm::dvec2& film, float spacing) const {
+    const CameraRay ray = make_camera_ray(view_, film.x, film.y);
+    const glm::dvec3 from = ray.origin - shading_.anchor - position_;
+    const double along = glm::dot(ray.direction, normal_);
+    const glm::dvec3 to = from - ray.direction * (glm::dot(from, normal_) / along);
+    const glm::vec2 uv(uv_ + glm::dvec2(glm::dot(to, uv_slopes_[0]), glm::dot(to, uv_slopes_[1])));
+    const UvFootprint footprint{footprint_.dx * spacing, footprint_.dy * spacing, footprint_.round};
+    return scale_ * Rgb(sample_texture(*shading_.textures, texture_, uv, footprint));
+}
+
+Rgb PixelTexture::correct(const SamplePlace& place) const {
+    if (normal_ == glm::dvec3(0.0)) return Rgb(0.0f);
+    SamplePlace other = place;
+    other.noise_key ^= control_key_mask;
+    Rgb sum(0.0f);
+    for (int i = 0; i < texels; ++i) {
+        other.index = place.index * texels + i;
+        sum += expect(place_sample(other, pixel_.x, pixel_.y), place.spacing);
+    }
+    return sum / static_cast<float>(texels) - expect(place_sample(place, pixel_.x, pixel_.y), place.spacing);
+}
+
+TextureControl::TextureControl(const ShadingScene& shading, const CameraView& view, const SampleHits& centers,
+                               const Image<Rgb>& estimate, double exposure)
+    : shading_(shading),
+      view_(view),
+      centers_(centers),
+      estimate_(estimate),
+      exposure_(static_cast<float>(exposure)),
+      corrects_(view.width, view.height) {
+    parallel_rows(view.height, 16, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < view.width; ++x) {
+                const Hit& hit = centers.hits(x, y);
+                if (hit.instance == no_index || find_base_color(shading, hit) == nullptr) continue;
+                bool is_alone = true;
+                visit_around(view.width, view.height, x, y, [&](int nx, int ny) {
+                    is_alone = is_alone && centers.hits(nx, ny).instance == hit.instance;
+                });
+                corrects_(x, y) = is_alone ? 1 : 0;
+            }
+        }
+    });
+}
+
+PixelTexture TextureControl::find_texture(int x, int y) const {
+    const PixelSurface surface = make_pixel_surface(shading_, view_, centers_, x, y);
+    const Rgb reflected = glm::max(estimate_(x, y) / exposure_ - surface.material.emission, Rgb(0.0f));
+    return {shading_, view_, surface, *find_base_color(shading_, centers_.hits(x, y)), reflected};
+}
+
+void TextureControl::choose(std::span<const PixelRange> stage, const Image<PixelSamples>& pixels) {
+    for (const PixelRange& range : stage) {
+        if (range.first == 0 || !corrects(range.x, range.y)) continue;
+        float corrected = 0.0f, uncorrected = 0.0f;
+        visit_around(view_.width, view_.height, range.x, range.y, [&](int x, int y) {
+            corrected += pixels(x, y).error().total;
+            uncorrected += pixels(x, y).error().uncorrected;
+        });
+        if (!(uncorrected > least_gain * corrected)) corrects_(range.x, range.y) = 0;
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,69 @@
+#pragma once
+// Textures of pixels that show one flat face. Where the samples of such a pixel lie on its texture is most of why they
+// differ, and a look-up costs a fraction of a sample. So each sample is corrected by what its texel differs from the
+// mean of other texels of the pixel: a control variate, which leaves the mean over seeds as it is.
+
+#include <span>
+
+#include "render/pixels/pixel_samples.h"
+#include "render/pixels/pixel_sequence.h"
+#include "render/pixels/pixel_surfaces.h"
+#include "render/shade/progressive.h"
+
+namespace aleph {
+
+/// The texture of one pixel, on the plane of the triangle at its centre, whatever lies before that plane.
+class PixelTexture {
+  public:
+    /// @param surface    at the pixel's centre
+    /// @param texture    base colour of its material
+    /// @param reflected  radiance that the surface is expected to reflect there
+    PixelTexture(const ShadingScene& shading, const CameraView& view, const PixelSurface& surface,
+                 const TextureUse& texture, const Rgb& reflected);
+
+    /// What a sample is corrected by: the mean over other places in the pixel of the radiance that is expected there,
+    /// less that at the sample's own place. Its mean over seeds is 0. 0 if the plane cannot be seen.
+    Rgb correct(const SamplePlace& place) const;
+
+  private:
+    Rgb expect(const glm::dvec2& film, float spacing) const;
+
+    const ShadingScene& shading_;
+    const CameraView& view_;
+    const TextureUse& texture_;
+    const glm::ivec2 pixel_;
+    const glm::dvec3 position_;    ///< m, of the centre's point
+    glm::dvec3 normal_{0.0};       ///< of the plane; any length, 0 if there is none
+    glm::dvec3 uv_slopes_[2]{};    ///< 1/m: change of u and of v along the plane
+    const glm::dvec2 uv_;          ///< of the centre's point
+    const UvFootprint footprint_;  ///< of the whole pixel
+    Rgb scale_{0.0f};              ///< from texel to radiance
+};
+
+/// The pixels of a frame that are corrected.
+class TextureControl {
+  public:
+    /// Keeps references. At first it corrects pixels that show a texture, and around which there is one object.
+    /// @param centers   hits of the pixels' centres
+    /// @param estimate  quick estimate of the frame there
+    /// @param exposure  of the estimate
+    TextureControl(const ShadingScene& shading, const CameraView& view, const SampleHits& centers,
+                   const Image<Rgb>& estimate, double exposure);
+
+    bool corrects(int x, int y) const { return corrects_(x, y) != 0; }
+    /// Undefined where it does not.
+    PixelTexture find_texture(int x, int y) const;
+    /// Leaves out pixels of a stage for which it does not pay: the errors of the means around, without their
+    /// corrections, are hardly larger.
+    void choose(std::span<const PixelRange> stage, const Image<PixelSamples>& pixels);
+
+  private:
+    const ShadingScene& shading_;
+    const CameraView& view_;
+    const SampleHits& centers_;
+    const Image<Rgb>& estimate_;
+    const float exposure_;
+    Image<std::uint8_t> corrects_;
+};
+
+}  // namespace aleph
