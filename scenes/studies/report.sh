@@ -20,7 +20,7 @@ both() {
   study "$1" "$1-castle" --set vision=castle --set viewing.persistence=1 --viewers castle,thesis
 }
 
-# benchmark NAME: its table alone, printed and in out/studies/NAME.txt.
+# benchmark NAME: its tables alone, printed and in out/studies/NAME.txt.
 benchmark() {
   ninja -C build --quiet "bench_$1"
   mkdir -p out/studies
@@ -41,10 +41,10 @@ run() {
     motion)
       build/study_motion scenes/boomerang/scene.json --frame 24 --set spp=8 --set gather=256 --set light_step=0 --markdown \
         -o scenes/boomerang/motion.jpg ;;
-    stages | update) benchmark "$1" ;;
+    stages | update | size) benchmark "$1" ;;
     *) echo "report.sh: there is no study $1" >&2; exit 2 ;;
   esac
 }
 
-[ $# -gt 0 ] || set -- demo motion pool thesis-pool thesis-gallery thesis-antique-room knob effects stages update
+[ $# -gt 0 ] || set -- demo motion pool thesis-pool thesis-gallery thesis-antique-room knob effects stages update size
 for name in "$@"; do run "$name"; done

@@ -1,7 +1,6 @@
 // Direct light of 8 to 1,000 lights: time and shadow rays to equal error. Lamps of the same power in all hang in rows
 // over a hall; posts and panels throw shadows. One thread; the error is the standard deviation over seeds, relative to
 // the mean of all points. Cost is what an error of 5 % takes at a point of the floor.
-// Then frames of such halls to an error of one just visible difference: seconds and samples a pixel.
 //   bench_lights [SAMPLES]
 
 #include <fmt/format.h>
@@ -10,8 +9,6 @@
 #include <ctime>
 #include <functional>
 
-#include "engine/base/parallel.h"
-#include "render/frame/sequence.h"
 #include "render/path/direct_light.h"
 #include "tests/benchmarks/thread_seconds.h"
 #include "tests/support/render_scenes.h"
@@ -68,28 +65,6 @@ Cost measure(const Stage& stage, const Method& method, std::uint32_t seeds) {
             squares / points / std::pow(sum / points, 2.0)};
 }
 
-/// Microseconds of a processor, and samples, of each pixel of a frame to an error of one threshold; maps
-/// and cache included.
-void print_frames(bool lamps) {
-    fmt::print("  {:>6} {:>11} {:>14} {:>12}\n", "lights", "us a pixel", "samples a pixel", "us a sample");
-    for (const int lights : {8, 64, 1000}) {
-        Scene scene = make_hall(lights, lamps);
-        add_mesh(scene, make_quad(side, side, add_lambert(scene, glm::dvec3(0.6))), glm::dvec3(0.0), z_to_up);
-        add_camera(scene, {0.4 * side, 0.8 * height, 0.4 * side}, glm::dvec3(0.0));
-        RenderSettings settings;
-        settings.picture.width = 160;
-        settings.picture.height = 120;
-        follow_error(settings, 1.0);
-        settings.cache.light_step = 0;
-        Sequence sequence(std::move(scene), settings);
-        const double start = seconds_now();
-        const auto taken = static_cast<double>(sequence.render(0).statistics.counts.samples);
-        const double seconds = seconds_now() - start, pixels = settings.picture.width * settings.picture.height;
-        fmt::print("  {:>6} {:11.1f} {:14.1f} {:12.2f}\n", lights, 1e6 * seconds / pixels, taken / pixels,
-                   1e6 * seconds / taken);
-    }
-}
-
 int run(int argc, char** argv) {
     const int samples = argc > 1 ? std::atoi(argv[1]) : 4;
     const Method shared = [&](const Stage& stage, RayTask& task, const ViewedSurface& surface, std::uint32_t seed) {
@@ -118,11 +93,6 @@ int run(int argc, char** argv) {
                            cost.rays, cost.variance, 1e6 * cost.seconds * calls, cost.rays * calls);
             }
         }
-    }
-    const ThreadLimit one_thread(1);
-    for (const bool lamps : {true, false}) {
-        fmt::print("{}: frames to an error of one threshold\n", lamps ? "square lamps" : "point lights");
-        print_frames(lamps);
     }
     return 0;
 }
