@@ -120,7 +120,8 @@ class Table {
 void run() {
     constexpr int width = 160, rows = 120, pixels = width * rows;
     fmt::print(
-        "One frame of a hall to an error of 1; seconds of one thread, samples per pixel, largest memory so far\n");
+        "One frame of a hall to an error of 1; seconds of one thread, fill and shade by the clock, samples per pixel, "
+        "largest memory so far\n");
     std::vector<double> embree;
     {
         const ThreadLimit one_thread(1);
