@@ -117,8 +117,7 @@ class FrameShading {
 
     void take_ranges(const SampleScene& scene, ShadingTask& task, std::span<const PixelRange> ranges) {
         SamplePacket samples(scene, task);
-        std::optional<PixelTexture> texture;  // of the pixel `corrected`
-        glm::ivec2 corrected(-1);
+        std::optional<PixelTexture> texture;  // of the last pixel that was corrected
         const auto shade = [&](const SamplePlace& at, int x, int y, const glm::vec3& direction, const Hit& hit) {
             SampleLight light;
             if (hit.instance == no_index) {
@@ -130,8 +129,7 @@ class FrameShading {
                 integrator_->shade(task, surface, pixels_(x, y), light);
             }
             if (textures_ && textures_->corrects(x, y)) {
-                if (corrected != glm::ivec2(x, y)) texture.emplace(textures_->find_texture(x, y));
-                corrected = {x, y};
+                if (!texture || texture->pixel() != glm::ivec2(x, y)) texture.emplace(textures_->find_texture(x, y));
                 const Rgb correction = texture->correct(at);
                 light[LightPart::direct] += correction;
                 light.control = luminance(correction);

@@ -34,28 +34,36 @@ UvFootprint find_footprint(const CameraView& view, const PixelSurface& surface, 
                              make_pixel_footprint(view, surface.point, -surface.view, surface.distance, 1.0f), uv_set);
 }
 
+/// From the texel at a pixel's centre to what the Lambert layer reflects of the estimate; 0 where that is not finite.
+Rgb find_scale(const ShadingScene& shading, const CameraView& view, const PixelSurface& surface,
+               const TextureUse& texture, const Rgb& estimate) {
+    const SurfaceMaterial& material = surface.material;
+    const Rgb texel(sample_texture(*shading.textures, texture, surface.point.uv[texture.uv_set],
+                                   find_footprint(view, surface, texture.uv_set)));
+    const Rgb reflected = glm::max(estimate - material.emission, Rgb(0.0f)),
+              whole = material.diffuse + material.gloss.f0;
+    Rgb scale(0.0f);
+    for (int c = 0; c < 3; ++c) {
+        if (whole[c] > 0.0f) scale[c] = material.diffuse[c] / whole[c] * reflected[c] / std::max(texel[c], least_texel);
+    }
+    return glm::all(glm::lessThan(scale, Rgb(most_scale))) ? scale : Rgb(0.0f);  // also where one is NaN
+}
+
 }  // namespace
 
 PixelTexture::PixelTexture(const ShadingScene& shading, const CameraView& view, const PixelSurface& surface,
-                           const TextureUse& texture, const Rgb& reflected)
+                           const TextureUse& texture, const Rgb& scale)
     : shading_(shading),
       view_(view),
       texture_(texture),
       pixel_(surface.x, surface.y),
       position_(surface.point.position),
       uv_(surface.point.uv[texture.uv_set]),
-      footprint_(find_footprint(view, surface, texture.uv_set)) {
-    const SurfaceMaterial& material = surface.material;
-    const Rgb texel(sample_texture(*shading.textures, texture, uv_, footprint_));
-    const Rgb reflectance = material.diffuse + material.gloss.f0;
-    for (int c = 0; c < 3; ++c) {
-        const float diffuse = reflectance[c] > 0.0f ? material.diffuse[c] / reflectance[c] : 0.0f;
-        scale_[c] = diffuse * reflected[c] / std::max(texel[c], least_texel);
-    }
+      footprint_(find_footprint(view, surface, texture.uv_set)),
+      scale_(scale) {
     const glm::dvec3 e1(surface.point.edges[0]), e2(surface.point.edges[1]), normal = glm::cross(e1, e2);
     const double squared = glm::dot(normal, normal);
-    const bool is_good = glm::all(glm::lessThan(glm::abs(scale_), Rgb(most_scale)));  // not if one is NaN
-    if (!(squared > 0.0) || !is_good) return;
+    if (!(squared > 0.0)) return;
     const auto& uv_edges = surface.point.uv_edges[texture.uv_set];
     for (int c = 0; c < 2; ++c) {
         uv_slopes_[c] = (glm::cross(e2, normal) * static_cast<double>(uv_edges[0][c]) +
@@ -92,14 +100,17 @@ TextureControl::TextureControl(const ShadingScene& shading, const CameraView& vi
     : shading_(shading),
       view_(view),
       centers_(centers),
-      estimate_(estimate),
-      exposure_(static_cast<float>(exposure)),
+      scales_(view.width, view.height),
       corrects_(view.width, view.height) {
     parallel_rows(view.height, 16, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < view.width; ++x) {
                 const Hit& hit = centers.hits(x, y);
-                if (hit.instance == no_index || find_base_color(shading, hit) == nullptr) continue;
+                const TextureUse* const texture = hit.instance == no_index ? nullptr : find_base_color(shading, hit);
+                if (texture == nullptr) continue;
+                const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
+                const Rgb radiance = estimate(x, y) / static_cast<float>(exposure);
+                scales_(x, y) = find_scale(shading, view, surface, *texture, radiance);
                 bool is_alone = true;
                 visit_around(view.width, view.height, x, y, [&](int nx, int ny) {
                     is_alone = is_alone && centers.hits(nx, ny).instance == hit.instance;
@@ -111,9 +122,11 @@ TextureControl::TextureControl(const ShadingScene& shading, const CameraView& vi
 }
 
 PixelTexture TextureControl::find_texture(int x, int y) const {
+    // A highlight on a dark texel makes a scale of tens, and noise in one pixel that none around it tells of.
+    Rgb scale = scales_(x, y);
+    visit_around(view_.width, view_.height, x, y, [&](int nx, int ny) { scale = glm::min(scale, scales_(nx, ny)); });
     const PixelSurface surface = make_pixel_surface(shading_, view_, centers_, x, y);
-    const Rgb reflected = glm::max(estimate_(x, y) / exposure_ - surface.material.emission, Rgb(0.0f));
-    return {shading_, view_, surface, *find_base_color(shading_, centers_.hits(x, y)), reflected};
+    return {shading_, view_, surface, *find_base_color(shading_, centers_.hits(x, y)), scale};
 }
 
 void TextureControl::choose(std::span<const PixelRange> stage, const Image<PixelSamples>& pixels) {

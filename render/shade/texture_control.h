@@ -1,7 +1,7 @@
 #pragma once
-// Textures of pixels that show one flat face. Where the samples of such a pixel lie on its texture is most of why they
-// differ, and a look-up costs a fraction of a sample. So each sample is corrected by what its texel differs from the
-// mean of other texels of the pixel: a control variate, which leaves the mean over seeds as it is.
+// Textures of pixels that show one flat face. Samples of such a pixel differ mostly because they lie at different
+// places of its texture, and a look-up costs a fraction of a sample. So each sample is corrected by how much its texel
+// differs from the mean of other texels of the pixel: a control variate, which leaves the mean over seeds as it is.
 
 #include <span>
 
@@ -17,13 +17,14 @@ class PixelTexture {
   public:
     /// @param surface    at the pixel's centre
     /// @param texture    base colour of its material
-    /// @param reflected  radiance that the surface is expected to reflect there
+    /// @param scale      from texel to the radiance that is expected; finite
     PixelTexture(const ShadingScene& shading, const CameraView& view, const PixelSurface& surface,
-                 const TextureUse& texture, const Rgb& reflected);
+                 const TextureUse& texture, const Rgb& scale);
 
     /// What a sample is corrected by: the mean over other places in the pixel of the radiance that is expected there,
-    /// less that at the sample's own place. Its mean over seeds is 0. 0 if the plane cannot be seen.
+    /// less that at the sample's own place. Its mean over seeds is 0. 0 if the triangle has no area.
     Rgb correct(const SamplePlace& place) const;
+    const glm::ivec2& pixel() const { return pixel_; }
 
   private:
     Rgb expect(const glm::dvec2& film, float spacing) const;
@@ -37,13 +38,14 @@ class PixelTexture {
     glm::dvec3 uv_slopes_[2]{};    ///< 1/m: change of u and of v along the plane
     const glm::dvec2 uv_;          ///< of the centre's point
     const UvFootprint footprint_;  ///< of the whole pixel
-    Rgb scale_{0.0f};              ///< from texel to radiance
+    const Rgb scale_;
 };
 
 /// The pixels of a frame that are corrected.
 class TextureControl {
   public:
-    /// Keeps references. At first it corrects pixels that show a texture, and around which there is one object.
+    /// Keeps references, but for the estimate. At first it corrects pixels that show a texture, and around which there
+    /// is one object.
     /// @param centers   hits of the pixels' centres
     /// @param estimate  quick estimate of the frame there
     /// @param exposure  of the estimate
@@ -53,16 +55,15 @@ class TextureControl {
     bool corrects(int x, int y) const { return corrects_(x, y) != 0; }
     /// Undefined where it does not.
     PixelTexture find_texture(int x, int y) const;
-    /// Leaves out pixels of a stage for which it does not pay: the errors of the means around, without their
-    /// corrections, are hardly larger.
+    /// Leaves out the pixels of a stage where it does not pay: where the errors of the means around would hardly be
+    /// larger without corrections.
     void choose(std::span<const PixelRange> stage, const Image<PixelSamples>& pixels);
 
   private:
     const ShadingScene& shading_;
     const CameraView& view_;
     const SampleHits& centers_;
-    const Image<Rgb>& estimate_;
-    const float exposure_;
+    Image<Rgb> scales_;  ///< from the texel at a pixel's centre to the light that the surface reflects there
     Image<std::uint8_t> corrects_;
 };
 

@@ -1,6 +1,5 @@
-// How the cost of one frame grows with the scene and with the picture, to an error of one just visible difference: of
-// triangles, of lamps, of pixels, and with threads. Above each table is what it varies; the last column of a table's
-// last row is the exponent of the whole: seconds grow like size to that power (least squares in logarithms).
+// How the cost of one frame grows with triangles, lamps, pixels and threads, to an error of one just visible
+// difference. Below each table are exponents: seconds grow as size to that power (least squares of logarithms).
 //   bench_size
 
 #include <fmt/format.h>
@@ -53,34 +52,29 @@ Scene make_hall(int triangles, int lamps) {
 }
 
 struct Cost {
-    double start = 0.0;  ///< s, until the first frame may begin
-    double fill = 0.0, shade = 0.0, frame = 0.0;
+    double embree = 0.0;  ///< s, for Embree alone to build a tree of the triangles
+    double start = 0.0;   ///< s, until the first frame may begin
+    double frame = 0.0;   ///< s
     double samples = 0.0, rays = 0.0;
 };
 
-Cost measure(const Scene& scene, int width, int picture_height, clockid_t clock) {
+Cost measure(const Scene& scene, int width, int picture_height, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
     RenderSettings settings;
     settings.picture.width = width;
     settings.picture.height = picture_height;
     follow_error(settings, 1.0);
+    const ScenePose posed = pose(scene, 0.0);
+    const double first = seconds_now(clock);
+    { const RawEmbree embree(scene, posed, glm::dvec3(0.0)); }
     const double before = seconds_now(clock);
     Sequence sequence(scene, settings);
     const double begun = seconds_now(clock);
     const FrameStatistics stats = sequence.render(0).statistics;
-    return {.start = begun - before,
-            .fill = stats.seconds.fill,
-            .shade = stats.seconds.shade,
+    return {.embree = before - first,
+            .start = begun - before,
             .frame = seconds_now(clock) - begun,
             .samples = static_cast<double>(stats.counts.samples),
             .rays = static_cast<double>(stats.counts.rays.total())};
-}
-
-/// Seconds for Embree alone to build a tree of the scene's triangles.
-double measure_embree(const Scene& scene) {
-    const ScenePose frame = pose(scene, 0.0);
-    const double before = seconds_now();
-    const RawEmbree embree(scene, frame, glm::dvec3(0.0));
-    return seconds_now() - before;
 }
 
 double find_exponent(const std::vector<double>& sizes, const std::vector<double>& costs) {
@@ -93,58 +87,52 @@ double find_exponent(const std::vector<double>& sizes, const std::vector<double>
     return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-/// Rows of one table, with the exponent of the frame's seconds at its end.
+/// Rows of one table, with exponents at their end.
 class Table {
   public:
     explicit Table(const char* what) {
-        fmt::print("\n{:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11}\n", what, "start, s", "fill, s", "shade, s",
-                   "frame, s", "M rays", "samples", "memory, MiB");
+        fmt::print("\n{:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11}\n", what, "Embree, s", "start, s", "frame, s",
+                   "M rays", "samples", "memory, MiB");
     }
     void add(double size, int pixels, const Cost& cost) {
-        fmt::print("{:>10.0f} {:9.3f} {:9.2f} {:9.2f} {:9.2f} {:9.2f} {:9.1f} {:11.0f}\n", size, cost.start, cost.fill,
-                   cost.shade, cost.frame, cost.rays / 1e6, cost.samples / pixels, peak_memory_mib());
+        fmt::print("{:>10.0f} {:9.3f} {:9.3f} {:9.2f} {:9.2f} {:9.1f} {:11.0f}\n", size, cost.embree, cost.start,
+                   cost.frame, cost.rays / 1e6, cost.samples / pixels, peak_memory_mib());
         std::fflush(stdout);
         sizes_.push_back(size);
-        frames_.push_back(cost.frame);
         starts_.push_back(cost.start);
+        frames_.push_back(cost.frame);
     }
     void finish() const {
-        fmt::print("{:>10} {:9.2f} {:>9} {:>9} {:9.2f}\n", "exponent", find_exponent(sizes_, starts_), "", "",
+        fmt::print("{:>10} {:>9} {:9.2f} {:9.2f}\n", "exponent", "", find_exponent(sizes_, starts_),
                    find_exponent(sizes_, frames_));
     }
 
   private:
-    std::vector<double> sizes_, frames_, starts_;
+    std::vector<double> sizes_, starts_, frames_;
 };
 
 void run() {
     constexpr int width = 160, rows = 120, pixels = width * rows;
     fmt::print(
-        "One frame of a hall to an error of 1; seconds of one thread, fill and shade by the clock, samples per pixel, "
-        "largest memory so far\n");
-    std::vector<double> embree;
+        "One frame of a hall to an error of 1; seconds of one thread, samples per pixel, largest memory so far\n");
     {
         const ThreadLimit one_thread(1);
-        Table table("triangles");
-        for (const int triangles : {1'000, 10'000, 100'000, 1'000'000}) {
-            const Scene scene = make_hall(triangles, 4);
-            table.add(triangles, pixels, measure(scene, width, rows, CLOCK_THREAD_CPUTIME_ID));
-            embree.push_back(measure_embree(scene));
-        }
-        table.finish();
-        fmt::print("{:>10} {:9.3f} {:9.3f} {:9.3f} {:9.3f}\n", "Embree, s", embree[0], embree[1], embree[2], embree[3]);
+        Table triangles("triangles");
+        for (const int count : {1'000, 10'000, 100'000, 1'000'000})
+            triangles.add(count, pixels, measure(make_hall(count, 4), width, rows));
+        triangles.finish();
         Table lamps("lamps");
         for (const int count : {1, 10, 100, 1'000, 10'000})
-            lamps.add(count, pixels, measure(make_hall(10'000, count), width, rows, CLOCK_THREAD_CPUTIME_ID));
+            lamps.add(count, pixels, measure(make_hall(10'000, count), width, rows));
         lamps.finish();
         Table sizes("pixels");
         for (const int scale : {1, 2, 4, 8}) {
-            sizes.add(pixels * scale * scale, pixels * scale * scale,
-                      measure(make_hall(10'000, 4), width * scale, rows * scale, CLOCK_THREAD_CPUTIME_ID));
+            const int count = pixels * scale * scale;
+            sizes.add(count, count, measure(make_hall(10'000, 4), width * scale, rows * scale));
         }
         sizes.finish();
     }
-    fmt::print("\nThe same at 640x480, by the clock\n");
+    fmt::print("\nThe same at 640x480, seconds of the clock\n");
     Table threads("threads");
     for (const int count : {1, 2, 4}) {
         const ThreadLimit limit(count);

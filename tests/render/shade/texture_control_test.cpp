@@ -154,6 +154,20 @@ TEST(TextureControl, NothingIsCorrectedByAnEstimateThatIsNotFinite) {
     }
 }
 
+TEST(TextureControl, AHighlightInOnePixelMakesNoNoise) {
+    CheckeredFloor floor;
+    const auto largest = [&] {
+        const PixelTexture texture = floor.control().find_texture(16, 20);
+        float most = 0.0f;
+        for (int i = 0; i < 32; ++i) most = std::max(most, std::abs(texture.correct(floor.place(i)).x));
+        return most;
+    };
+    const float before = largest();
+    ASSERT_GT(before, 0.0f);
+    floor.estimate(16, 20) = Rgb(100.0f);
+    EXPECT_LT(largest(), 2.0f * before);
+}
+
 TEST(TextureControl, PixelsBesideAnotherObjectAreLeftOut) {
     const CheckeredFloor floor;
     const TextureControl control = floor.control();
