@@ -3,13 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
 
 #include "engine/base/errors.h"
+#include "engine/base/file_descriptor.h"
 
 namespace aleph {
 
@@ -25,27 +25,6 @@ std::string reason(const char* what, int error) {
 [[noreturn]] void fail(const fs::path& named, const char* what, int error) {
     throw OutputError(printable(named.string(), 4096), reason(what, error));
 }
-
-/// An open file that is closed at the end of the scope; close() returns whether that worked.
-class FileDescriptor {
-  public:
-    explicit FileDescriptor(int fd) : fd_(fd) {}
-    ~FileDescriptor() {
-        if (fd_ >= 0) ::close(fd_);
-    }
-    FileDescriptor(const FileDescriptor&) = delete;
-    FileDescriptor& operator=(const FileDescriptor&) = delete;
-
-    int get() const { return fd_; }
-    bool close() {
-        const int fd = fd_;
-        fd_ = -1;
-        return ::close(fd) == 0;
-    }
-
-  private:
-    int fd_;
-};
 
 /// The file to write: `path`, or what it links to. Refuses what cannot be replaced.
 fs::path checked_target(const fs::path& path) {

@@ -66,16 +66,20 @@ std::string encode(const std::string& extension, const OIIO::ImageSpec& spec, co
 
 }  // namespace
 
-std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed) {
+std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed, const PictureTexts& texts) {
     check_size(linear.width, linear.height, "");
     changed = 0;
     Image<Rgb> encoded(linear.width, linear.height);
     for (std::size_t i = 0; i < linear.size(); ++i)
         encoded.pixels[i] = round_to_rgbe(replace_unfit(linear.pixels[i], changed));
-    return encode("hdr", {linear.width, linear.height, 3, OIIO::TypeDesc::FLOAT}, encoded.pixels.data());
+    std::string bytes = encode("hdr", {linear.width, linear.height, 3, OIIO::TypeDesc::FLOAT}, encoded.pixels.data());
+    // OpenImageIO writes no comments. They follow the first line.
+    std::string comments;
+    for (const auto& [key, text] : texts) comments += fmt::format("# {}={}\n", key, text);
+    return bytes.insert(bytes.find('\n') + 1, comments);
 }
 
-std::string encode_png(const Image<Rgb>& linear) {
+std::string encode_png(const Image<Rgb>& linear, const PictureTexts& texts) {
     check_size(linear.width, linear.height, "");
     Image<std::array<std::uint8_t, 3>> encoded(linear.width, linear.height);
     for (std::size_t i = 0; i < linear.size(); ++i) {
@@ -84,6 +88,7 @@ std::string encode_png(const Image<Rgb>& linear) {
     }
     OIIO::ImageSpec spec(linear.width, linear.height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
+    for (const auto& [key, text] : texts) spec.attribute(key, text);
     return encode("png", spec, encoded.pixels.data());
 }
 

@@ -231,6 +231,30 @@ std::string encode_exr(const ChannelImage& image, int threads) {
     return bytes;
 }
 
+std::optional<std::string> find_exr_text(const std::filesystem::path& path, const std::string& key) {
+    try {
+        Imf::InputFile file(path.c_str(), 0);
+        const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(key);
+        const Imath::Box2i window = file.header().dataWindow();
+        const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+        check_size(width, std::int64_t{window.max.y} - window.min.y + 1, path.string());
+        if (text == nullptr || !file.isComplete()) return std::nullopt;
+        const auto channels = file.header().channels().begin();
+        if (channels == file.header().channels().end()) return std::nullopt;
+        Image<float> row(static_cast<int>(width), 1);
+        Imf::FrameBuffer pixels;
+        const Imath::Box2i last({window.min.x, window.max.y}, window.max);
+        pixels.insert(channels.name(), make_slice(row, last));
+        file.setFrameBuffer(pixels);
+        file.readPixels(window.max.y);
+        return text->value();
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::exception& e) {
+        throw InputError(printable(path.string(), 400), "", printable(e.what(), 400));
+    }
+}
+
 ChannelImage decode_exr(ByteView bytes, const std::string& name) {
     refuse_unsupported_kinds(bytes, name);
     try {

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "engine/base/parallel.h"
 #include "engine/image/codec.h"
 
@@ -60,14 +61,26 @@ void write_exr(const std::filesystem::path& path, const ChannelImage& image) {
     write_file(path, encode_for(path, [&] { return encode_exr(image, thread_count()); }));
 }
 
-void write_png(const std::filesystem::path& path, const Image<Rgb>& linear) {
-    write_file(path, encode_for(path, [&] { return encode_png(linear); }));
+void write_png(const std::filesystem::path& path, const Image<Rgb>& linear, const PictureTexts& texts) {
+    write_file(path, encode_for(path, [&] { return encode_png(linear, texts); }));
 }
 
-std::size_t write_hdr(const std::filesystem::path& path, const Image<Rgb>& linear) {
+std::size_t write_hdr(const std::filesystem::path& path, const Image<Rgb>& linear, const PictureTexts& texts) {
     std::size_t changed = 0;
-    write_file(path, encode_for(path, [&] { return encode_hdr(linear, changed); }));
+    write_file(path, encode_for(path, [&] { return encode_hdr(linear, changed, texts); }));
     return changed;
+}
+
+std::optional<std::string> read_picture_text(const std::filesystem::path& path, const std::string& key) {
+    try {
+        if (lower_extension(path) == ".exr") return find_exr_text(path, key);
+        const std::vector<std::uint8_t> bytes = read_bytes(path);
+        const std::optional<ImageFormat> format = detect_format(bytes);
+        if (format == ImageFormat::png) return find_png_text(bytes, key);
+        if (format == ImageFormat::hdr) return find_hdr_text(bytes, key);
+    } catch (const InputError&) {  // not whole
+    }
+    return std::nullopt;
 }
 
 ChannelImage read_image(const std::filesystem::path& path) {

@@ -6,7 +6,9 @@
 #include <iostream>
 
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "engine/image/image_file.h"
+#include "engine/scene/scene_hash.h"
 #include "render/cli/commands.h"
 #include "render/cli/frame_pattern.h"
 #include "render/cli/maps_help.h"
@@ -15,6 +17,7 @@
 #include "render/cli/write_frames.h"
 #include "render/images/image_sequence.h"
 #include "render/images/picture_frame.h"
+#include "render/settings/fingerprint.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
@@ -161,6 +164,26 @@ struct ReplacedPixels {
     }
 };
 
+/// What the maps of all frames depend on.
+std::string identity_of(const PreparedScene& prepared, const MapsOptions& options) {
+    const auto& [color, motion, depth] = options.layers;
+    return hash_bytes(fmt::format("{}\n{}\n{}\n{}\n{}",
+                                  format_fingerprint(make_fingerprint(prepared.scene, prepared.settings, {})), color,
+                                  motion, depth, describe_content(options.common, maps_request())));
+}
+
+/// Of what the maps of all frames and those of this one depend on: its picture and the one that its motion needs.
+std::string fingerprint_of(const PreparedImages& images, const MapsOptions& options, int frame) {
+    const auto hash_file = [&](std::int64_t of) {
+        const auto found = images.files.find(of);
+        if (found == images.files.end()) return std::string();
+        const Bytes bytes = read_regular_file(found->second, found->second.string(), "");
+        return hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    };
+    return hash_bytes(fmt::format("{}\n{}\n{}\n{}\n{}", identity_of(images.prepared, options), frame,
+                                  hash_file(frame - 1), hash_file(frame), hash_file(frame + 1)));
+}
+
 void write_image_maps(const MapsOptions& options) {
     const PreparedImages images = prepare_images(options);
     check_frames(images);
@@ -174,9 +197,11 @@ void write_image_maps(const MapsOptions& options) {
         replaced.add(maps.statistics);
         return maps;
     };
-    write_frames(
-        {prepared.scene, prepared.settings, *prepared.scene.film.exposure, prepared.frames, prepared.name, make},
-        options.common, maps_request());
+    const auto fingerprint = [&](int frame) { return fingerprint_of(images, options, frame); };
+    FrameClaims claims = claim_frames(prepared, options.common, identity_of(prepared, options), fingerprint);
+    write_frames({prepared.scene, prepared.settings, *prepared.scene.film.exposure, prepared.frames, prepared.name,
+                  make, claims, fingerprint},
+                 options.common, maps_request());
     if (!options.common.quiet) replaced.warn();
 }
 

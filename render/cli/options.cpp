@@ -11,6 +11,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/json/close_names.h"
+#include "render/cli/stop_signals.h"
 
 namespace aleph {
 
@@ -146,6 +147,9 @@ int run_command(const Command& command, std::ostream& errors) {
         const int code = command();
         flush_results();
         return code;
+    } catch (const Stopped& e) {
+        errors << "aleph: " << e.what() << "\n" << std::flush;
+        return e.exit_code();
     } catch (const InputError& e) {
         report(errors, e.what());
         return exit_bad_input;

@@ -27,6 +27,10 @@ constexpr const char* render_footer =
     "a cut and at the last frame; frames between two of them interpolate. A frame rendered alone takes two of them "
     "and their middle, a sequence two more for each step. --error computes few records for every frame instead, "
     "and --integrator path none; for a --cache file give --light-step 10 beside --error.\n"
+    "--resume goes on where a render was stopped, by SIGTERM, SIGINT or anything else: each file has the fingerprint "
+    "of "
+    "what it was made from, and one that is cut or of something else is made again. SIGTERM and SIGINT then exit with "
+    "75, without --resume with 143 and 130. The rows of --stats and the light of --cache are kept.\n"
     "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"
     "Examples:\n"
     "  aleph render scenes/pool/scene.json --frames 20 -o frame.exr                  no visible error\n"
@@ -35,8 +39,19 @@ constexpr const char* render_footer =
     "minutes\n"
     "  aleph render scenes/pool/scene.json --error 1 --verify 60 -o out/             and how much is really seen\n"
     "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
+    "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json --resume   go on after a stop\n"
     "  aleph render scenes/pool/scene.json --frames 20 --guide none --spp 16 -o unguided.exr  the baseline\n"
     "  aleph render scenes/pool/scene.json --frames 20 --accuracy 0 --gather 4096 --spp 1 -o dense.exr";
+
+/// @throws InputError (--resume) if --budget is given, or --verify
+void refuse_beside_resume(bool budget, bool verify) {
+    if (budget) {
+        throw InputError("", "--resume",
+                         "--budget may choose another error than before; give --error with the number that it chose");
+    }
+    if (verify)
+        throw InputError("", "--resume", "--verify checks the frames that it renders; render all of them with it");
+}
 
 /// @param budget  text of --budget
 /// @param verify  seconds of --verify, or 0
@@ -93,6 +108,7 @@ void add_render_command(CLI::App& app, Command& command) {
         command = [options, aovs, cache, budget, verify] {
             const FrameRequest request{.frame = true, .maps = *aovs, .progress = {}};
             options->keeps_to_error = !budget->has_value();
+            if (options->resume) refuse_beside_resume(budget->has_value(), verify->has_value());
             const double check = verify->has_value() ? parse_verify(**verify) : 0.0;
             if (budget->has_value()) {
                 render_within(**budget, *options, request, *cache, check);

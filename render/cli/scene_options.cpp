@@ -182,6 +182,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
            "--stats", options.stats,
            "write counts and times of every frame as JSON; while frames are made, the file has the finished ones")
         ->type_name("FILE.json");
+    app.add_flag("--resume", options.resume,
+                 "keep frames whose files are whole and have the fingerprint of this scene, these settings and this "
+                 "program; several processes with the same command divide the frames (EXR, PNG, HDR)");
     add_load_limits(app, options.limits);
     add_value(app, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
     app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");

@@ -1,14 +1,56 @@
 #include "render/cli/statistics_file.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <cerrno>
 #include <exception>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "engine/base/atomic_file.h"
+#include "engine/base/errors.h"
+#include "engine/base/file_descriptor.h"
+#include "engine/base/files.h"
 
 namespace aleph {
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::filesystem::path rows_file(const std::filesystem::path& path) {
+    return path.parent_path() / fmt::format(".{}.rows", path.filename().string());
+}
+
+/// Empty where there is no such file.
+std::string read_text(const std::filesystem::path& path) {
+    if (!std::filesystem::exists(path)) return {};
+    const Bytes bytes = read_regular_file(path, path.string(), "");
+    return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
 bool is_write_due(double since, double took) {
     return since >= 10.0 * took;
+}
+
+std::map<std::string, std::string> read_statistics_rows(const std::filesystem::path& path) {
+    std::map<std::string, std::string> rows;
+    const auto add = [&](const Json& row) {
+        if (row.is_object() && row.contains("fingerprint") && row["fingerprint"].is_string())
+            rows.emplace(row["fingerprint"].get<std::string>(), indent_row(row.dump(2)));
+    };
+    const Json whole = Json::parse(read_text(path), nullptr, false);
+    if (whole.is_object() && whole.contains("frames") && whole["frames"].is_array()) {
+        for (const Json& row : whole["frames"]) add(row);
+    }
+    std::istringstream lines(read_text(rows_file(path)));
+    for (std::string line; std::getline(lines, line);) add(Json::parse(line, nullptr, false));
+    return rows;
 }
 
 StatisticsFile::StatisticsFile(std::filesystem::path path, const Scene& scene, const RenderSettings& settings,
@@ -22,13 +64,30 @@ StatisticsFile::~StatisticsFile() {
     }
 }
 
-void StatisticsFile::add(const FrameStatistics& frame) {
+void StatisticsFile::note(const FrameStatistics& frame, const std::string& fingerprint) const {
     if (path_.empty()) return;
-    if (!frames_.empty()) frames_ += ",\n";
-    frames_ += format_frame_statistics(frame);
+    // The row before may have been cut.
+    const std::string line = "\n" + Json::parse(format_frame_statistics(frame, fingerprint)).dump();
+    const std::filesystem::path path = rows_file(path_);
+    const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+    if (file.get() < 0 || ::write(file.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
+        throw OutputError(printable(path.string(), 4096),
+                          fmt::format("cannot write: {}", std::generic_category().message(errno)));
+    }
+}
+
+void StatisticsFile::add(std::size_t place, const FrameStatistics& frame, const std::string& fingerprint) {
+    if (path_.empty()) return;
+    frames_[place] = format_frame_statistics(frame, fingerprint);
     changed_ = true;
     clock_.add_to(since_);
     if (is_write_due(since_, took_)) write();
+}
+
+void StatisticsFile::keep(std::size_t place, const std::string& row) {
+    if (path_.empty() || frames_.contains(place)) return;
+    frames_[place] = row;
+    changed_ = true;
 }
 
 void StatisticsFile::set_budget(const BudgetStatistics& budget) {
@@ -42,12 +101,17 @@ void StatisticsFile::set_verified(const VerifiedStatistics& verified) {
 }
 
 void StatisticsFile::finish() {
+    if (path_.empty()) return;
     if (changed_) write();
+    std::error_code error;
+    std::filesystem::remove(rows_file(path_), error);
 }
 
 void StatisticsFile::write() {
     StageClock writing;
-    write_file(path_, format_statistics(frames_, scene_, settings_, exposure_, budget_, verified_));
+    std::string frames;
+    for (const auto& [place, row] : frames_) frames += (frames.empty() ? "" : ",\n") + row;
+    write_file(path_, format_statistics(frames, scene_, settings_, exposure_, budget_, verified_));
     changed_ = false;
     took_ = since_ = 0.0;
     writing.add_to(took_);

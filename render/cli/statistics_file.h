@@ -2,6 +2,7 @@
 // The --stats file while frames are made: it has the finished frames, and writing it takes little of their time.
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,10 @@ namespace aleph {
 /// @param took  seconds which that took
 bool is_write_due(double since, double took);
 
+/// The text of each frame in a statistics file, and of frames that an unfinished file has not yet, by the fingerprint
+/// of the frame's file. A file that is no statistics file has none.
+std::map<std::string, std::string> read_statistics_rows(const std::filesystem::path& path);
+
 class StatisticsFile {
   public:
     /// Takes what the file says of all frames. The references must outlive this object.
@@ -29,9 +34,19 @@ class StatisticsFile {
     StatisticsFile(const StatisticsFile&) = delete;
     StatisticsFile& operator=(const StatisticsFile&) = delete;
 
-    /// Adds a finished frame. The first is written at once, others when that is due.
+    /// Notes a frame whose file is about to be written in `.NAME.rows` beside the file, which `finish` removes: a
+    /// process that is killed then loses no row of a finished frame.
     /// @throws OutputError
-    void add(const FrameStatistics& frame);
+    void note(const FrameStatistics& frame, const std::string& fingerprint) const;
+
+    /// Adds a finished frame. The first is written at once, others when that is due.
+    /// @param place        of the frame among all
+    /// @param fingerprint  of the frame's file
+    /// @throws OutputError
+    void add(std::size_t place, const FrameStatistics& frame, const std::string& fingerprint);
+
+    /// Adds a frame that was finished before, as read_statistics_rows found it.
+    void keep(std::size_t place, const std::string& row);
 
     /// Says what the budget came to. `finish` then writes the file with it.
     void set_budget(const BudgetStatistics& budget);
@@ -52,7 +67,7 @@ class StatisticsFile {
     double exposure_;
     std::optional<BudgetStatistics> budget_;
     std::optional<VerifiedStatistics> verified_;
-    std::string frames_;  ///< text of the frames so far
+    std::map<std::size_t, std::string> frames_;  ///< text of the frames so far
     bool changed_ = false;
     StageClock clock_;
     double since_ = 0.0;  ///< seconds since the file was written

@@ -3,20 +3,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <iostream>
+#include <map>
+#include <numeric>
+#include <thread>
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/scene/scene_hash.h"
 #include "render/cli/budget.h"
 #include "render/cli/copied_frames.h"
 #include "render/cli/output_conflicts.h"
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
 #include "render/cli/statistics_file.h"
+#include "render/cli/stop_signals.h"
 #include "render/cli/verify.h"
 #include "render/output/flow_file.h"
 #include "render/output/frame_files.h"
 #include "render/output/map_preview.h"
+#include "render/settings/fingerprint.h"
 #include "render/settings/measure.h"
 
 namespace aleph {
@@ -56,47 +65,54 @@ void print_error(const FrameStatistics& frame) {
         100.0 * shares.beyond, shares.asked, shares.asked == 1.0 ? "" : "s", causes);
 }
 
+ChannelImage with_texts(ChannelImage image, const PictureTexts& texts) {
+    for (const auto& [key, text] : texts) image.metadata[key] = text;
+    return image;
+}
+
 /// EXR: the channel Y. PNG: grey, its bytes in proportion to the values.
-void write_importance(const std::filesystem::path& path, const FrameOutput& output) {
+void write_importance(const std::filesystem::path& path, const FrameOutput& output, const PictureTexts& texts) {
     const Image<float> importance = make_importance(output.perception.aleph);
     if (output_format(path) == OutputFormat::exr) {
         ChannelImage file;
         file.channels.push_back({"Y", importance});
-        write_exr(path, file);
+        write_exr(path, with_texts(std::move(file), texts));
         return;
     }
     Image<Rgb> grey(importance.width, importance.height);
     for (std::size_t i = 0; i < grey.size(); ++i) grey.pixels[i] = Rgb(srgb_to_linear(importance.pixels[i]));
-    write_png(path, grey);
+    write_png(path, grey, texts);
 }
 
 /// Writes one frame, and adds the time for it to the frame's statistics.
 /// @return how many values the format could not hold
 std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
-                        bool importance) {
+                        bool importance, const std::string& fingerprint) {
     StageClock clock;
     std::size_t changed = 0;
+    const PictureTexts texts{{fingerprint_key, fingerprint}};
     switch (output_format(path)) {
         case OutputFormat::flow:
             write_flow(path, output.motion);
             break;
         case OutputFormat::png:
             if (importance) {
-                write_importance(path, output);
+                write_importance(path, output, texts);
             } else if (output.shaded.color.empty()) {
-                write_map_preview(path, output);
+                write_map_preview(path, output, texts);
             } else {
-                write_png(path, output.shaded.color);
+                write_png(path, output.shaded.color, texts);
             }
             break;
         case OutputFormat::hdr:
-            changed = write_hdr(path, output.shaded.color);
+            changed = write_hdr(path, output.shaded.color, texts);
             break;
         case OutputFormat::exr:
             if (importance) {
-                write_importance(path, output);
+                write_importance(path, output, texts);
             } else {
-                write_exr(path, make_frame_image(output, maps, job.scene, job.settings, job.exposure));
+                write_exr(path,
+                          with_texts(make_frame_image(output, maps, job.scene, job.settings, job.exposure), texts));
             }
             break;
     }
@@ -121,14 +137,141 @@ class MeanEstimate {
     int frames_ = 0;
 };
 
-/// Says at the end which files there are now.
-void print_files(const FrameJob& job, const SceneOptions& options) {
-    const auto file = [&](int frame) { return printable(output_path(options.output, job.name, frame).string(), 400); };
-    std::string text = fmt::format("aleph: wrote {}", file(job.frames.front()));
-    if (job.frames.size() > 1) text += fmt::format(" to {} ({} frames)", file(job.frames.back()), job.frames.size());
-    if (!options.stats.empty()) text += fmt::format(", statistics in {}", printable(options.stats, 400));
-    std::cerr << text << "\n";
-}
+/// Makes and writes the frames of a job.
+class FrameWriter {
+  public:
+    FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request,
+                const std::optional<BudgetStatistics>& budget)
+        : job_(job),
+          options_(options),
+          request_(request),
+          statistics_(options.stats, job.scene, job.settings, job.exposure, budget) {
+        if (options.resume && !options.stats.empty()) rows_ = read_statistics_rows(options.stats);
+    }
+
+    /// @throws Stopped
+    void make_all() {
+        const StopSignals signals;
+        Progress progress(request_.frame ? "render" : "maps", static_cast<double>(job_.frames.size()),
+                          progress_look(options_.quiet));
+        std::vector<std::size_t> left(job_.frames.size());
+        std::iota(left.begin(), left.end(), 0);
+        while (!left.empty()) {
+            const std::size_t before = left.size();
+            std::erase_if(left, [&](std::size_t place) { return !is_busy(place, progress, signals); });
+            if (left.size() < before || left.empty()) continue;
+            stop_if_asked(signals);
+            progress.update(done_, fmt::format("frame {}: another process makes it", job_.frames[left.front()]));
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        }
+    }
+
+    void finish() {
+        keep_rows();
+        statistics_.finish();
+        if (options_.quiet) return;
+        warn_of_changed_values(changed_);
+        std::cerr << describe_copies(made_);
+        print_files();
+    }
+
+    StatisticsFile& statistics() { return statistics_; }
+    std::optional<double> estimate() const { return estimate_.mean(); }
+
+  private:
+    /// Makes the frame unless it is finished. Returns whether another process makes it.
+    bool is_busy(std::size_t place, Progress& progress, const StopSignals& signals) {
+        const int frame = job_.frames[place];
+        const Claim claim = job_.claims.claim(frame);
+        if (claim == Claim::busy) return true;
+        if (claim == Claim::ours) {
+            make(place, progress, signals);
+            job_.claims.release(frame);
+        } else {
+            kept_.push_back(place);
+            keep_row(place);
+        }
+        progress.update(++done_, fmt::format("frame {}", frame));
+        return false;
+    }
+
+    void make(std::size_t place, Progress& progress, const StopSignals& signals) {
+        const int frame = job_.frames[place];
+        FrameRequest with_progress = request_;
+        with_progress.progress = [&](double fraction, const char* stage) {
+            stop_if_asked(signals);
+            progress.update(done_ + fraction, fmt::format("frame {}: {}", frame, stage));
+        };
+        stop_if_asked(signals);
+        FrameOutput output = job_.make(frame, with_progress);
+        const std::string fingerprint = job_.fingerprint(frame);
+        if (job_.keep_light) job_.keep_light();
+        statistics_.note(output.statistics, fingerprint);
+        changed_ += write_frame(output_path(options_.output, job_.name, frame), job_, output, request_.maps,
+                                options_.importance, fingerprint);
+        statistics_.add(place, output.statistics, fingerprint);
+        if (made_.empty() && !options_.quiet) warn_of_units(output.statistics);
+        estimate_.add(output.statistics);
+        made_.push_back({frame, output.statistics.copy_of});
+        if (!options_.quiet && job_.settings.error > 0.0) print_error(output.statistics);
+    }
+
+    void stop_if_asked(const StopSignals& signals) const {
+        if (signals.received() == 0) return;
+        const std::size_t finished = kept_.size() + made_.size();
+        throw Stopped(fmt::format("stopped by {}: {} of {} frames are finished; {}",
+                                  signals.received() == SIGINT ? "SIGINT" : "SIGTERM", finished, job_.frames.size(),
+                                  options_.resume ? "the same command goes on with the others"
+                                                  : "the same command with --resume makes the others"),
+                      options_.resume ? static_cast<int>(exit_again) : 128 + signals.received());
+    }
+
+    /// Keeps the statistics of a frame that was finished before. Returns whether there are any.
+    bool keep_row(std::size_t place) {
+        if (options_.stats.empty()) return true;
+        const auto row = rows_.find(job_.fingerprint(job_.frames[place]));
+        if (row != rows_.end()) statistics_.keep(place, row->second);
+        return row != rows_.end();
+    }
+
+    /// The same for frames of other processes, which have written theirs meanwhile.
+    void keep_rows() {
+        if (options_.stats.empty() || kept_.empty()) return;
+        rows_.merge(read_statistics_rows(options_.stats));
+        const auto missing = std::ranges::count_if(kept_, [this](std::size_t place) { return !keep_row(place); });
+        if (missing == 0 || options_.quiet) return;
+        std::cerr << fmt::format("aleph: warning: there are no statistics of {} frame{} that {} finished before\n",
+                                 missing, missing == 1 ? "" : "s", missing == 1 ? "was" : "were");
+    }
+
+    /// Says at the end which files there are now.
+    void print_files() const {
+        const auto file = [&](int frame) {
+            return printable(output_path(options_.output, job_.name, frame).string(), 400);
+        };
+        std::string text = fmt::format("aleph: wrote {}", file(job_.frames.front()));
+        if (job_.frames.size() > 1)
+            text += fmt::format(" to {} ({} frames)", file(job_.frames.back()), job_.frames.size());
+        if (!kept_.empty()) text += fmt::format(", {} of them finished before or by other processes", kept_.size());
+        if (!options_.stats.empty()) text += fmt::format(", statistics in {}", printable(options_.stats, 400));
+        std::cerr << text << "\n";
+        if (job_.claims.replaced() == 0) return;
+        std::cerr << fmt::format(
+            "aleph: replaced {} file{}: cut, or of another scene, other settings or another program\n",
+            job_.claims.replaced(), job_.claims.replaced() == 1 ? "" : "s");
+    }
+
+    const FrameJob& job_;
+    const SceneOptions& options_;
+    const FrameRequest& request_;
+    StatisticsFile statistics_;
+    std::map<std::string, std::string> rows_;  ///< of an earlier run, by fingerprint
+    std::vector<FinishedFrame> made_;
+    std::vector<std::size_t> kept_;  ///< places of frames that others made
+    double done_ = 0.0;              ///< frames
+    std::size_t changed_ = 0;
+    MeanEstimate estimate_;
+};
 
 }  // namespace
 
@@ -157,56 +300,53 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
     if (!cache.empty()) try_output(cache);
 }
 
+std::string describe_content(const SceneOptions& options, const FrameRequest& request) {
+    return fmt::format("{}{}{}", request.frame ? "picture " : "", request.maps ? "maps " : "",
+                       options.importance ? "importance" : "");
+}
+
+FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const std::string& identity,
+                         const std::function<std::string(int frame)>& fingerprint) {
+    const auto file = [pattern = options.output, name = prepared.name](int frame) {
+        return output_path(pattern, name, frame);
+    };
+    return FrameClaims({prepared.frames, file, fingerprint, identity, options.resume});
+}
+
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
     std::optional<BudgetStatistics> budget;
     if (job.budget) budget = job.budget->statistics;
-    StatisticsFile statistics(options.stats, job.scene, job.settings, job.exposure, budget);
-    std::vector<FinishedFrame> finished;
-    std::size_t changed = 0;
-    MeanEstimate estimate;
-    {
-        Progress progress(request.frame ? "render" : "maps", static_cast<double>(job.frames.size()),
-                          progress_look(options.quiet));
-        for (const int frame : job.frames) {
-            const auto done = static_cast<double>(finished.size());
-            FrameRequest with_progress = request;
-            with_progress.progress = [&](double fraction, const char* stage) {
-                progress.update(done + fraction, fmt::format("frame {}: {}", frame, stage));
-            };
-            FrameOutput output = job.make(frame, with_progress);
-            changed += write_frame(output_path(options.output, job.name, frame), job, output, request.maps,
-                                   options.importance);
-            if (finished.empty() && !options.quiet) warn_of_units(output.statistics);
-            statistics.add(output.statistics);
-            estimate.add(output.statistics);
-            finished.push_back({frame, output.statistics.copy_of});
-            if (!options.quiet && job.settings.error > 0.0) print_error(output.statistics);
-            progress.update(done + 1.0, fmt::format("frame {}", frame));
-        }
-    }
+    FrameWriter writer(job, options, request, budget);
+    writer.make_all();
     if (budget) {
         StageClock clock = job.budget->clock;
         clock.add_to(budget->took);
-        statistics.set_budget(*budget);
+        writer.statistics().set_budget(*budget);
     }
-    statistics.finish();
-    if (!options.quiet) {
-        warn_of_changed_values(changed);
-        std::cerr << describe_copies(finished);
-        print_files(job, options);
-        if (budget) std::cerr << describe_budget(*budget);
-    }
+    writer.finish();
+    if (!options.quiet && budget) std::cerr << describe_budget(*budget);
     if (!job.verify) return;
-    const VerifiedStatistics verified = job.verify(estimate.mean());
+    const VerifiedStatistics verified = job.verify(writer.estimate());
     std::cout << describe_verified(verified);
-    statistics.set_verified(verified);
-    statistics.finish();
+    writer.statistics().set_verified(verified);
+    writer.statistics().finish();
 }
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
                    const std::string& cache, const std::optional<Budget>& budget, double verify) {
     prepare_frames_output(prepared, options, request, cache);
     const ThreadLimit limit(options.threads);
+    const Fingerprint print =
+        make_fingerprint(prepared.scene, prepared.settings, list_camera_shots(prepared.scene, options.camera));
+    const auto fingerprint = [&print, names = hash_names(prepared.scene), content = describe_content(options, request)](
+                                 int frame) { return frame_fingerprint(print, names, content, frame); };
+    FrameClaims claims = claim_frames(prepared, options, hash_bytes(format_fingerprint(print)), fingerprint);
+    if (options.resume && options.stats.empty() &&
+        std::ranges::all_of(prepared.frames, [&](int frame) { return claims.is_finished(frame); })) {
+        if (!options.quiet)
+            std::cerr << fmt::format("aleph: all {} frames were finished before\n", prepared.frames.size());
+        return;
+    }
     std::optional<Scene> judged;
     if (verify > 0.0) judged = prepared.scene;  // with what --forbid leaves out
     Sequence sequence(std::move(prepared.scene), prepared.settings, options.camera);
@@ -217,8 +357,10 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
         if (judged) pictures.keep(frame, output.shaded.color);
         return output;
     };
-    FrameJob job{
-        sequence.scene(), prepared.settings, sequence.exposure(), prepared.frames, prepared.name, make, budget};
+    FrameJob job{sequence.scene(), prepared.settings, sequence.exposure(),
+                 prepared.frames,  prepared.name,     make,
+                 claims,           fingerprint,       budget};
+    if (!cache.empty()) job.keep_light = [&] { sequence.save_light(cache); };
     if (judged) {
         judged->film.exposure = sequence.exposure();
         job.verify = [&](std::optional<double> estimated) {
@@ -227,7 +369,6 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
         };
     }
     write_frames(job, options, request);
-    if (!cache.empty()) sequence.save_light(cache);
 }
 
 }  // namespace aleph

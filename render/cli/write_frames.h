@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/cli/frame_claims.h"
 #include "render/cli/scene_options.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
@@ -28,10 +29,13 @@ struct FrameJob {
     const std::vector<int>& frames;
     const std::string& name;  ///< of the files, where --output does not say
     std::function<FrameOutput(int frame, const FrameRequest& request)> make;
+    FrameClaims& claims;                                ///< which of them are to be made now
+    std::function<std::string(int frame)> fingerprint;  ///< of a frame's file
     std::optional<Budget> budget = std::nullopt;
     /// Checks the frames once they are written. @param estimated  share of the pixels that are beyond, where it is
     /// known
     std::function<VerifiedStatistics(std::optional<double> estimated)> verify = {};
+    std::function<void()> keep_light = {};  ///< called before a frame's file is written
 };
 
 /// Checks and tries --output, --stats and --cache, and makes their folders; called before anything is computed.
@@ -40,8 +44,18 @@ struct FrameJob {
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
                            const std::string& cache = "");
 
-/// Makes every frame and writes it. The statistics (--stats) of finished frames are written as they go along
-/// (StatisticsFile). Prints at the end, on standard error, which files were written.
+/// The claims on frames of a scene or of pictures.
+/// @param identity  what all files have in common
+FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const std::string& identity,
+                         const std::function<std::string(int frame)>& fingerprint);
+
+/// What a frame's file holds, for its fingerprint.
+std::string describe_content(const SceneOptions& options, const FrameRequest& request);
+
+/// Makes every frame that is not finished and writes it; waits for those that other processes make. The statistics
+/// (--stats) of finished frames are written as they go along (StatisticsFile). Prints at the end, on standard error,
+/// which files were written.
+/// @throws Stopped after SIGTERM or SIGINT
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request);
 
 /// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.

@@ -127,12 +127,16 @@ void Sequence::load_light(const std::filesystem::path& path) {
             "error, set light_step too)");
     }
     s.shot_light->keep_records(read_cache_file(path, s.fingerprint()));
+    s.saved_keyframes = s.shot_light->records()->size();
 }
 
 void Sequence::save_light(const std::filesystem::path& path) {
     SequenceState& s = state();
     ALEPH_CHECK(s.shot_light && s.shot_light->records(), "save_light before load_light");
-    write_cache_file(path, s.fingerprint(), *s.shot_light->records());
+    const KeyframeRecords& records = *s.shot_light->records();
+    if (records.size() == s.saved_keyframes) return;
+    write_cache_file(path, s.fingerprint(), records);
+    s.saved_keyframes = records.size();
 }
 
 PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::span<const RenderSettings> settings,

@@ -99,7 +99,8 @@ class Sequence {
     /// program, or if these settings have no lighting keyframes
     void load_light(const std::filesystem::path& path);
 
-    /// Writes the light of all lighting keyframes that were loaded, and of those that were computed since.
+    /// Writes the light of all lighting keyframes that were loaded, and of those that were computed since, if there are
+    /// any that load_light or save_light does not know.
     /// @throws OutputError; std::logic_error before load_light
     void save_light(const std::filesystem::path& path);
 

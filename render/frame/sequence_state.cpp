@@ -64,7 +64,7 @@ PreparedFrame SequenceState::prepare(std::int64_t frame, bool perceive, bool map
                          {.frame = frame, .perceive = perceive, .maps = maps, .edited = is_edited, .held = is_held});
 }
 
-const CacheFingerprint& SequenceState::fingerprint() {
+const Fingerprint& SequenceState::fingerprint() {
     if (!cache_fingerprint) cache_fingerprint = make_cache_fingerprint(shot.scene, shot.settings, shot.shots);
     return *cache_fingerprint;
 }

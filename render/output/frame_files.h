@@ -35,7 +35,11 @@ std::string format_statistics(const std::vector<FrameStatistics>& frames, const 
                               const RenderSettings& settings, double exposure);
 
 /// One element of "frames" as text, so that a growing file need not format all of them again.
-std::string format_frame_statistics(const FrameStatistics& frame);
+/// @param fingerprint  of the frame's file; empty: it has none
+std::string format_frame_statistics(const FrameStatistics& frame, const std::string& fingerprint = "");
+
+/// The text of an element of "frames", indented as it stands there.
+std::string indent_row(const std::string& json);
 
 /// The same text as of a vector.
 /// @param frames  what format_frame_statistics returned for each frame, joined by ",\n"

@@ -128,10 +128,15 @@ std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& s
              {"total", s.total}}};
 }
 
-std::string format_frame_statistics(const FrameStatistics& frame) {
-    const std::string text = frame_json(frame).dump(2);
+std::string format_frame_statistics(const FrameStatistics& frame, const std::string& fingerprint) {
+    Json json = frame_json(frame);
+    if (!fingerprint.empty()) json["fingerprint"] = fingerprint;
+    return indent_row(json.dump(2));
+}
+
+std::string indent_row(const std::string& json) {
     std::string indented = "    ";
-    for (const char c : text) {
+    for (const char c : json) {
         indented += c;
         if (c == '\n') indented += "    ";
     }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "engine/image/image_file.h"
 #include "render/frame/frame_output.h"
 
 namespace aleph {
@@ -11,6 +12,6 @@ namespace aleph {
 /// as far as the frame has them: three in a row, each at its own size, with its name and its scale. The scales are the
 /// same for all frames, so that pictures can be compared.
 /// @throws OutputError naming the file
-void write_map_preview(const std::filesystem::path& path, const FrameOutput& output);
+void write_map_preview(const std::filesystem::path& path, const FrameOutput& output, const PictureTexts& texts = {});
 
 }  // namespace aleph

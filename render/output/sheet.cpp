@@ -116,7 +116,8 @@ Panel map_panel(const std::string& caption, const Image<float>& map, const MapRa
     return {caption, to_image(color_scale(positions)), fmt::format("{:g}", range.low), fmt::format("{:g}", range.high)};
 }
 
-void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& panels, int columns, int width) {
+void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& panels, int columns, int width,
+                 const PictureTexts& texts) {
     const Image<Rgb>& first = panels.front().display;
     const int height = std::max(1, first.height * width / first.width), count = static_cast<int>(panels.size());
     const int rows = (count + columns - 1) / columns;
@@ -132,7 +133,7 @@ void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& pa
     Image<Rgb> picture = to_image(sheet);
     for (Rgb& pixel : picture.pixels)
         for (int c = 0; c < 3; ++c) pixel[c] = srgb_to_linear(std::clamp(pixel[c], 0.0f, 1.0f));
-    write_png(path, picture);
+    write_png(path, picture, texts);
 }
 
 }  // namespace aleph

@@ -7,6 +7,7 @@
 
 #include "engine/base/color.h"
 #include "engine/base/image.h"
+#include "engine/image/image_file.h"
 
 namespace aleph {
 
@@ -31,6 +32,7 @@ Panel map_panel(const std::string& caption, const Image<float>& map, const MapRa
 /// Writes panels in rows of `columns`, each `width` pixels wide, with captions: a JPEG if the path ends in .jpg, else a
 /// PNG.
 /// @throws OutputError if the file cannot be written
-void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& panels, int columns, int width);
+void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& panels, int columns, int width,
+                 const PictureTexts& texts = {});
 
 }  // namespace aleph

@@ -11,7 +11,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/scene/scene_hash.h"
-#include "render/settings/program_build.h"
 
 namespace aleph {
 
@@ -25,12 +24,6 @@ static_assert(std::is_trivially_copyable_v<IrradianceRecord>);
 /// They change how records are read, not the records.
 const std::set<std::string> reading_settings{"light_samples", "plan", "force"};
 
-std::string format_fingerprint(const CacheFingerprint& fingerprint) {
-    Json json{{"build", fingerprint.build}, {"scene", fingerprint.scene}, {"settings", Json::object()}};
-    for (const auto& [key, value] : fingerprint.settings) json["settings"][key] = setting_text(value);
-    return json.dump();
-}
-
 bool is_fingerprint(const Json& json) {
     if (!json.is_object() || !json.contains("settings") || !json["settings"].is_object()) return false;
     return std::ranges::all_of(json["settings"], [](const Json& value) { return value.is_string(); }) &&
@@ -38,7 +31,7 @@ bool is_fingerprint(const Json& json) {
 }
 
 /// Describes the difference between a file's fingerprint and the one that is wanted; empty if there is none.
-std::string find_difference(const Json& found, const CacheFingerprint& wanted) {
+std::string find_difference(const Json& found, const Fingerprint& wanted) {
     if (found["build"] != wanted.build) return "it was written by another build of aleph";
     for (const auto& [key, value] : wanted.settings) {
         const std::string here = setting_text(value), there = found["settings"].value(key, "not set");
@@ -98,20 +91,14 @@ class Reader {
 
 }  // namespace
 
-CacheFingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings,
-                                        const std::vector<CameraShot>& shots) {
-    CacheFingerprint fingerprint;
-    fingerprint.build = program_build();
-    fingerprint.scene = hash_scene(scene);
-    for (const CameraShot& shot : shots)
-        fingerprint.scene += fmt::format(" camera {} from {}", shot.camera, shot.first);
-    for (const auto& [key, value] : setting_map(settings)) {
-        if (!reading_settings.contains(key)) fingerprint.settings[key] = value;
-    }
+Fingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings,
+                                   const std::vector<CameraShot>& shots) {
+    Fingerprint fingerprint = make_fingerprint(scene, settings, shots);
+    std::erase_if(fingerprint.settings, [](const auto& setting) { return reading_settings.contains(setting.first); });
     return fingerprint;
 }
 
-void write_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint,
+void write_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint,
                       const KeyframeRecords& keyframes) {
     Writer out;
     const std::string text = format_fingerprint(fingerprint);
@@ -128,7 +115,7 @@ void write_cache_file(const std::filesystem::path& path, const CacheFingerprint&
     write_file(path, out.finish());
 }
 
-KeyframeRecords read_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint) {
+KeyframeRecords read_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint) {
     if (!std::filesystem::exists(path)) return {};
     const std::string file = path.string();
     const Bytes bytes = read_regular_file(path, file, "");

@@ -11,9 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/pose/pose.h"
 #include "render/cache/irradiance_cache.h"
-#include "render/settings/settings.h"
+#include "render/settings/fingerprint.h"
 
 namespace aleph {
 
@@ -21,25 +20,19 @@ namespace aleph {
 using KeyframeRecords = std::map<std::int64_t, std::vector<IrradianceRecord>>;
 
 /// Everything that records depend on.
-struct CacheFingerprint {
-    std::string build;    ///< version and SHA-1 of the program file
-    std::string scene;    ///< hash_scene, and the cameras
-    SettingMap settings;  ///< those that count
-};
-
 /// @param scene   with its cages at the levels that are rendered
 /// @param shots   list_camera_shots
-CacheFingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings,
-                                        const std::vector<CameraShot>& shots);
+Fingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings,
+                                   const std::vector<CameraShot>& shots);
 
 /// Replaces the file, whole or not at all.
 /// @throws OutputError
-void write_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint,
+void write_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint,
                       const KeyframeRecords& keyframes);
 
 /// @return nothing if there is no such file
 /// @throws InputError naming the file: it cannot be read, is no cache file, is damaged or not complete, or is of
 /// another build, scene or setting
-KeyframeRecords read_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint);
+KeyframeRecords read_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint);
 
 }  // namespace aleph

@@ -8,9 +8,11 @@
 
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
+#include "engine/pose/pose.h"
 #include "render/cli/commands.h"
 #include "render/cli/explain/explain.h"
 #include "render/cli/scene_options.h"
+#include "render/settings/fingerprint.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/scene_numbers.h"
 
@@ -22,7 +24,7 @@ struct ExplainOptions {
     std::string scene, camera, frames;
     SettingMap settings;  ///< from options and --set
     double at = 0.0;
-    bool json = false, moment = false;
+    bool json = false, moment = false, fingerprint = false;
     LoadLimits limits;
     std::uint32_t objects = 60;
 };
@@ -88,6 +90,11 @@ int explain(const ExplainOptions& options) {
         std::vector<int> frames =
             options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);
         std::ranges::sort(frames);
+        if (options.fingerprint) {
+            std::cout << format_fingerprint(make_fingerprint(scene, settings, list_camera_shots(scene, options.camera)))
+                      << "\n";
+            return exit_done;
+        }
         const nlohmann::ordered_json explained = explain_scene(scene, settings, options.camera, frames);
         if (options.json) {
             print_json(explained);
@@ -109,6 +116,10 @@ void add_explain_command(CLI::App& app, Command& command) {
         ->required()
         ->type_name("SCENE");
     explain_app->add_flag("--json", options->json, "print everything as JSON");
+    explain_app->add_flag(
+        "--fingerprint", options->fingerprint,
+        "print what pictures of the scene depend on, as JSON: SHA-1 of the program and of the content "
+        "of all files that it reads, and the settings");
     CLI::Option* at =
         add_value(*explain_app, "--at", options->at,
                   "print world matrix, visibility, bounds and points of every object at this time (s) as JSON");

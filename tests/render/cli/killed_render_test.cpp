@@ -1,133 +1,228 @@
-// A render that is killed: the frames before it stay whole, and a second run completes the shot.
+// A render that is stopped or killed: finished frames stay whole, and --resume makes the others.
 // Standard output and standard error that cannot be written.
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
 #include <stdlib.h>
-#include <sys/inotify.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "tests/support/paths.h"
-#include "tests/support/read_bytes.h"
-#include "tests/support/scratch_folder.h"
-#include "tests/support/test.h"
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_command.h"
+#include "tests/support/started_program.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A box that slides for longer than a test takes.
-void write_scene(const fs::path& path) {
-    std::ofstream(path) << R"({"aleph": 1, "exposure": 1, "frames": [1, 5000], "nodes": [
-        {"translation": [0, 1, 5], "camera": {"fov": 40}}, {"translation": [0, 3, 1], "light": {"type": "point", "intensity": 30}},
-        {"shape": {"type": "quad", "size": [9, 9]}, "rotation": {"axis": [1, 0, 0], "degrees": -90}},
-        {"shape": {"type": "box", "size": [1, 1, 1]}, "translation": {"keys": [[1, [-1, 0.5, 0]], [5000, [1, 0.5, 0]]]}}]})";
-}
+using Words = std::vector<std::string>;
 
-/// Starts a render of these frames into the folder.
-/// @param alive  a descriptor that the program keeps open until it ends
-pid_t start_render(const fs::path& scene, const fs::path& folder, const std::string& frames, int alive = -1) {
-    const std::string program = program_path("aleph"), output = folder / "f.######.exr";
-    const pid_t child = ::fork();
-    if (child == 0) {
-        if (alive >= 0) ::fcntl(alive, F_SETFD, 0);
-        ::execl(program.c_str(), "aleph", "render", scene.c_str(), "--frames", frames.c_str(), "-o", output.c_str(),
-                "--size", "32x24", "--spp", "1", "--gather", "16", "-q", nullptr);
-        ::_exit(127);
+class KilledRender : public testing::Test {
+  protected:
+    KilledRender() {
+        write_sliding_box(folder_ / "scene.json");
+        fs::create_directory(folder_ / "out");
+        fs::create_directory(folder_ / "whole");
     }
-    return child;
-}
 
-int wait_for(pid_t child) {
-    int status = -1;
-    ::waitpid(child, &status, 0);
-    return status;
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
-    std::ranges::sort(names);
-    return names;
-}
-
-/// Events of a folder: files that a program writes into it.
-class FolderEvents {
-  public:
-    explicit FolderEvents(const fs::path& folder) : file_(::inotify_init1(IN_CLOEXEC)) {
-        ::inotify_add_watch(file_, folder.c_str(), IN_CREATE | IN_MOVED_TO);
+    /// A render of small frames.
+    Words words(const std::string& frames, const fs::path& output, const Words& more = {}) const {
+        Words words{"render",   folder_ / "scene.json",
+                    "--frames", frames,
+                    "-o",       output,
+                    "--size",   "32x24",
+                    "--gather", "16",
+                    "--spp",    "1",
+                    "-q"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
     }
-    ~FolderEvents() { ::close(file_); }
-    FolderEvents(const FolderEvents&) = delete;
-    FolderEvents& operator=(const FolderEvents&) = delete;
+    Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
 
-    /// Waits until a temporary file has appeared, or has got its final name, so many times.
-    /// @param alive  closed where the program has ended, which is a failure
-    void wait(std::uint32_t kind, int times, int alive) {
-        alignas(inotify_event) char buffer[4096];
-        while (times > 0) {
-            pollfd ready[2] = {{file_, POLLIN, 0}, {alive, POLLIN, 0}};
-            ::poll(ready, 2, -1);
-            ASSERT_TRUE((ready[0].revents & POLLIN) != 0) << "no such file appeared";
-            const ssize_t size = ::read(file_, buffer, sizeof buffer);
-            ASSERT_GT(size, 0);
-            for (ssize_t at = 0; at < size;) {
-                const auto* event = reinterpret_cast<const inotify_event*>(buffer + at);
-                if ((event->mask & kind) != 0) --times;
-                at += static_cast<ssize_t>(sizeof(inotify_event)) + event->len;
-            }
+    /// The files are those of a render that was not stopped, and nothing else is there.
+    void expect_whole() const {
+        EXPECT_EQ(names_in(folder_ / "out"), names_in(folder_ / "whole"));
+        for (const std::string& name : names_in(folder_ / "whole")) {
+            EXPECT_TRUE(read_bytes(folder_ / "out" / name) == read_bytes(folder_ / "whole" / name)) << name;
         }
     }
 
-  private:
-    int file_;
+    const ScratchFolder folder_;
 };
 
-TEST(KilledRender, OU07_EarlierFramesStayWholeAndASecondRunCompletesThem) {
-    const ScratchFolder folder;
-    write_scene(folder / "scene.json");
-    const struct {
-        int signal;
-        std::uint32_t kind;
-        int times;
-    } kills[] = {{SIGINT, IN_MOVED_TO, 0}, {SIGTERM, IN_MOVED_TO, 2}, {SIGINT, IN_CREATE, 1}, {SIGTERM, IN_CREATE, 2}};
-    for (const auto& [signal, kind, times] : kills) {
-        SCOPED_TRACE(signal);
-        const ScratchFolder output, again;
-        FolderEvents events(output.path());
-        int alive[2];
-        ASSERT_EQ(::pipe2(alive, O_CLOEXEC), 0);
-        const pid_t child = start_render(folder / "scene.json", output.path(), "1-5000", alive[1]);
-        ::close(alive[1]);
-        events.wait(IN_MOVED_TO, 1, alive[0]);
-        events.wait(kind, times, alive[0]);
-        ::close(alive[0]);
-        ::kill(child, signal);
-        const int status = wait_for(child);
-        ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself";
-        ASSERT_EQ(WTERMSIG(status), signal);
+using Inodes = std::map<std::string, ino_t>;
 
-        std::vector<std::string> finished;
-        for (const std::string& name : names_in(output.path())) {
-            if (name.starts_with(".f.")) {
-                EXPECT_TRUE(name.ends_with(".part")) << name;
-            } else {
-                finished.push_back(name);
-            }
+/// Frames that are written again get new numbers.
+Inodes inodes_in(const fs::path& folder) {
+    Inodes found;
+    for (const std::string& name : names_in(folder)) {
+        struct stat status {};
+        if (!name.starts_with('.') && ::stat((folder / name).c_str(), &status) == 0) found[name] = status.st_ino;
+    }
+    return found;
+}
+
+TEST_F(KilledRender, OU07_StoppedBySignalsItLeavesWholeFramesAndNothingElse) {
+    ASSERT_EQ(run(words("1-40", folder_ / "whole/f.####.exr")).code, 0);
+    for (const auto& [signal, resume, code] :
+         {std::tuple(SIGINT, false, 130), std::tuple(SIGTERM, false, 143), std::tuple(SIGTERM, true, 75)}) {
+        SCOPED_TRACE(code);
+        FolderEvents events(folder_ / "out");
+        StartedProgram program(words("1-5000", folder_ / "out/f.####.exr", resume ? Words{"--resume"} : Words{}),
+                               folder_ / "log");
+        ASSERT_TRUE(events.wait(IN_MOVED_TO, 2, program));
+        program.send(signal);
+        const Ended ended = program.wait();
+        EXPECT_EQ(ended.code, code);
+        EXPECT_NE(ended.err.find("of 5000 frames are finished"), std::string::npos) << ended.err;
+        const auto names = names_in(folder_ / "out");
+        EXPECT_GE(names.size(), 2u);
+        for (const std::string& name : names) {
+            ASSERT_TRUE(name.starts_with("f.")) << name;
+            if (!fs::exists(folder_ / "whole" / name)) continue;
+            EXPECT_TRUE(read_bytes(folder_ / "out" / name) == read_bytes(folder_ / "whole" / name)) << name;
         }
-        ASSERT_GE(finished.size(), 1u);
-        const std::string frames = "1-" + std::to_string(finished.size() + 1);
-        ASSERT_EQ(wait_for(start_render(folder / "scene.json", again.path(), frames)), 0);
-        const auto expect_equal = [&](const std::string& name) {
-            EXPECT_TRUE(read_bytes(output / name) == read_bytes(again / name)) << name;
-        };
-        for (const std::string& name : finished) expect_equal(name);
-        EXPECT_FALSE(fs::exists(output / names_in(again.path()).back()));
-        ASSERT_EQ(wait_for(start_render(folder / "scene.json", output.path(), frames)), 0);
-        for (const std::string& name : names_in(again.path())) expect_equal(name);
+    }
+}
+
+TEST_F(KilledRender, ASecondInterruptEndsItAtOnce) {
+    FolderEvents events(folder_ / "out");
+    // The frame takes longer than the test: one stage of a million samples.
+    Words endless = words("1", folder_ / "out/f.exr");
+    endless.insert(endless.end(), {"--sampling", "uniform", "--spp", "65536", "--size", "2000x2000"});
+    StartedProgram program(endless, folder_ / "log");
+    ASSERT_TRUE(events.wait(IN_CREATE, 1, program));
+    program.send(SIGINT);
+    program.send(SIGINT);
+    const Ended ended = program.wait();
+    EXPECT_TRUE(ended.signal == SIGINT || ended.code == 130) << ended.code;
+}
+
+TEST_F(KilledRender, KilledAnywhereAResumedRenderCompletesIt) {
+    const Words stats{"--stats", folder_ / "out.json", "--resume"};
+    ASSERT_EQ(run(words("1-12", folder_ / "whole/f.####.exr")).code, 0);
+    // Every frame is created under a temporary name and renamed; the lock file and trials of names come first.
+    for (int event = 1; event <= 60; event += 4) {
+        SCOPED_TRACE(event);
+        for (const std::string& name : names_in(folder_ / "out")) fs::remove(folder_ / "out" / name);
+        Inodes before;
+        {
+            FolderEvents events(folder_ / "out");
+            StartedProgram program(words("1-12", folder_ / "out/f.####.exr", stats), folder_ / "log");
+            events.wait(IN_CREATE | IN_MOVED_TO, event, program);
+            program.send(SIGKILL);
+            program.wait();
+            before = inodes_in(folder_ / "out");
+        }
+        EXPECT_EQ(run(words("1-12", folder_ / "out/f.####.exr", stats)).code, 0);
+        expect_whole();
+        const Inodes after = inodes_in(folder_ / "out");
+        for (const auto& [name, inode] : before) EXPECT_EQ(after.at(name), inode) << name << " was made again";
+        const auto statistics = nlohmann::json::parse(read_bytes(folder_ / "out.json"));
+        ASSERT_EQ(statistics.at("frames").size(), 12u);
+        for (int i = 0; i < 12; ++i) EXPECT_EQ(statistics["frames"][i].at("frame"), i + 1);
+        EXPECT_FALSE(fs::exists(folder_ / ".out.json.rows"));
+    }
+}
+
+TEST_F(KilledRender, WhatIsCutOrOfSomethingElseIsMadeAgain) {
+    for (const std::string ending : {"exr", "png", "hdr"}) {
+        SCOPED_TRACE(ending);
+        const std::string output = folder_ / ("out/f.####." + ending);
+        const auto file = [&](int frame) { return folder_ / "out" / fmt::format("f.{:04}.{}", frame, ending); };
+        ASSERT_EQ(run(words("1-5", output)).code, 0);
+        const std::string bytes = read_bytes(file(2));
+        const Inodes before = inodes_in(folder_ / "out");
+        fs::resize_file(file(2), fs::file_size(file(2)) - 20);
+        fs::copy_file(file(4), file(3), fs::copy_options::overwrite_existing);
+        std::ofstream(file(5)) << "no picture";
+        ASSERT_EQ(run(words("1-5", output, {"--resume"})).code, 0);
+        const Inodes after = inodes_in(folder_ / "out");
+        for (const int frame : {1, 4}) {
+            const std::string name = file(frame).filename();
+            EXPECT_EQ(after.at(name), before.at(name)) << frame;
+        }
+        EXPECT_EQ(read_bytes(file(2)), bytes);
+        EXPECT_NE(read_bytes(file(3)), read_bytes(file(4)));
+        write_sliding_box(folder_ / "scene.json", "31");
+        ASSERT_EQ(run(words("1-5", output, {"--resume"})).code, 0);
+        EXPECT_NE(read_bytes(file(2)), bytes) << "the scene has changed";
+        write_sliding_box(folder_ / "scene.json");
+        ASSERT_EQ(run(words("1-5", output, {"--resume", "--seed", "7"})).code, 0);
+        const std::string seeded = read_bytes(file(2));
+        EXPECT_NE(seeded, bytes) << "a setting has changed";
+        ASSERT_EQ(run(words("1-5", output, {"--resume"})).code, 0);
+        EXPECT_EQ(read_bytes(file(2)), bytes);
+    }
+}
+
+TEST_F(KilledRender, MapsAndTheLightOfKeyframesAreResumed) {
+    const auto maps = [&](const fs::path& output) {
+        return Words{"maps",    folder_ / "scene.json", "--frames", "1-4", "--size", "32x24", "-q", "-o", output,
+                     "--resume"};
+    };
+    ASSERT_EQ(run(maps(folder_ / "whole/m.####.exr")).code, 0);
+    ASSERT_EQ(run(maps(folder_ / "out/m.####.exr")).code, 0);
+    const Inodes before = inodes_in(folder_ / "out");
+    fs::remove(folder_ / "out/m.0003.exr");
+    ASSERT_EQ(run(maps(folder_ / "out/m.####.exr")).code, 0);
+    expect_whole();
+    EXPECT_EQ(inodes_in(folder_ / "out").at("m.0002.exr"), before.at("m.0002.exr"));
+
+    const auto lit = [&](const std::string& name) {
+        return words("1-12", folder_ / name / "f.####.exr",
+                     {"--cache", folder_ / (name + ".light"), "--light-step", "3", "--accuracy", ".2", "--resume"});
+    };
+    ASSERT_EQ(run(lit("whole")).code, 0);
+    {
+        FolderEvents events(folder_ / "out");
+        StartedProgram program(lit("out"), folder_ / "log");
+        ASSERT_TRUE(events.wait(IN_MOVED_TO, 5, program));
+        program.send(SIGKILL);
+        program.wait();
+    }
+    ASSERT_EQ(run(lit("out")).code, 0);
+    EXPECT_EQ(read_bytes(folder_ / "out.light"), read_bytes(folder_ / "whole.light"));
+    EXPECT_EQ(read_bytes(folder_ / "out/f.0012.exr"), read_bytes(folder_ / "whole/f.0012.exr"));
+}
+
+TEST_F(KilledRender, TwoProcessesDivideTheFramesOrRefuse) {
+    const Words divided = words("1-12", folder_ / "out/f.####.exr", {"--resume"});
+    ASSERT_EQ(run(words("1-12", folder_ / "whole/f.####.exr")).code, 0);
+    {
+        StartedProgram one(divided, folder_ / "one"), other(divided, folder_ / "other");
+        EXPECT_EQ(one.wait().code, 0);
+        EXPECT_EQ(other.wait().code, 0);
+    }
+    expect_whole();
+    fs::remove_all(folder_ / "out");
+    fs::create_directory(folder_ / "out");
+    FolderEvents events(folder_ / "out");
+    StartedProgram program(words("1-5000", folder_ / "out/f.####.exr"), folder_ / "log");
+    ASSERT_TRUE(events.wait(IN_MOVED_TO, 1, program));
+    const auto refused = [&](const Words& words, const std::string& part) {
+        const Ended ended = StartedProgram(words, folder_ / "other").wait();
+        EXPECT_EQ(ended.code, 1);
+        EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
+    };
+    refused(words("4000-4003", folder_ / "out/f.####.exr"), "another process makes this frame");
+    refused(words("4000-4003", folder_ / "out/f.####.exr", {"--seed", "2", "--resume"}),
+            "another process renders these files from another scene or with other settings");
+    EXPECT_EQ(StartedProgram(words("4000", folder_ / "out/g.####.exr", {"--seed", "2"}), folder_ / "other").wait().code,
+              0)
+        << "other files in the same folder";
+    program.send(SIGTERM);
+    program.wait();
+    EXPECT_EQ(run(words("4000", folder_ / "out/f.####.exr", {"--seed", "2"})).code, 0);
+    for (const std::string& name : names_in(folder_ / "out")) EXPECT_FALSE(name.starts_with('.')) << name;
+}
+
+TEST_F(KilledRender, WhatCannotBeResumedIsSaid) {
+    for (const Words& more : {Words{"--budget", "10"}, Words{"--verify", "10"}}) {
+        Words all = words("1-2", folder_ / "out/f.####.exr", {"--resume"});
+        if (more.front() == "--budget") std::erase_if(all, [](const auto& w) { return w == "--spp" || w == "1"; });
+        all.insert(all.end(), more.begin(), more.end());
+        const Ran ran = run_command(all);
+        EXPECT_EQ(ran.code, 2);
+        EXPECT_NE(ran.errors.find("--resume: " + more.front()), std::string::npos) << ran.errors;
     }
 }
 

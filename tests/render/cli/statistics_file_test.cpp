@@ -46,11 +46,11 @@ class StatisticsFileTest : public testing::Test {
 
 TEST_F(StatisticsFileTest, HasTheFirstFrameAtOnceAndAllAtTheEnd) {
     StatisticsFile file(path_, scene_, settings_, 2.0);
-    file.add(frame(7));
+    file.add(0, frame(7), "");
     EXPECT_EQ(frames(), std::vector<int>{7});
-    file.add(frame(8));
+    file.add(1, frame(8), "");
     EXPECT_EQ(frames().front(), 7);
-    file.add(frame(9));
+    file.add(2, frame(9), "");
     file.finish();
     EXPECT_EQ(frames(), (std::vector<int>{7, 8, 9}));
     EXPECT_EQ(text(), format_statistics({frame(7), frame(8), frame(9)}, scene_, settings_, 2.0));
@@ -59,16 +59,46 @@ TEST_F(StatisticsFileTest, HasTheFirstFrameAtOnceAndAllAtTheEnd) {
 TEST_F(StatisticsFileTest, HasTheFinishedFramesAfterAnError) {
     try {
         StatisticsFile file(path_, scene_, settings_, 1.0);
-        for (const int number : {1, 2, 3}) file.add(frame(number));
+        for (const int number : {1, 2, 3}) file.add(number, frame(number), "");
         throw std::runtime_error("the fourth frame");
     } catch (const std::runtime_error&) {
         EXPECT_EQ(frames(), (std::vector<int>{1, 2, 3}));
     }
 }
 
+TEST_F(StatisticsFileTest, RowsOfFinishedFramesSurvive) {
+    const fs::path rows = path_.parent_path() / ("." + path_.filename().string() + ".rows");
+    {
+        StatisticsFile file(path_, scene_, settings_, 1.0);
+        file.note(frame(1), "one");
+        file.add(0, frame(1), "one");
+        file.note(frame(2), "two");  // and then the process is killed
+        std::ofstream(rows, std::ios::app) << "\n{\"frame\": 3, \"finger";
+        file.note(frame(4), "four");
+    }
+    EXPECT_FALSE(fs::exists(rows)) << "an orderly end";
+    EXPECT_EQ(read_statistics_rows(path_).size(), 1u);
+    StatisticsFile file(path_, scene_, settings_, 1.0);
+    file.note(frame(2), "two");
+    std::ofstream(rows, std::ios::app) << "\n{\"frame\": 3, \"finger";
+    file.note(frame(4), "four");
+    const auto kept = read_statistics_rows(path_);
+    ASSERT_EQ(kept.size(), 3u);
+    file.keep(2, kept.at("four"));
+    file.keep(0, kept.at("one"));
+    file.add(1, frame(2), "two");
+    file.finish();
+    EXPECT_EQ(frames(), (std::vector<int>{1, 2, 4}));
+    EXPECT_EQ(kept.at("four"), format_frame_statistics(frame(4), "four"));
+    EXPECT_TRUE(read_statistics_rows(path_.parent_path() / "no such file").empty());
+    std::ofstream(path_) << "no JSON";
+    EXPECT_TRUE(read_statistics_rows(path_).empty());
+}
+
 TEST_F(StatisticsFileTest, WithoutANameThereIsNoFile) {
     StatisticsFile file("", scene_, settings_, 1.0);
-    file.add(frame(1));
+    file.add(0, frame(1), "");
+    file.note(frame(1), "");
     EXPECT_NO_THROW(file.finish());
 }
 

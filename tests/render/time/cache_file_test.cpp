@@ -141,7 +141,7 @@ TEST(CacheFile, IC22_OtherScenesSettingsAndBuildsAreRefused) {
     changed.nodes[1].transform.translation = glm::dvec3(0.0, 1.5, -2.9);
     EXPECT_THAT(refusal(folder / "light", changed, settings), testing::HasSubstr("another scene"));
 
-    CacheFingerprint fingerprint = make_cache_fingerprint(scene, settings, {{0, 0}});
+    Fingerprint fingerprint = make_cache_fingerprint(scene, settings, {{0, 0}});
     fingerprint.build += "x";
     write_cache_file(folder / "light", fingerprint, {});
     EXPECT_THAT(refusal(folder / "light", scene, settings), testing::HasSubstr("another build"));
@@ -174,7 +174,7 @@ TEST(CacheFile, IC22_DamagedFilesAreRefused) {
 /// Sizes inside the file cannot ask for memory that its length does not back, even if its checksum is right.
 TEST(CacheFile, IC22_SizesAreCheckedBeforeMemoryIsTaken) {
     const ScratchFolder folder;
-    const CacheFingerprint fingerprint{"b", "s", {}};
+    const Fingerprint fingerprint{"b", "s", {}};
     write_cache_file(folder / "light", fingerprint, {{5, {IrradianceRecord{}}}});
     EXPECT_EQ(read_cache_file(folder / "light", fingerprint).at(5).size(), 1u);
     const std::string good = read_bytes(folder / "light");

@@ -1,0 +1,100 @@
+#include "render/cli/frame_claims.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string_view>
+#include <system_error>
+
+#include "engine/base/errors.h"
+#include "engine/image/image_file.h"
+#include "render/settings/fingerprint.h"
+
+namespace aleph {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// ".name.000#.exr.lock" beside the frames: the same for every list of frames.
+fs::path lock_file(const ClaimedOutput& output) {
+    const fs::path file = output.file(0), other = output.file(1);
+    std::string name = file.filename().string();
+    const std::string second = other.filename().string();
+    for (std::size_t i = 0; i < name.size() && name.size() == second.size(); ++i) {
+        if (name[i] != second[i]) name[i] = '#';
+    }
+    return file.parent_path() / fmt::format(".{}.lock", name);
+}
+
+/// The file that ".name.<process id>.part" was to become (write_atomically); empty: it is no such file.
+std::string target_of(std::string_view name) {
+    if (!name.starts_with('.') || !name.ends_with(".part")) return {};
+    name = name.substr(1, name.size() - 1 - std::string_view(".part").size());
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string_view::npos || name.find_first_not_of("0123456789", dot + 1) != std::string_view::npos)
+        return {};
+    return std::string(name.substr(0, dot));
+}
+
+/// Frames of one file name are one frame.
+std::string identity_of(const ClaimedOutput& output) {
+    if (output.file(0) != output.file(1)) return output.identity;
+    return output.identity + " " + output.fingerprint(output.frames.front());
+}
+
+}  // namespace
+
+FrameClaims::FrameClaims(ClaimedOutput output)
+    : output_(std::move(output)), locks_(lock_file(output_), identity_of(output_)) {
+    if (!output_.resume) {
+        for (const int frame : output_.frames) {
+            if (locks_.lock(frame)) continue;
+            throw OutputError(printable(output_.file(frame).string(), 4096),
+                              "another process makes this frame; with --resume both divide the frames");
+        }
+    }
+    remove_leftovers();
+}
+
+FrameClaims::~FrameClaims() {
+    remove_leftovers();
+}
+
+bool FrameClaims::is_finished(int frame) const {
+    return output_.resume && read_picture_text(output_.file(frame), fingerprint_key) == output_.fingerprint(frame);
+}
+
+Claim FrameClaims::claim(int frame) {
+    if (is_finished(frame)) return Claim::finished;
+    if (output_.resume) {
+        if (!locks_.lock(frame)) return Claim::busy;
+        if (is_finished(frame)) {  // meanwhile
+            locks_.unlock(frame);
+            return Claim::finished;
+        }
+        std::error_code error;
+        if (fs::exists(output_.file(frame), error)) ++replaced_;
+    }
+    return Claim::ours;
+}
+
+void FrameClaims::release(int frame) {
+    if (output_.resume) locks_.unlock(frame);
+}
+
+void FrameClaims::remove_leftovers() {
+    std::map<std::string, int> frames;
+    for (const int frame : output_.frames) frames[output_.file(frame).filename().string()] = frame;
+    const fs::path folder = output_.file(output_.frames.front()).parent_path();
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
+        const auto found = frames.find(target_of(entry.path().filename().string()));
+        if (found == frames.end()) continue;
+        if (output_.resume && !locks_.lock(found->second)) continue;  // being written
+        fs::remove(entry.path(), error);
+        release(found->second);
+    }
+}
+
+}  // namespace aleph

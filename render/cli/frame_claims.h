@@ -1,0 +1,56 @@
+#pragma once
+// Which frames a process is to make: with --resume those that are not finished, divided among the processes that render
+// them.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/cli/frame_locks.h"
+
+namespace aleph {
+
+/// Frames and their files.
+struct ClaimedOutput {
+    std::vector<int> frames;
+    std::function<std::filesystem::path(int frame)> file;
+    std::function<std::string(int frame)> fingerprint;  ///< of a frame's file (frame_fingerprint)
+    std::string identity;                               ///< what all of them have in common
+    bool resume = false;                                ///< finished frames are kept
+};
+
+enum class Claim {
+    ours,      ///< to be made now
+    finished,  ///< its file is whole and of this scene, these settings and this program
+    busy,      ///< another process makes it
+};
+
+class FrameClaims {
+  public:
+    /// Without `resume` all frames are ours from now on. Temporary files that killed processes have left are removed,
+    /// now and at the end.
+    /// @throws OutputError if another process makes one of them, or renders something else into the same files
+    explicit FrameClaims(ClaimedOutput output);
+    ~FrameClaims();
+
+    /// Claims a frame, unless it is finished or busy.
+    Claim claim(int frame);
+
+    /// Ends a claim: the frame's file is written.
+    void release(int frame);
+
+    bool is_finished(int frame) const;
+    /// Frames with a file that was there before and could not be kept: cut, or of something else.
+    int replaced() const { return replaced_; }
+
+  private:
+    void remove_leftovers();
+
+    const ClaimedOutput output_;
+    FrameLocks locks_;
+    int replaced_ = 0;
+};
+
+}  // namespace aleph

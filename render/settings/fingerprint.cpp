@@ -1,0 +1,37 @@
+#include "render/settings/fingerprint.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/scene_hash.h"
+#include "render/settings/program_build.h"
+
+namespace aleph {
+
+Fingerprint make_fingerprint(const Scene& scene, const RenderSettings& settings, const std::vector<CameraShot>& shots) {
+    Fingerprint fingerprint{program_build(), hash_scene(scene), setting_map(settings)};
+    for (const CameraShot& shot : shots)
+        fingerprint.scene += fmt::format(" camera {} from {}", shot.camera, shot.first);
+    return fingerprint;
+}
+
+std::string format_fingerprint(const Fingerprint& fingerprint) {
+    nlohmann::ordered_json json{
+        {"build", fingerprint.build}, {"scene", fingerprint.scene}, {"settings", nlohmann::ordered_json::object()}};
+    for (const auto& [key, value] : fingerprint.settings) json["settings"][key] = setting_text(value);
+    return json.dump();
+}
+
+std::string frame_fingerprint(const Fingerprint& fingerprint, const std::string& names, const std::string& content,
+                              std::int64_t frame) {
+    return hash_bytes(fmt::format("{}\n{}\n{}\n{}", format_fingerprint(fingerprint), names, content, frame));
+}
+
+std::string hash_names(const Scene& scene) {
+    std::string names;
+    for (const Node& node : scene.nodes) names.append(node.name).push_back('\0');
+    return hash_bytes(names);
+}
+
+}  // namespace aleph

@@ -1,0 +1,37 @@
+#pragma once
+// What results were computed from, to recognise those that another run left.
+
+#include <string>
+#include <vector>
+
+#include "engine/pose/pose.h"
+#include "render/settings/settings.h"
+
+namespace aleph {
+
+/// The EXR attribute, or the text of a PNG or HDR file, with the fingerprint of a frame.
+inline constexpr const char* fingerprint_key = "aleph:fingerprint";
+
+/// Everything that the light of a scene depends on.
+struct Fingerprint {
+    std::string build;    ///< program_build
+    std::string scene;    ///< hash_scene, and the cameras
+    SettingMap settings;  ///< all of them
+};
+
+/// @param shots  list_camera_shots
+Fingerprint make_fingerprint(const Scene& scene, const RenderSettings& settings, const std::vector<CameraShot>& shots);
+
+/// JSON in one line: {"build": ..., "scene": ..., "settings": {KEY: TEXT, ...}}.
+std::string format_fingerprint(const Fingerprint& fingerprint);
+
+/// SHA-1 of what the file of one frame depends on, 40 hexadecimal digits.
+/// @param names    hash_names, on which channels of Cryptomatte depend; empty: of frames without a scene
+/// @param content  what the file holds: "picture", "maps", ...
+std::string frame_fingerprint(const Fingerprint& fingerprint, const std::string& names, const std::string& content,
+                              std::int64_t frame);
+
+/// SHA-1 of the names of all nodes.
+std::string hash_names(const Scene& scene);
+
+}  // namespace aleph
