@@ -21,8 +21,10 @@ packages=(
 # none at all.
 if ! command -v node >/dev/null 2>&1 && ! command -v npm >/dev/null 2>&1; then packages+=(nodejs npm); fi
 
-# scenes/setup.sh PACKAGE...: these too; tests/fuzz/run.sh wants clang.
-packages+=("$@")
+# scenes/setup.sh PACKAGE...: these too; tests/fuzz/run.sh wants clang, tests/farm.sh slurm.
+for package in "$@"; do
+  if [ "$package" = slurm ]; then packages+=(slurm-wlm munge); else packages+=("$package"); fi
+done
 
 if ! command -v dpkg-query >/dev/null 2>&1; then
   cat >&2 <<TEXT

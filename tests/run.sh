@@ -49,6 +49,14 @@ processors() {
   return "$code"
 }
 
+farm() {
+  local code=0
+  bash "$here/farm.sh" "$build/aleph" || code=$?
+  [ "$code" != 77 ] || return 0  # no Slurm, as it says
+  record "$build" farm "$code"
+  return "$code"
+}
+
 newcomer() {
   local code=0
   bash "$here/newcomer.sh" "$build/aleph" || code=$?
@@ -77,6 +85,7 @@ checked "$build" "tests" run_tests "$build"
 checked "$build" "golden images" golden
 checked "$build" "other processors" processors
 checked "$build" "newcomer" newcomer
+checked "$build" "Slurm" farm
 if [ "${1:-}" != quick ]; then
   checked "$root/build-address" "address sanitizer" bash "$here/sanitizers.sh" address
   checked "$root/build-thread" "thread sanitizer" bash "$here/sanitizers.sh" thread

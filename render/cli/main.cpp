@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     aleph::add_explain_command(app, command);
     aleph::add_study_command(app, command);
     aleph::add_compare_command(app, command);
+    aleph::add_farm_command(app, command);
     app.footer("`aleph COMMAND --help` lists the options of a command, with examples.");
     return aleph::run_program(app, command, argc, argv, std::cerr);
 }

@@ -34,9 +34,6 @@ struct MapsOptions {
     PictureLayers layers;
 };
 
-/// Keeps the files of maps apart from the pictures in the same folder.
-constexpr const char* maps_suffix = "-maps";
-
 FrameRequest maps_request() {
     return {.frame = false, .maps = true, .progress = {}};
 }
@@ -189,7 +186,7 @@ void write_image_maps(const MapsOptions& options) {
     check_frames(images);
     const PreparedScene& prepared = images.prepared;
     prepare_frames_output(prepared, options.common, maps_request());
-    const ThreadLimit limit(options.common.threads);
+    const ThreadLimit limit(find_threads(options.common.threads));
     ImageSequence sequence(prepared.scene, images.files, prepared.settings, options.layers);
     ReplacedPixels replaced;
     const auto make = [&](int frame, const FrameRequest&) {
@@ -197,10 +194,11 @@ void write_image_maps(const MapsOptions& options) {
         replaced.add(maps.statistics);
         return maps;
     };
-    const auto fingerprint = [&](int frame) { return fingerprint_of(images, options, frame); };
-    FrameClaims claims = claim_frames(prepared, options.common, identity_of(prepared, options), fingerprint);
+    const FramePrints prints{identity_of(prepared, options),
+                             [&](int frame) { return fingerprint_of(images, options, frame); }};
+    FrameClaims claims = claim_frames(prepared, options.common, prints);
     write_frames({prepared.scene, prepared.settings, *prepared.scene.film.exposure, prepared.frames, prepared.name,
-                  make, claims, fingerprint},
+                  make, claims, prints.of},
                  options.common, maps_request());
     if (!options.common.quiet) replaced.warn();
 }

@@ -51,19 +51,23 @@ void refuse_options_as_values(const CLI::App& app) {
 
 /// Advice after wrong usage: the end of the message.
 std::string where_to_look(const CLI::App& app) {
-    const auto chosen = app.get_subcommands();
-    if (!chosen.empty()) return fmt::format("aleph {} --help lists the options", chosen.front()->get_name());
-    std::string names;
-    for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+    std::string chosen = "aleph", names;
+    const CLI::App* last = &app;
+    for (auto next = app.get_subcommands(); !next.empty(); next = last->get_subcommands()) {
+        last = next.front();
+        chosen += " " + last->get_name();
+    }
+    for (const CLI::App* subcommand : last->get_subcommands([](const CLI::App*) { return true; })) {
         names += (names.empty() ? "" : ", ") + subcommand->get_name();
     }
-    return fmt::format("commands: {}; aleph --help describes them", names);
+    if (names.empty()) return fmt::format("{} --help lists the options", chosen);
+    return fmt::format("commands: {}; {} --help describes them", names, chosen);
 }
 
-/// The subcommand that was given, else the program.
+/// The subcommand that was given, or that of a subcommand; else the program.
 const CLI::App& chosen_app(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
-    return chosen.empty() ? app : *chosen.front();
+    return chosen.empty() ? app : chosen_app(*chosen.front());
 }
 
 /// Describes the first argument that no option takes, and suggests what may have been meant.
@@ -80,8 +84,9 @@ std::string describe_unexpected(const CLI::App& app) {
         return fmt::format("there is no option {}{}", printable(name), close_suggestion(name, known));
     }
     const std::string text = arguments.empty() ? "" : arguments.front();
-    if (&chosen != &app) return fmt::format("'{}' is one argument too many", printable(text));
-    for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (chosen.get_subcommands([](const CLI::App*) { return true; }).empty())
+        return fmt::format("'{}' is one argument too many", printable(text));
+    for (const CLI::App* each : chosen.get_subcommands([](const CLI::App*) { return true; })) {
         known.push_back(each->get_name());
     }
     return fmt::format("there is no command {}{}", printable(text), close_suggestion(text, known));

@@ -65,7 +65,7 @@ void render_within(const std::string& budget, const SceneOptions& options, const
     prepare_frames_output(prepared, options, request, cache);
     if (!options.quiet) std::cerr << "aleph: measuring parts of frames, to choose the error\n";
     {
-        const ThreadLimit limit(options.threads);
+        const ThreadLimit limit(find_threads(options.threads));
         StageClock since = chosen.clock;
         double spent = 0.0;
         since.add_to(spent);
@@ -100,8 +100,9 @@ void add_render_command(CLI::App& app, Command& command) {
     render
         ->add_option(
             "--cache", *cache,
-            "keep the indirect light of lighting keyframes (--light-step) in this file: it is read if it exists, and "
-            "written after the last frame; a file of another scene, other settings or another build is refused")
+            "keep the indirect light of lighting keyframes (--light-step) in this file, and use what it has; a file of "
+            "another scene, other settings or another build is refused; a folder (FOLDER/) may be shared by processes "
+            "and scenes")
         ->type_name("FILE");
     render->footer(render_footer);
     render->callback([options, aovs, cache, budget, verify, &command] {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -186,7 +187,8 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                  "keep frames whose files are whole and have the fingerprint of this scene, these settings and this "
                  "program; several processes with the same command divide the frames (EXR, PNG, HDR)");
     add_load_limits(app, options.limits);
-    add_value(app, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
+    add_value(app, "-t,--threads", options.threads,
+              "number of threads, 0 to 4096; 0: all processors, or those of a Slurm task (SLURM_CPUS_PER_TASK)");
     app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");
     add_setting_options(app, options.settings);
 }
@@ -210,10 +212,22 @@ bool chooses_work(const SettingMap& settings) {
 
 }  // namespace
 
+namespace {
+constexpr int max_threads = 4096;
+}
+
 void check_threads(int threads) {
-    constexpr int max_threads = 4096;
     if (threads >= 0 && threads <= max_threads) return;
     throw InputError("", "--threads", fmt::format("{}: expected 0 (all processors) to {}", threads, max_threads));
+}
+
+int find_threads(int given) {
+    const char* const slurm = std::getenv("SLURM_CPUS_PER_TASK");
+    if (given > 0 || slurm == nullptr) return given;
+    int cpus = 0;
+    const std::string_view text(slurm);
+    std::from_chars(text.data(), text.data() + text.size(), cpus);
+    return std::clamp(cpus, 0, max_threads);
 }
 
 PreparedScene prepare_scene(const SceneOptions& options) {

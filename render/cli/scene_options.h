@@ -33,12 +33,18 @@ void add_scene_options(CLI::App& app, SceneOptions& options);
 /// @throws InputError (--threads) for a number outside 0 to 4096
 void check_threads(int threads);
 
+/// The threads that --threads means: 0 is the number that Slurm has given to this task, if it has.
+int find_threads(int given);
+
 /// Adds --load-memory.
 void add_load_limits(CLI::App& app, LoadLimits& limits);
 
 /// "30", "29.97" or "30000/1001".
 /// @throws InputError (--fps)
 FrameRate parse_fps(const std::string& text);
+
+/// Behind the name of files of maps, to keep them apart from the pictures in the same folder.
+inline constexpr const char* maps_suffix = "-maps";
 
 /// A scene with its settings: the defaults, overwritten by the scene file's, overwritten by the command line's.
 struct PreparedScene {

@@ -27,7 +27,7 @@ namespace aleph {
 namespace {
 
 struct StudyCommandOptions {
-    std::string file, frames, size, output;
+    std::string file, frames, size, output, part;
     std::vector<std::string> sweeps, sets, viewers, judges;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0, candidates = 0;
     bool search = false, quiet = false, markdown = false;
@@ -108,6 +108,18 @@ Study make_study(const StudyCommandOptions& options) {
     return study;
 }
 
+/// "3/8": the third of eight.
+StudyPart parse_part(const std::string& text, const PreparedStudy& prepared) {
+    if (prepared.study.search)
+        throw InputError("", "--shard", "a search decides by what it has measured; it cannot be divided");
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const int index = parse_value<int>(text.substr(0, slash), "--shard");
+    const int count = slash < text.size() ? parse_value<int>(text.substr(slash + 1), "--shard") : 0;
+    if (index < 1 || index > count)
+        throw InputError("", "--shard", fmt::format("'{}': expected such as 3/8, the third of eight", printable(text)));
+    return {static_cast<std::size_t>(index - 1), static_cast<std::size_t>(count)};
+}
+
 /// @throws InputError for numbers that are out of range; 0 stands for the study's own
 void check_numbers(const StudyCommandOptions& options) {
     const auto check = [](const char* name, int value, int most) {
@@ -143,7 +155,7 @@ void override_study(const StudyCommandOptions& options, Study& study) {
 int run(const StudyCommandOptions& options, const std::string& command_line) {
     check_threads(options.threads);
     check_numbers(options);
-    const ThreadLimit limit(options.threads);
+    const ThreadLimit limit(find_threads(options.threads));
     const ReadFiles read;
     Study study = make_study(options);
     override_study(options, study);
@@ -157,6 +169,12 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     }
     const std::filesystem::path folder =
         options.output.empty() ? study_folder(options.file) : std::filesystem::path(options.output);
+    if (!options.part.empty()) {
+        Progress progress("study", 1.0, progress_look(options.quiet));
+        make_part(prepared, folder, parse_part(options.part, prepared),
+                  [&](double share, const std::string& what) { progress.update(share, what); });
+        return exit_done;
+    }
     refuse_overwriting(read.paths(), study_files(folder));
     StudyResults results;
     {
@@ -226,6 +244,11 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
             "be given several times, for variants side by side")
         ->type_name("VARIANT")
         ->allow_extra_args(false);
+    study
+        .add_option("--shard", options.part,
+                    "only make every M-th reference and run, from the N-th on, and compare nothing: several machines "
+                    "share a study so, which the same command without it then finishes, with as many threads")
+        ->type_name("N/M");
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");
     study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");
 }

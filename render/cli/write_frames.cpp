@@ -13,7 +13,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/scene/scene_hash.h"
 #include "render/cli/budget.h"
 #include "render/cli/copied_frames.h"
 #include "render/cli/output_conflicts.h"
@@ -291,26 +290,22 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
     }
     std::vector<OutputFile> outputs;
     if (!options.stats.empty()) outputs.push_back({options.stats, "--stats"});
-    if (!cache.empty()) outputs.push_back({cache, "--cache"});
+    const bool keeps_file =
+        !cache.empty() && std::filesystem::path(cache).has_filename() && !std::filesystem::is_directory(cache);
+    if (keeps_file) outputs.push_back({cache, "--cache"});
     for (const int frame : prepared.frames)
         outputs.push_back({output_path(options.output, prepared.name, frame), "--output"});
     refuse_overwriting(prepared.read, outputs);
     prepare_output(options.output, prepared.name, prepared.frames);
     if (!options.stats.empty()) try_output(options.stats);
-    if (!cache.empty()) try_output(cache);
+    if (keeps_file) try_output(cache);
 }
 
-std::string describe_content(const SceneOptions& options, const FrameRequest& request) {
-    return fmt::format("{}{}{}", request.frame ? "picture " : "", request.maps ? "maps " : "",
-                       options.importance ? "importance" : "");
-}
-
-FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const std::string& identity,
-                         const std::function<std::string(int frame)>& fingerprint) {
+FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const FramePrints& prints) {
     const auto file = [pattern = options.output, name = prepared.name](int frame) {
         return output_path(pattern, name, frame);
     };
-    return FrameClaims({prepared.frames, file, fingerprint, identity, options.resume});
+    return FrameClaims({prepared.frames, file, prints.of, prints.identity, options.resume});
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
@@ -335,12 +330,9 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
                    const std::string& cache, const std::optional<Budget>& budget, double verify) {
     prepare_frames_output(prepared, options, request, cache);
-    const ThreadLimit limit(options.threads);
-    const Fingerprint print =
-        make_fingerprint(prepared.scene, prepared.settings, list_camera_shots(prepared.scene, options.camera));
-    const auto fingerprint = [&print, names = hash_names(prepared.scene), content = describe_content(options, request)](
-                                 int frame) { return frame_fingerprint(print, names, content, frame); };
-    FrameClaims claims = claim_frames(prepared, options, hash_bytes(format_fingerprint(print)), fingerprint);
+    const ThreadLimit limit(find_threads(options.threads));
+    const FramePrints prints = fingerprint_frames(prepared, options, request);
+    FrameClaims claims = claim_frames(prepared, options, prints);
     if (options.resume && options.stats.empty() &&
         std::ranges::all_of(prepared.frames, [&](int frame) { return claims.is_finished(frame); })) {
         if (!options.quiet)
@@ -359,8 +351,8 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
     };
     FrameJob job{sequence.scene(), prepared.settings, sequence.exposure(),
                  prepared.frames,  prepared.name,     make,
-                 claims,           fingerprint,       budget};
-    if (!cache.empty()) job.keep_light = [&] { sequence.save_light(cache); };
+                 claims,           prints.of,         budget};
+    if (!cache.empty()) job.keep_light = [&] { sequence.save_light(); };
     if (judged) {
         judged->film.exposure = sequence.exposure();
         job.verify = [&](std::optional<double> estimated) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/cli/frame_claims.h"
+#include "render/cli/frame_prints.h"
 #include "render/cli/scene_options.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
@@ -45,12 +46,7 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
                            const std::string& cache = "");
 
 /// The claims on frames of a scene or of pictures.
-/// @param identity  what all files have in common
-FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const std::string& identity,
-                         const std::function<std::string(int frame)>& fingerprint);
-
-/// What a frame's file holds, for its fingerprint.
-std::string describe_content(const SceneOptions& options, const FrameRequest& request);
+FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const FramePrints& prints);
 
 /// Makes every frame that is not finished and writes it; waits for those that other processes make. The statistics
 /// (--stats) of finished frames are written as they go along (StatisticsFile). Prints at the end, on standard error,

@@ -126,17 +126,13 @@ void Sequence::load_light(const std::filesystem::path& path) {
             "a cache file needs lighting keyframes: the integrator cache, an accuracy and a light_step above 0 (beside "
             "error, set light_step too)");
     }
-    s.shot_light->keep_records(read_cache_file(path, s.fingerprint()));
-    s.saved_keyframes = s.shot_light->records()->size();
+    s.shot_light->use({path, make_cache_fingerprint(s.shot.scene, s.shot.settings, s.shot.shots)});
 }
 
-void Sequence::save_light(const std::filesystem::path& path) {
+void Sequence::save_light() {
     SequenceState& s = state();
-    ALEPH_CHECK(s.shot_light && s.shot_light->records(), "save_light before load_light");
-    const KeyframeRecords& records = *s.shot_light->records();
-    if (records.size() == s.saved_keyframes) return;
-    write_cache_file(path, s.fingerprint(), records);
-    s.saved_keyframes = records.size();
+    ALEPH_CHECK(s.shot_light && s.shot_light->store() != nullptr, "save_light before load_light");
+    s.shot_light->store()->save();
 }
 
 PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::span<const RenderSettings> settings,

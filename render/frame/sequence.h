@@ -93,16 +93,17 @@ class Sequence {
     /// @throws InputError as the constructor does, and what `change` throws; this is then as it was before
     void edit(const std::function<void(Scene&)>& change);
 
-    /// Takes the light of lighting keyframes from a file that save_light wrote, if there is one. Frames have the same
-    /// bytes with and without it. To be called before the first frame.
+    /// Keeps the light of lighting keyframes in a file, or in a folder (a path that ends in '/', or exists as one) that
+    /// several processes share, and takes from it what it has. Frames have the same bytes with and without it. To be
+    /// called before the first frame.
     /// @throws InputError naming the file, if it is not a complete cache file of this scene, these settings and this
-    /// program, or if these settings have no lighting keyframes
+    /// program, or if these settings have no lighting keyframes; OutputError if the folder cannot be made
     void load_light(const std::filesystem::path& path);
 
-    /// Writes the light of all lighting keyframes that were loaded, and of those that were computed since, if there are
-    /// any that load_light or save_light does not know.
+    /// Writes the file with the light of all lighting keyframes that were loaded, and of those that were computed since,
+    /// if there are any. A folder has them already.
     /// @throws OutputError; std::logic_error before load_light
-    void save_light(const std::filesystem::path& path);
+    void save_light();
 
     /// The scene, its subdivision cages at the levels that are rendered.
     const Scene& scene() const;

@@ -64,11 +64,6 @@ PreparedFrame SequenceState::prepare(std::int64_t frame, bool perceive, bool map
                          {.frame = frame, .perceive = perceive, .maps = maps, .edited = is_edited, .held = is_held});
 }
 
-const Fingerprint& SequenceState::fingerprint() {
-    if (!cache_fingerprint) cache_fingerprint = make_cache_fingerprint(shot.scene, shot.settings, shot.shots);
-    return *cache_fingerprint;
-}
-
 std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t frame, const FramePlan& plan,
                                                  std::vector<KeyframeStatistics>& filled) {
     if (!s.shot_light || plan.skips(Effect::indirect_diffuse)) return nullptr;

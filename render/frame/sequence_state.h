@@ -22,8 +22,6 @@ struct SequenceState {
     TracedRays traced() const {
         return here.traced() + keyframe.traced() + preparation.motion.traced() + preparation.shutter.traced();
     }
-    /// Fingerprint of the scene, its settings and this program; made when it is first asked for.
-    const Fingerprint& fingerprint();
 
     Shot shot;
     StaticSpans static_spans;
@@ -34,8 +32,6 @@ struct SequenceState {
     std::optional<ShotLight> shot_light;  ///< if frames read lighting keyframes
     Preparation preparation;
     bool rendered = false;  ///< a frame, which `here` shows
-    std::optional<Fingerprint> cache_fingerprint;
-    std::size_t saved_keyframes = 0;  ///< lighting keyframes in the cache file
 };
 
 /// How the samples of a prepared frame are taken.

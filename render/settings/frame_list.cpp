@@ -86,4 +86,14 @@ std::vector<int> parse_frame_list(std::string_view text) {
     return frames;
 }
 
+std::string format_frame_list(const std::vector<int>& frames) {
+    std::string text;
+    for (std::size_t first = 0, last = 0; first < frames.size(); first = ++last) {
+        while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
+        if (!text.empty()) text += ',';
+        text += first == last ? fmt::format("{}", frames[first]) : fmt::format("{}-{}", frames[first], frames[last]);
+    }
+    return text;
+}
+
 }  // namespace aleph

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "engine/base/parallel.h"
 #include "engine/scene/scene_hash.h"
@@ -50,7 +51,7 @@ class StudyRunner {
             for (const std::uint32_t seed : study_.runs.seeds) {
                 for (std::size_t v = 0; v < runs.size(); ++v) {
                     for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
-                        runs[v][s].push_back(find_or_make(v, s, seed, repeat));
+                        runs[v][s].push_back(find_or_make(v, s, seed, repeat, repeat == 0));
                 }
             }
         }
@@ -67,6 +68,26 @@ class StudyRunner {
         results_.judges = study_.judges;
         find_front(results_.variants, "processor_seconds", "share_seen");
         return std::move(results_);
+    }
+
+    void make_part(const StudyPart& part) {
+        std::size_t item = 0;
+        const auto is_ours = [&] { return item++ % part.count == part.index; };
+        work_ /= static_cast<double>(part.count);
+        for (const PreparedStudyScene& scene : prepared_.scenes) {
+            for (const int frame : scene.frames) {
+                if (is_ours()) find_or_make_reference(scene, frame);
+            }
+        }
+        for (int repeat = 0; repeat < study_.runs.repeats; ++repeat) {
+            for (const std::uint32_t seed : study_.runs.seeds) {
+                for (std::size_t v = 0; v < prepared_.variants.size(); ++v) {
+                    for (std::size_t s = 0; s < prepared_.scenes.size(); ++s) {
+                        if (is_ours()) find_or_make(v, s, seed, repeat, false);
+                    }
+                }
+            }
+        }
     }
 
   private:
@@ -112,25 +133,30 @@ class StudyRunner {
         std::vector<FrameTruth> truths(scene.frames.size());
         const std::size_t first = results_.frames.size();
         add_viewers(scene, truths);
-        const SceneWithSettings own = with_settings_of(scene, study_, study_.reference.settings);
-        const ReferencePictureOptions options =
-            reference_options(scene, study_, (store_.folder() / "references").string());
         for (std::size_t i = 0; i < scene.frames.size(); ++i) {
-            const auto show_passes = [&](double passes) {
-                show(frames_per_pass * passes, fmt::format("reference of {} {}", scene.name, scene.frames[i]));
-            };
-            truths[i].reference =
-                load_or_render_reference_picture(own.scene, own.settings, scene.frames[i], options, show_passes);
-            done_ += frames_per_pass * study_.reference.passes;
             JudgingFrame& frame = results_.frames[first + i];
+            std::tie(truths[i].reference, frame.reference) = find_or_make_reference(scene, scene.frames[i]);
             frame.quality = measure_reference(truths[i]);
             frame.thresholds = truths[i].thresholds;
-            frame.reference = reference_picture_path(own.settings, scene.frames[i], options);
         }
         return truths;
     }
 
-    MeasuredRun find_or_make(std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
+    /// @return the reference and its file
+    std::pair<ChannelImage, std::filesystem::path> find_or_make_reference(const PreparedStudyScene& scene, int frame) {
+        const SceneWithSettings own = with_settings_of(scene, study_, study_.reference.settings);
+        const ReferencePictureOptions options =
+            reference_options(scene, study_, (store_.folder() / "references").string());
+        const auto show_passes = [&](double passes) {
+            show(frames_per_pass * passes, fmt::format("reference of {} {}", scene.name, frame));
+        };
+        ChannelImage reference = load_or_render_reference_picture(own.scene, own.settings, frame, options, show_passes);
+        done_ += frames_per_pass * study_.reference.passes;
+        return {std::move(reference), reference_picture_path(own.settings, frame, options)};
+    }
+
+    /// @param judged  its pictures are compared with the references
+    MeasuredRun find_or_make(std::size_t v, std::size_t s, std::uint32_t seed, int repeat, bool judged) {
         const PreparedStudyScene& scene = prepared_.scenes[s];
         const StudyVariant& variant = prepared_.variants[v];
         SceneWithSettings own = with_settings_of(scene, study_, variant.settings);
@@ -155,7 +181,7 @@ class StudyRunner {
         }
         done_ += static_cast<double>(scene.frames.size());
         show(0.0, what);
-        if (repeat == 0) measure(name, s, run);
+        if (judged) measure(name, s, run);
         return run;
     }
 
@@ -209,6 +235,11 @@ class StudyRunner {
 StudyResults run_study(const PreparedStudy& prepared, const std::filesystem::path& folder,
                        const StudyProgress& progress) {
     return StudyRunner(prepared, folder, progress).run();
+}
+
+void make_part(const PreparedStudy& prepared, const std::filesystem::path& folder, const StudyPart& part,
+               const StudyProgress& progress) {
+    StudyRunner(prepared, folder, progress).make_part(part);
 }
 
 }  // namespace aleph

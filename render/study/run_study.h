@@ -42,4 +42,15 @@ using StudyProgress = std::function<void(double share, const std::string& what)>
 StudyResults run_study(const PreparedStudy& prepared, const std::filesystem::path& folder,
                        const StudyProgress& progress = {});
 
+/// A part of a study's references and runs: every count-th from the index-th on, from 0.
+struct StudyPart {
+    std::size_t index = 0, count = 1;
+};
+
+/// Makes what belongs to a part and is not finished, and compares nothing. Once all parts are there, run_study finds
+/// them; it must use as many threads.
+/// @throws InputError, OutputError
+void make_part(const PreparedStudy& prepared, const std::filesystem::path& folder, const StudyPart& part,
+               const StudyProgress& progress = {});
+
 }  // namespace aleph

@@ -62,14 +62,15 @@ void ShotLight::prepare(std::int64_t keyframe, const std::vector<std::int64_t>& 
                         std::vector<KeyframeStatistics>& filled) {
     std::shared_ptr<const KeyframeLight>& light = lights_[keyframe];
     if (light) return;
-    const bool known = records_ && records_->contains(keyframe);
+    std::optional<std::vector<IrradianceRecord>> records;
+    if (store_) records = store_->find(keyframe);
     const std::int64_t base = find_base(keyframe);
-    if (!known && base != keyframe) prepare(base, list_views(base), nullptr, filled);
-    const std::vector<IrradianceRecord> records =
-        known ? records_->at(keyframe)
-              : compute(keyframe, views, carried, base == keyframe ? nullptr : lights_.at(base).get(), filled);
-    light = std::make_shared<KeyframeLight>(make_keyframe_light(source_.pose(keyframe), records));
-    if (records_ && !known) records_->emplace(keyframe, records);
+    if (!records) {
+        if (base != keyframe) prepare(base, list_views(base), nullptr, filled);
+        records = compute(keyframe, views, carried, base == keyframe ? nullptr : lights_.at(base).get(), filled);
+        if (store_) store_->keep(keyframe, *records);
+    }
+    light = std::make_shared<KeyframeLight>(make_keyframe_light(source_.pose(keyframe), *records));
 }
 
 std::unique_ptr<BlendedLight> ShotLight::blend(const KeyframePair& pair) const {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <map>
 
-#include "render/time/cache_file.h"
 #include "render/time/keyframe_light.h"
+#include "render/time/light_store.h"
 
 namespace aleph {
 
@@ -47,10 +47,10 @@ class ShotLight {
     /// @param filled  the keyframes that were computed are added
     std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<KeyframeStatistics>& filled);
 
-    /// Keeps the records of all keyframes, beginning with these, which need not be computed.
-    void keep_records(KeyframeRecords records) { records_ = std::move(records); }
-    /// All that are kept; nothing before keep_records.
-    const std::optional<KeyframeRecords>& records() const { return records_; }
+    /// Keeps the records of all keyframes there; those that it has need not be computed.
+    void use(LightStore store) { store_.emplace(std::move(store)); }
+    /// Null before `use`.
+    LightStore* store() { return store_ ? &*store_ : nullptr; }
 
   private:
     std::vector<std::int64_t> list_views(std::int64_t keyframe) const;
@@ -66,7 +66,7 @@ class ShotLight {
     const RenderSettings& settings_;
     bool still_, unmoving_;
     KeyframeSource source_;
-    std::optional<KeyframeRecords> records_;
+    std::optional<LightStore> store_;
     std::map<std::int64_t, std::shared_ptr<const KeyView>> views_;
     std::map<std::int64_t, std::shared_ptr<const KeyframeLight>> lights_;
 };

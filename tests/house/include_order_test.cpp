@@ -61,7 +61,8 @@ const std::vector<Layer>& layers() {
             {"perception", {"engine/base", "perception/vision", "perception/saliency"}},
         };
         // Subcommands, which cli/ names but does not include.
-        for (const char* part : {"explain", "compare"}) rooms.push_back({std::string("render/cli/") + part, stages});
+        for (const char* part : {"explain", "compare", "farm"})
+            rooms.push_back({std::string("render/cli/") + part, stages});
         found.insert(found.end(), rooms.begin(), rooms.end());
         return found;
     }();

@@ -73,6 +73,19 @@ TEST(RunStudy, MeasuresEveryVariantAndKeepsIt) {
         << "times are those of the finished run";
 }
 
+TEST(RunStudy, DividedItEndsWithTheSameNumbers) {
+    const ScratchFolder whole, divided;
+    Study study = small_study();
+    study.runs.seeds = {0, 5};
+    const PreparedStudy prepared = prepare_study(study);
+    const StudyResults expected = run_study(prepared, whole.path());
+    for (const std::size_t index : {2, 0, 1}) make_part(prepared, divided.path(), {index, 3});
+    const StudyResults joined = run_study(prepared, divided.path());
+    EXPECT_EQ(joined.made, 0u);
+    EXPECT_EQ(joined.found, expected.made);
+    EXPECT_EQ(numbers_of(joined), numbers_of(expected));
+}
+
 TEST(RunStudy, StoppedAnywhereEndsWithTheSameNumbers) {
     const ScratchFolder whole, stopped;
     Study study = small_study();

@@ -30,7 +30,7 @@ std::string render_with(const std::filesystem::path& file, const Scene& scene, c
     Sequence sequence(scene, settings);
     sequence.load_light(file);
     const std::string bytes = frame_bytes(sequence, scene, settings, 3);
-    sequence.save_light(file);
+    sequence.save_light();
     return bytes;
 }
 
@@ -62,13 +62,41 @@ TEST(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
     EXPECT_NO_THROW(Sequence(scene, more_samples).load_light(folder / "light"));
 }
 
+TEST(CacheFile, IC22_AFolderKeepsAFileForEachKeyframe) {
+    const ScratchFolder folder;
+    const Scene scene = make_shot_with_mover();
+    const RenderSettings settings = file_settings();
+    Sequence plain(scene, settings);
+    const std::string expected = frame_bytes(plain, scene, settings, 3);
+    const std::filesystem::path light = folder / "some/light/";
+    EXPECT_TRUE(render_with(light, scene, settings) == expected) << "there was no folder";
+    const auto count = [&] {
+        return std::distance(std::filesystem::directory_iterator(light), std::filesystem::directory_iterator());
+    };
+    const auto files = count();
+    EXPECT_GE(files, 2);
+    Sequence loaded(scene, settings);
+    loaded.load_light(light);
+    EXPECT_TRUE(frame_bytes(loaded, scene, settings, 3) == expected);
+    EXPECT_TRUE(loaded.render(3).statistics.keyframes.empty()) << "computed again";
+    RenderSettings other = settings;
+    other.cache.gather = 24;
+    EXPECT_NO_THROW(render_with(light, scene, other)) << "beside it";
+    EXPECT_EQ(count(), 2 * files);
+    const auto file = *std::filesystem::directory_iterator(light);
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+    const auto use = [&](const RenderSettings& with) { render_with(light, scene, with); };
+    const Refusal cut = find_refusal([&] { use(settings), use(other); });
+    EXPECT_EQ(cut.file, file.path().string());
+}
+
 /// Renders a frame with the file.
 std::string render_with(const std::filesystem::path& file, std::int64_t frame) {
     const Scene scene = make_shot_with_mover();
     Sequence sequence(scene, file_settings());
     sequence.load_light(file);
     const std::string bytes = frame_bytes(sequence, scene, file_settings(), frame);
-    sequence.save_light(file);
+    sequence.save_light();
     return bytes;
 }
 
@@ -167,8 +195,6 @@ TEST(CacheFile, IC22_DamagedFilesAreRefused) {
         write_file(folder / "text", text);
         EXPECT_THAT(refusal(folder / "text", scene, settings), testing::HasSubstr("not a cache file"));
     }
-    std::filesystem::create_directory(folder / "folder");
-    refusal(folder / "folder", scene, settings);
 }
 
 /// Sizes inside the file cannot ask for memory that its length does not back, even if its checksum is right.
@@ -191,7 +217,7 @@ TEST(CacheFile, IC22_NeedsKeyMoments) {
     RenderSettings settings = file_settings();
     settings.cache.light_step = 0;
     EXPECT_THAT(refusal("light", make_shot(), settings), testing::HasSubstr("needs lighting keyframes"));
-    EXPECT_THROW(Sequence(make_shot(), file_settings()).save_light("light"), std::logic_error);
+    EXPECT_THROW(Sequence(make_shot(), file_settings()).save_light(), std::logic_error);
 }
 
 }  // namespace

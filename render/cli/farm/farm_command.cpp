@@ -1,0 +1,224 @@
+// `aleph farm`: frames and studies divided into tasks for a scheduler.
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/errors.h"
+#include "render/cli/commands.h"
+#include "render/cli/farm/farm_job.h"
+#include "render/cli/farm/farm_scripts.h"
+#include "render/cli/farm/farm_status.h"
+#include "render/cli/output_path.h"
+#include "render/cli/study_output.h"
+#include "render/settings/frame_list.h"
+#include "render/study/study_file.h"
+
+namespace aleph {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most_tasks = 100000;
+
+struct FarmOptions {
+    SceneOptions scene;
+    std::string command = "render", cache;
+    bool aovs = false, submit = false;
+    int tasks = 0;
+    FarmResources resources;
+};
+
+/// The path of this program.
+std::string this_program() {
+    return fs::read_symlink("/proc/self/exe").string();
+}
+
+/// What was given beside frames and files, as words of the command.
+std::vector<std::string> list_arguments(const FarmOptions& options) {
+    const SceneOptions& scene = options.scene;
+    std::vector<std::string> words{scene.scene};
+    const auto add = [&](const char* option, const std::string& value) {
+        if (!value.empty()) words.insert(words.end(), {option, value});
+    };
+    add("--fps", scene.fps);
+    add("--camera", scene.camera);
+    if (scene.limits.memory != LoadLimits().memory) add("--load-memory", fmt::format("{}", scene.limits.memory >> 20));
+    if (scene.threads > 0) add("--threads", fmt::format("{}", scene.threads));
+    for (const auto& [key, value] : scene.settings) add("--set", key + "=" + setting_text(value));
+    // A folder, in which tasks find the keyframes of each other.
+    if (!options.cache.empty()) add("--cache", (fs::path(options.cache) / "").string());
+    if (options.aovs) words.push_back("--aovs");
+    if (scene.importance) words.push_back("--importance");
+    return words;
+}
+
+/// Runs a script; its exit code.
+int run_script(const fs::path& script) {
+    std::cout.flush();
+    const int status = std::system(quote_words({"bash", script.string()}).c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_failed);
+}
+
+/// The parts of a study, or of the frames, with everything checked that a task would refuse.
+std::vector<std::string> prepare_job(const FarmOptions& options, FarmJob& job) {
+    job.output = options.scene.output;
+    job.stats = options.scene.stats;
+    job.working = fs::current_path();
+    job.arguments = list_arguments(options);
+    if (is_study(options.scene.scene)) {
+        job.command = "study";
+        if (job.output.empty()) job.output = study_folder(options.scene.scene).string();
+        if (!options.scene.frames.empty())
+            job.arguments.insert(job.arguments.end(), {"--frames", options.scene.frames});
+        job.folder = fs::absolute(job.output) / "farm";
+        std::vector<std::string> parts;
+        for (int i = 1; i <= options.tasks; ++i) parts.push_back(fmt::format("{}/{}", i, options.tasks));
+        return parts;
+    }
+    job.command = options.command;
+    if (job.output.empty()) throw InputError("", "--output", "name the files of the frames, or their folder");
+    job.frames = options.scene.frames;
+    FrameCommand command = parse_frame_command(job, options.scene.frames.empty() ? "0" : options.scene.frames);
+    if (options.scene.frames.empty()) command.options.frames.clear();
+    const PreparedScene prepared = prepare_scene(command.options);
+    const fs::path first = output_path(job.output, prepared.name, prepared.frames.front());
+    if (output_format(first) == OutputFormat::flow)
+        throw InputError("", "--output", ".flo files cannot tell what they were made from; write .exr, .png or .hdr");
+    prepare_output(job.output, prepared.name, prepared.frames);
+    job.frames = format_frame_list(prepared.frames);
+    job.folder = fs::absolute(first).parent_path() / "farm";
+    return divide_frames(prepared.frames, options.tasks);
+}
+
+int write_job(const FarmOptions& options, const std::string& scheduler) {
+    if (options.tasks < 1 || options.tasks > most_tasks)
+        throw InputError("", "--tasks", fmt::format("expected 1 to {}", most_tasks));
+    FarmJob job;
+    job.scheduler = scheduler;
+    job.resources = options.resources;
+    job.tasks = options.tasks;
+    const std::vector<std::string> parts = prepare_job(options, job);
+    try_output(job.folder / "job.json");
+    if (fs::exists(job.folder / "job.json")) job.rounds = read_farm_job(job.folder).rounds;
+    const fs::path submit = write_farm_scripts(job, parts, this_program());
+    std::cout << fmt::format("{} tasks; bash {}\n", parts.size(), submit.string());
+    return options.submit ? run_script(submit) : static_cast<int>(exit_done);
+}
+
+int print_farm_status(const std::string& folder) {
+    const FarmJob job = read_farm_job(folder);
+    fs::current_path(job.working);
+    if (job.command == "study") {
+        std::cout << "a study: `aleph farm collate` makes what is missing and compares\n";
+        return exit_done;
+    }
+    const FarmStatus status = find_status(job, false);
+    print_status(status, std::cout);
+    return status.left().empty() ? exit_done : exit_failed;
+}
+
+int collate(const std::string& folder, bool submit) {
+    FarmJob job = read_farm_job(folder);
+    fs::current_path(job.working);
+    if (job.command == "study") {
+        std::vector<std::string> words{this_program(), "study"};
+        words.insert(words.end(), job.arguments.begin(), job.arguments.end());
+        words.insert(words.end(), {"-o", job.output});
+        const int status = std::system(quote_words(words).c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_failed);
+    }
+    const FarmStatus status = find_status(job, true);
+    print_status(status, std::cout);
+    join_statistics(job, status);
+    if (status.left().empty()) return exit_done;
+    if (!submit) return exit_failed;
+    return run_script(write_farm_scripts(job, divide_frames(status.left(), job.tasks), this_program()));
+}
+
+/// What all schedulers are told.
+void add_job_options(CLI::App& app, FarmOptions& options) {
+    add_scene_options(app, options.scene);
+    app.get_option("scene")->description("scene file, or a study file (.json)");
+    app.remove_option(app.get_option("--resume"));
+    add_value(app, "--tasks", options.tasks, "tasks that the frames, or the runs of a study, are divided into")
+        ->required();
+    app.add_option("--command", options.command, "what makes the frames")
+        ->check(CLI::IsMember({"render", "maps"}))
+        ->default_str("render");
+    app.add_flag("--aovs", options.aovs, "as of `aleph render`");
+    app.add_flag("--importance", options.scene.importance, "as of `aleph maps`");
+    app.add_option("--cache", options.cache, "as of `aleph render`; a folder")->type_name("FOLDER");
+    app.add_flag("--submit", options.submit, "run the script that submits the tasks, too");
+}
+
+void add_slurm(CLI::App& farm, Command& command) {
+    CLI::App* slurm = farm.add_subcommand("slurm", "write an array of tasks for Slurm, and a job that collates them");
+    const auto options = std::make_shared<FarmOptions>();
+    add_job_options(*slurm, *options);
+    FarmResources& resources = options->resources;
+    slurm->add_option("--time", resources.time, "time of a task, such as 2:00:00")->type_name("TIME");
+    slurm->add_option("--memory", resources.memory, "memory of a task, such as 4G")->type_name("SIZE");
+    slurm->add_option("--partition", resources.partition, "partition of the cluster")->type_name("NAME");
+    add_value(*slurm, "--cpus", resources.cpus, "processors of a task, which it uses all; 0: the cluster's default");
+    slurm->footer(
+        "The folder `farm` beside the frames gets plain scripts: task.1.sh, which runs a task, submit.1.sh, which "
+        "submits "
+        "all. A minute before its time is up a task is told to stop, finishes nothing more and exits with 75; where "
+        "the cluster has RequeueExit=75 it then goes on by itself, elsewhere `aleph farm collate --submit` submits "
+        "what is left. A task on a node that dies is begun again. Nothing that is finished is made twice.\n\n"
+        "Examples:\n"
+        "  aleph farm slurm scene.json --frames 0-749 --error 1 -o out/ --tasks 40 --time 2:00:00 --submit\n"
+        "  aleph farm slurm scenes/studies/knob.json -o out/knob --tasks 8 --cpus 2");
+    slurm->callback([options, &command] { command = [options] { return write_job(*options, "slurm"); }; });
+}
+
+void add_parallel(CLI::App& farm, Command& command) {
+    CLI::App* parallel = farm.add_subcommand("parallel", "the same for GNU parallel, on this host or on several");
+    const auto options = std::make_shared<FarmOptions>();
+    add_job_options(*parallel, *options);
+    parallel
+        ->add_option("--hosts", options->resources.hosts,
+                     "hosts, such as one,two, which have this program, the scene and the output under the same paths")
+        ->delimiter(',')
+        ->type_name("HOST,...");
+    add_value(*parallel, "--jobs", options->resources.jobs, "tasks at a time on each host");
+    parallel->footer(
+        "Examples:\n"
+        "  aleph farm parallel scene.json --frames 0-749 --error 1 -o out/ --tasks 40 --hosts one,two --submit");
+    parallel->callback([options, &command] { command = [options] { return write_job(*options, "parallel"); }; });
+}
+
+}  // namespace
+
+void add_farm_command(CLI::App& app, Command& command) {
+    CLI::App* farm = app.add_subcommand("farm", "divide frames or a study into tasks for several machines");
+    farm->require_subcommand(1);
+    add_slurm(*farm, command);
+    add_parallel(*farm, command);
+    const auto folder = std::make_shared<std::string>();
+    const auto submit = std::make_shared<bool>(false);
+    const auto add = [&](const char* name, const char* help) {
+        CLI::App* sub = farm->add_subcommand(name, help);
+        sub->add_option("folder", *folder, "folder of the frames or of the study")->required()->type_name("FOLDER");
+        return sub;
+    };
+    add("status",
+        "say which frames are finished, missing, damaged or of something else; exit code 1 if any is not finished")
+        ->callback([folder, &command] { command = [folder] { return print_farm_status(*folder); }; });
+    CLI::App* collated =
+        add("collate", "the same, with every file decoded, and join the statistics; of a study: finish it");
+    collated->add_flag("--submit", *submit, "submit what is left again");
+    collated->callback(
+        [folder, submit, &command] { command = [folder, submit] { return collate(*folder, *submit); }; });
+    farm->footer(
+        "The scheduler is the one that is there: Slurm, or GNU parallel. Files have the bytes that one machine would "
+        "make, whatever the tasks.\n"
+        "`aleph farm slurm --help` has examples.");
+}
+
+}  // namespace aleph

@@ -1,0 +1,57 @@
+#pragma once
+// Frames or a study divided into tasks for a scheduler: what the tasks are, kept in a folder `farm` beside the results.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/cli/scene_options.h"
+#include "render/frame/frame_output.h"
+
+namespace aleph {
+
+/// What a scheduler is asked for. Empty texts and 0: its own defaults.
+struct FarmResources {
+    std::string time, partition, memory;  ///< as Slurm reads them
+    int cpus = 0;                         ///< of each task
+    std::vector<std::string> hosts;       ///< of GNU parallel; none: this one
+    int jobs = 1;                         ///< tasks of GNU parallel at a time on each host
+};
+
+struct FarmJob {
+    std::string scheduler;  ///< slurm or parallel
+    FarmResources resources;
+    int tasks = 1;                       ///< at most, in a round
+    std::string command;                 ///< render, maps or study
+    std::vector<std::string> arguments;  ///< of the command, without frames, --output, --stats and --resume
+    std::string frames;                  ///< a list of all frames; of a study: empty
+    std::string output;                  ///< --output
+    std::string stats;                   ///< that collate writes; may be empty
+    std::filesystem::path folder;        ///< of the job, absolute
+    std::filesystem::path working;       ///< the folder in which tasks run
+    int rounds = 0;                      ///< how often tasks were written and submitted
+};
+
+/// A command that makes frames, as its words say.
+struct FrameCommand {
+    SceneOptions options;
+    FrameRequest request;
+    std::string cache;
+};
+
+/// The command for frames of a job; empty: all of them.
+/// @throws CLI::ParseError, InputError
+FrameCommand parse_frame_command(const FarmJob& job, const std::string& frames = "");
+
+/// The frames of a task each, contiguous and of about equal number: all of the frames in their order.
+std::vector<std::string> divide_frames(const std::vector<int>& frames, int tasks);
+
+/// Writes `job.json` into the job's folder.
+/// @throws OutputError
+void write_farm_job(const FarmJob& job);
+
+/// Reads the job of a folder of results, or of the folder `farm` in it.
+/// @throws InputError
+FarmJob read_farm_job(const std::filesystem::path& folder);
+
+}  // namespace aleph
