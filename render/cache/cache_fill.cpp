@@ -1,9 +1,13 @@
 #include "render/cache/cache_fill.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <mutex>
 #include <optional>
+#include <span>
 
+#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/cache/gather_at.h"
 #include "render/cache/record_worth.h"
@@ -19,6 +23,7 @@ constexpr int max_reviews = 16;             // passes over all pixels after the 
 /// A record may reach so much farther than expected: candidates within that wait.
 constexpr float waiting_reach = 1.2f;
 constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
+constexpr std::size_t checkpoint_gathers = 256;
 
 /// A pixel whose sample is not covered yet.
 struct Candidate {
@@ -128,7 +133,7 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
 
 /// The candidates' records, computed in parallel.
 std::vector<Gathered> gather_records(const IndirectContext& context, const FillPlaces& places,
-                                     const std::vector<Candidate>& candidates, RayCounts& counts) {
+                                     std::span<const Candidate> candidates, RayCounts& counts) {
     std::vector<Gathered> records(candidates.size());
     std::mutex counts_mutex;
     parallel_for(candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -149,6 +154,73 @@ std::vector<Gathered> gather_records(const IndirectContext& context, const FillP
     return records;
 }
 
+/// Results of gathers for a checkpoint.
+FrameCheckpoint::Gathers save_gathers(std::span<const Gathered> gathered, const RayCounts& counts) {
+    ByteWriter results, found;
+    results.add(counts);
+    for (const Gathered& one : gathered) {
+        results.add(one.record.has_value());
+        if (one.record) results.add(*one.record);
+        found.add(one.direct);
+    }
+    return {results.take(), found.take()};
+}
+
+/// @param counts  increased by the rays of these gathers
+void restore_gathers(const FrameCheckpoint::Gathers& saved, std::span<Gathered> gathered, RayCounts& counts) {
+    ByteReader results(saved.results), found(saved.found);
+    counts += results.read<RayCounts>();
+    for (Gathered& one : gathered) {
+        if (results.read<bool>()) one.record = results.read<IrradianceRecord>();
+        if (!saved.found.empty()) one.direct = found.read_all<DirectSample>();
+    }
+    ALEPH_CHECK(results.is_good() && results.at_end(), fmt::format("{} gathers", gathered.size()));
+}
+
+std::string save_grid(const DirectGrid& grid) {
+    const DirectGrid::State state = grid.save();
+    ByteWriter out;
+    out.add(state.cells);
+    out.add(state.samples);
+    return out.take();
+}
+
+void restore_grid(const std::string& bytes, DirectGrid& grid) {
+    if (bytes.empty()) return;
+    ByteReader in(bytes);
+    DirectGrid::State state{in.read_all<DirectGrid::Cell>(), 0};
+    state.samples = in.read<std::uint64_t>();
+    grid.restore(state);
+}
+
+/// The same with a checkpoint: in pieces, of which those are taken from it that an earlier process has computed.
+std::vector<Gathered> gather_with_checkpoint(const IndirectContext& context, const FillPlaces& places,
+                                             std::span<const Candidate> candidates, RayCounts& counts) {
+    FrameCheckpoint& checkpoint = *context.checkpoint;
+    if (context.direct != nullptr)
+        checkpoint.set_shared_light([direct = context.direct] { return save_grid(*direct); });
+    std::vector<Gathered> all(candidates.size());
+    for (std::size_t begin = 0; begin < all.size(); begin += checkpoint_gathers) {
+        const std::span<Gathered> piece =
+            std::span(all).subspan(begin, std::min(checkpoint_gathers, all.size() - begin));
+        if (checkpoint.has_gathers()) {
+            const FrameCheckpoint::Gathers& saved = checkpoint.next_gathers();
+            restore_gathers(saved, piece, counts);
+            // Before the first round that had not ended.
+            const bool is_last = !saved.found.empty() || !checkpoint.has_gathers();
+            if (is_last && context.direct != nullptr) restore_grid(checkpoint.take_shared_light(), *context.direct);
+            continue;
+        }
+        RayCounts own;
+        std::ranges::move(gather_records(context, places, candidates.subspan(begin, piece.size()), own), piece.begin());
+        checkpoint.add_gathers(save_gathers(piece, own));
+        counts += own;
+        checkpoint.offer();
+        if (context.progress) context.progress(0.0, "fill");
+    }
+    return all;
+}
+
 /// Rounds over the tiles until every one is covered or has been tried. Returns the number of records added.
 std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, FillPlaces& places,
                        std::vector<glm::ivec2> tiles, FrameTally& tally) {
@@ -157,7 +229,8 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, F
         std::vector<Candidate> waiting = find_uncovered(cache, context, places.points, tiles, tally.counts);
         if (waiting.empty()) break;
         const std::vector<Candidate> accepted = accept_candidates(cache, context, places.rays, waiting);
-        auto records = gather_records(context, places, accepted, tally.counts.rays);
+        const bool keeps = context.checkpoint != nullptr && places.gathered == nullptr;
+        auto records = (keeps ? gather_with_checkpoint : gather_records)(context, places, accepted, tally.counts.rays);
         for (std::size_t i = 0; i < accepted.size(); ++i) {
             tally.records(accepted[i].x, accepted[i].y) += 1.0f;
             if (context.direct != nullptr) context.direct->insert(records[i].direct);
@@ -171,6 +244,8 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, F
         }
         tally.counts.records += accepted.size();
         ++tally.counts.cache.rounds;
+        if (keeps) context.checkpoint->end_round();
+        if (context.progress) context.progress(0.0, "fill");
         tiles.clear();
         for (const Candidate& candidate : waiting) tiles.push_back({candidate.x, candidate.y});
     }

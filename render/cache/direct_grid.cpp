@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 #include "engine/base/sampling.h"
 #include "render/cache/gather.h"
@@ -73,6 +74,20 @@ void DirectGrid::grow() {
     for (const Cell& cell : old) {
         if (cell.key != 0) place_of(cell.key) = cell;
     }
+}
+
+DirectGrid::State DirectGrid::save() const {
+    State state{{}, samples_};
+    std::ranges::copy_if(cells_, std::back_inserter(state.cells), [](const Cell& cell) { return cell.key != 0; });
+    return state;
+}
+
+void DirectGrid::restore(const State& state) {
+    cells_.assign(std::max(first_capacity, std::bit_ceil(2 * (state.cells.size() + 1))), {});
+    mask_ = cells_.size() - 1;
+    for (const Cell& cell : state.cells) place_of(cell.key) = cell;
+    used_ = state.cells.size();
+    samples_ = state.samples;
 }
 
 void DirectGrid::insert(std::span<const DirectSample> samples) {

@@ -72,6 +72,14 @@ class DirectGrid {
     /// Not while other threads use the grid. Samples that are not finite are left out.
     void insert(std::span<const DirectSample> samples);
 
+    /// All cells, and the samples in them, to go on with in another process.
+    struct State {
+        std::vector<Cell> cells;  ///< those that have samples
+        std::uint64_t samples = 0;
+    };
+    State save() const;
+    void restore(const State& state);
+
     std::size_t size() const { return used_; }  ///< number of cells
     std::uint64_t samples() const { return samples_; }
 

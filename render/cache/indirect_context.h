@@ -8,6 +8,7 @@
 #include "render/cache/irradiance_cache.h"
 #include "render/cache/multi_bounce_light.h"
 #include "render/light/light_choice.h"
+#include "render/pixels/frame_checkpoint.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/pixels/shaded_frame.h"
 #include "render/settings/settings.h"
@@ -36,10 +37,11 @@ struct IndirectContext {
     const LightingContext& lighting;
     const CameraView& view;
     const RenderSettings& settings;
-    const Image<float>& accuracy;  ///< alpha per pixel
-    std::uint32_t frame = 0;       ///< for random numbers
-    float max_radius = 1.0f;       ///< m, of records: scene_radius
-    FrameProgress progress;        ///< may be empty
+    const Image<float>& accuracy;           ///< alpha per pixel
+    std::uint32_t frame = 0;                ///< for random numbers
+    float max_radius = 1.0f;                ///< m, of records: scene_radius
+    FrameProgress progress;                 ///< may be empty
+    FrameCheckpoint* checkpoint = nullptr;  ///< keeps the results of gathers; may be null
     /// Direct light that gathers share; filled along with the cache. Null: each computes its own, without bias.
     DirectGrid* direct = nullptr;
     const CarriedLight* carried = nullptr;  ///< surfaces that it knows get no records; may be null
@@ -62,6 +64,7 @@ inline IndirectContext make_places_context(const IndirectContext& frame, const I
             .frame = frame.frame,
             .max_radius = frame.max_radius,
             .progress = {},
+            .checkpoint = frame.checkpoint,
             .direct = frame.direct,
             .bounces = frame.bounces};
 }

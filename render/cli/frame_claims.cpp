@@ -45,6 +45,10 @@ std::string identity_of(const ClaimedOutput& output) {
 
 }  // namespace
 
+fs::path checkpoint_file(const fs::path& file) {
+    return file.parent_path() / fmt::format(".{}.checkpoint", file.filename().string());
+}
+
 FrameClaims::FrameClaims(ClaimedOutput output)
     : output_(std::move(output)), locks_(lock_file(output_), identity_of(output_)) {
     if (!output_.resume) {
@@ -85,7 +89,10 @@ void FrameClaims::release(int frame) {
 
 void FrameClaims::remove_leftovers() {
     std::map<std::string, int> frames;
-    for (const int frame : output_.frames) frames[output_.file(frame).filename().string()] = frame;
+    for (const int frame : output_.frames) {
+        frames[output_.file(frame).filename().string()] = frame;
+        frames[checkpoint_file(output_.file(frame)).filename().string()] = frame;
+    }
     const fs::path folder = output_.file(output_.frames.front()).parent_path();
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {

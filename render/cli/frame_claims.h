@@ -12,6 +12,9 @@
 
 namespace aleph {
 
+/// Where the state of a frame is kept while it is made: ".name.0020.exr.checkpoint".
+std::filesystem::path checkpoint_file(const std::filesystem::path& file);
+
 /// Frames and their files.
 struct ClaimedOutput {
     std::vector<int> frames;

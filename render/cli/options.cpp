@@ -11,7 +11,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/json/close_names.h"
-#include "render/cli/stop_signals.h"
+#include "render/cli/render_signals.h"
 
 namespace aleph {
 

@@ -30,7 +30,8 @@ constexpr const char* render_footer =
     "--resume goes on where a render was stopped, by SIGTERM, SIGINT or anything else: each file has the fingerprint "
     "of "
     "what it was made from, and one that is cut or of something else is made again. SIGTERM and SIGINT then exit with "
-    "75, without --resume with 143 and 130. The rows of --stats and the light of --cache are kept.\n"
+    "75, without --resume or --checkpoint with 143 and 130. SIGUSR1 prints a line and writes the picture so far "
+    "(NAME.partial.EXT, until the frame is finished). The rows of --stats and the light of --cache are kept.\n"
     "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"
     "Examples:\n"
     "  aleph render scenes/pool/scene.json --frames 20 -o frame.exr                  no visible error\n"
@@ -86,6 +87,17 @@ void add_render_command(CLI::App& app, Command& command) {
     const auto verify = std::make_shared<std::optional<std::string>>();
     add_scene_options(*render, *options);
     render->add_flag("--aovs", *aovs, "also write the channels of `aleph maps` (EXR only)");
+    render
+        ->add_option_function<std::string>(
+            "--checkpoint",
+            [options](const std::string& text) {
+                options->checkpoint = parse_value<double>(text, "--checkpoint");
+                if (!(options->checkpoint > 0.0))
+                    throw CLI::ValidationError("--checkpoint", "expected seconds above 0");
+            },
+            "while a frame is made, keep its records and samples in a file every so many seconds, and when a signal "
+            "stops it: --resume goes on from there")
+        ->type_name("SECONDS");
     render
         ->add_option("--budget", *budget,
                      "seconds of a clock, with the threads given, that all the frames asked for may take, loading and "

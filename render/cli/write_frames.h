@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/frame_claims.h"
 #include "render/cli/frame_prints.h"
+#include "render/cli/frame_writer.h"
 #include "render/cli/scene_options.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
@@ -15,29 +15,6 @@
 #include "render/settings/measure.h"
 
 namespace aleph {
-
-/// A budget whose error has been chosen.
-struct Budget {
-    BudgetStatistics statistics;
-    StageClock clock;  ///< since the command began
-};
-
-/// Frames that are to be made, and what their files say of them.
-struct FrameJob {
-    const Scene& scene;  ///< its frame rate, viewing conditions and file
-    const RenderSettings& settings;
-    double exposure;  ///< factor on radiance
-    const std::vector<int>& frames;
-    const std::string& name;  ///< of the files, where --output does not say
-    std::function<FrameOutput(int frame, const FrameRequest& request)> make;
-    FrameClaims& claims;                                ///< which of them are to be made now
-    std::function<std::string(int frame)> fingerprint;  ///< of a frame's file
-    std::optional<Budget> budget = std::nullopt;
-    /// Checks the frames once they are written. @param estimated  share of the pixels that are beyond, where it is
-    /// known
-    std::function<VerifiedStatistics(std::optional<double> estimated)> verify = {};
-    std::function<void()> keep_light = {};  ///< called before a frame's file is written
-};
 
 /// Checks and tries --output, --stats and --cache, and makes their folders; called before anything is computed.
 /// @param maps  the files have channels of maps, which PNG and HDR cannot hold

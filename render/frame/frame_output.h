@@ -11,6 +11,7 @@
 #include "motion/motion_field.h"
 #include "perception/perception.h"
 #include "perception/sanitize.h"
+#include "render/pixels/frame_checkpoint.h"
 #include "render/pixels/shaded_frame.h"
 #include "render/plan/effects_plan.h"
 
@@ -54,7 +55,9 @@ struct FrameStatistics {
 struct FrameRequest {
     bool frame = true;       ///< the picture
     bool maps = false;       ///< every map of perception and motion, with the hidden pixels in motion.validity
-    FrameProgress progress;  ///< may be empty
+    FrameProgress progress{};  ///< may be empty; what it throws ends the frame
+    FrameCheckpoint* checkpoint = nullptr;  ///< keeps the state of the frame while it is made; null: it is not kept
+    PartialPicture partial{};
 };
 
 /// What each pixel may err by.

@@ -74,7 +74,8 @@ SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const Fr
 }
 
 void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepared, const CarriedLight* carried,
-                    SampleOptions options, const FrameProgress& progress) {
+                    SampleOptions options, const FrameRequest& request) {
+    options.partial = &request.partial;
     FrameOutput& out = prepared.out;
     const Image<Outline> outlines = find_visible_outlines(s.shot, prepared);
     const VisibleLimits limits{
@@ -94,7 +95,8 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
                                   .accuracy = out.limits.alpha,
                                   .frame = s.shot.noise_key(frame),
                                   .max_radius = scene_radius(lighting.shading),
-                                  .progress = progress,
+                                  .progress = request.progress,
+                                  .checkpoint = request.checkpoint,
                                   .carried = carried};
     out.shaded = shade_frame(context, prepared.centers, s.shot.exposure, options);
     FrameStatistics& stats = out.statistics;
@@ -123,7 +125,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
         total = {};
         s.here.leave_out(plan.effects);
         options.record_maps = request.maps;
-        shade_prepared(s, frame, prepared, carried.get(), options, request.progress);
+        shade_prepared(s, frame, prepared, carried.get(), options, request);
     }
     if (request.maps) {
         const ShadingScene& shading = s.here.shading();

@@ -45,7 +45,7 @@ std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t 
 /// Fills the cache, shades the picture and adds their times and counts to the frame's statistics.
 /// @param carried  light of lighting keyframes; may be null
 void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepared, const CarriedLight* carried,
-                    SampleOptions options, const FrameProgress& progress = {});
+                    SampleOptions options, const FrameRequest& request = {});
 
 /// A frame by itself, whether or not it is in a static span.
 FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameRequest& request);

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/guide/error_report.h"
 #include "render/guide/mean_around.h"
@@ -20,9 +21,16 @@ namespace aleph {
 
 namespace {
 
-constexpr double fill_share = 0.3;                      // of a frame's time, for progress only
-constexpr std::size_t task_ranges = 64;                 // pixels of a task
-constexpr std::size_t slice_ranges = 64 * task_ranges;  // between reports of progress
+constexpr double fill_share = 0.3;            // of a frame's time, for progress only
+constexpr std::size_t most_task_ranges = 64;  // pixels of a task
+constexpr double task_samples = 4096.0;
+constexpr std::size_t tasks_of_slice = 64;  // between reports of progress
+
+/// Pixels of a task: so many that tasks take about equal times.
+std::size_t find_task_ranges(std::span<const PixelRange> ranges) {
+    const double mean = sum_samples(ranges) / static_cast<double>(ranges.size());
+    return std::clamp<std::size_t>(static_cast<std::size_t>(task_samples / mean), 1, most_task_ranges);
+}
 
 class FrameShading {
   public:
@@ -66,7 +74,8 @@ class FrameShading {
             if (options_.estimate != nullptr && context_.settings.light.integrator == Integrator::cache)
                 textures_.emplace(shading, context_.view, centers, *options_.estimate, exposure_);
         }
-        sample_by_stages(plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
+        sample_by_stages(
+            plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); }, restore());
     }
 
     void resolve() {
@@ -89,10 +98,54 @@ class FrameShading {
         return place;
     }
 
+    /// The samples that an earlier process left. @return its stage; empty: there are none
+    std::vector<PixelRange> restore() {
+        if (context_.checkpoint == nullptr) return {};
+        const std::string samples = context_.checkpoint->take_samples();
+        if (samples.empty()) return {};
+        ByteReader in(samples);
+        std::vector<PixelRange> stage = in.read_all<PixelRange>();
+        skip_ = in.read<std::size_t>();
+        pixels_.pixels = in.read_all<PixelSamples>();
+        out_.counts = in.read<FrameCounts>();
+        out_.invalid_samples.pixels = in.read_all<float>();
+        integrator_->restore(in);
+        if (textures_) textures_->restore(in);
+        ALEPH_CHECK(in.is_good() && pixels_.pixels.size() == out_.records.size(), "samples of a checkpoint");
+        return stage;
+    }
+
+    std::string save(std::span<const PixelRange> stage) const {
+        ByteWriter out;
+        out.add(std::vector(stage.begin(), stage.end()));
+        out.add(slices_);
+        out.add(pixels_.pixels);
+        out.add(out_.counts);
+        out.add(out_.invalid_samples.pixels);
+        integrator_->save(out);
+        if (textures_) textures_->save(out);
+        return out.take();
+    }
+
+    void show_picture() {
+        Image<Rgb> color(pixels_.width, pixels_.height);
+        for (std::size_t i = 0; i < color.size(); ++i)
+            color.pixels[i] = pixels_.pixels[i].mean() * static_cast<float>(exposure_);
+        options_.partial->show(color);
+    }
+
+    /// Between slices: what others want of the state.
+    void offer() {
+        ++slices_;
+        if (context_.checkpoint != nullptr) context_.checkpoint->offer([&] { return save(stage_); });
+        if (options_.partial != nullptr && options_.partial->is_wanted && options_.partial->is_wanted()) show_picture();
+    }
+
     /// Takes the samples of a stage.
     void take(std::span<const PixelRange> ranges) {
-        const std::size_t before = std::exchange(stage_pixels_, ranges.size());
-        if (textures_) textures_->choose(ranges, pixels_);
+        const std::size_t before = std::exchange(stage_, ranges).size();
+        slices_ = 0;
+        if (textures_ && skip_ == 0) textures_->choose(ranges, pixels_);
         expected_ = taken_ + sum_samples(ranges);
         if (!plan_.tolerance.empty()) expected_ += predict_samples(ranges, before, plan_.most);
         if (!options_.at_sample) {
@@ -104,13 +157,21 @@ class FrameShading {
 
     void take_at(const SampleScene& scene, std::span<const PixelRange> ranges) {
         integrator_->begin(scene);
+        const std::size_t task_ranges = find_task_ranges(ranges), slice_ranges = tasks_of_slice * task_ranges;
         for (std::size_t begin = 0; begin < ranges.size(); begin += slice_ranges) {
             const auto slice = ranges.subspan(begin, std::min(slice_ranges, ranges.size() - begin));
+            if (skip_ > 0) {  // an earlier process has taken it
+                --skip_;
+                ++slices_;
+                taken_ += sum_samples(slice);
+                continue;
+            }
             parallel_for(slice.size(), task_ranges, [&](std::size_t first, std::size_t last) {
                 ShadingTask task(scene.lighting.rays, context_.lighting.rays);
                 take_ranges(scene, task, slice.subspan(first, last - first));
                 finish(task);
             });
+            offer();
             report_progress(slice);
         }
     }
@@ -208,7 +269,9 @@ class FrameShading {
     SampleHits cast_first_;
     double taken_ = 0.0, expected_ = 0.0;  ///< samples so far, and in the end, for progress only
     double done_ = 0.0;                    ///< share of them
-    std::size_t stage_pixels_ = 0;         ///< of the last stage
+    std::span<const PixelRange> stage_;    ///< pixels of the last stage
+    std::size_t slices_ = 0;               ///< of the stage that are finished
+    std::size_t skip_ = 0;                 ///< slices of the stage that an earlier process has finished
     std::mutex mutex_;
 };
 

@@ -21,10 +21,11 @@ struct SampleOptions {
     const KeyframeRisk* risk = nullptr;  ///< of carried light; null: it need not be checked
     /// Errors that the samples may have; null: not known, which Sampling::uniform alone allows.
     const VisibleLimits* limits = nullptr;
-    const Image<Rgb>* estimate = nullptr;  ///< of the frame, with exposure; null: there is none
-    const PicturePart* part = nullptr;  ///< pixels that are lit and shaded; null: all
-    bool part_picture = false;          ///< a part has a picture too, 0 elsewhere
-    bool light_only = false;            ///< the cache is filled, and nothing shaded
+    const Image<Rgb>* estimate = nullptr;     ///< of the frame, with exposure; null: there is none
+    const PicturePart* part = nullptr;        ///< pixels that are lit and shaded; null: all
+    bool part_picture = false;                ///< a part has a picture too, 0 elsewhere
+    bool light_only = false;                  ///< the cache is filled, and nothing shaded
+    const PartialPicture* partial = nullptr;  ///< shows the picture so far; may be null
 };
 
 /// Shades a frame. With Integrator::cache it fills a cache first; with accuracy 0, irradiance is gathered at every

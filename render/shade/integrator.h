@@ -30,6 +30,10 @@ class LightIntegrator {
     virtual void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel,
                        SampleLight& light) = 0;
 
+    /// What samples have left beside the pixels, for a checkpoint.
+    virtual void save(ByteWriter&) const {}
+    virtual void restore(ByteReader&) {}
+
     /// Makes the frame's images.
     virtual void resolve(const Image<PixelSamples>& pixels, double exposure) = 0;
 };

@@ -91,8 +91,9 @@ void take_in_turn(std::span<const PixelRange> ranges, const TakeSample& take) {
     }
 }
 
-void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take) {
-    std::vector<PixelRange> stage = first_ranges(plan, pixels);
+void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take,
+                      std::vector<PixelRange> begin) {
+    std::vector<PixelRange> stage = begin.empty() ? first_ranges(plan, pixels) : std::move(begin);
     while (!stage.empty()) {
         take(stage);
         if (plan.tolerance.empty()) return;

@@ -47,6 +47,8 @@ using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;
 /// threads. A pixel that stopped never goes on: it would when its neighbours, which go on because of its own rare
 /// bright sample, meet another, and then that sample is averaged away.
 /// @param pixels  what `take` adds to; read between stages
-void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take);
+/// @param begin   the stage to begin with; empty: the first
+void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take,
+                      std::vector<PixelRange> begin = {});
 
 }  // namespace aleph

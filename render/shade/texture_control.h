@@ -5,6 +5,7 @@
 
 #include <span>
 
+#include "render/pixels/frame_checkpoint.h"
 #include "render/pixels/pixel_samples.h"
 #include "render/pixels/pixel_sequence.h"
 #include "render/pixels/pixel_surfaces.h"
@@ -58,6 +59,9 @@ class TextureControl {
     /// Leaves out the pixels of a stage where it does not pay: where the errors of the means around would hardly be
     /// larger without corrections.
     void choose(std::span<const PixelRange> stage, const Image<PixelSamples>& pixels);
+
+    void save(ByteWriter& out) const { out.add(corrects_.pixels); }
+    void restore(ByteReader& in) { corrects_.pixels = in.read_all<std::uint8_t>(); }
 
   private:
     const ShadingScene& shading_;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/image/image_file.h"
 #include "tests/support/run_command.h"
 #include "tests/support/started_program.h"
 
@@ -213,6 +214,44 @@ TEST_F(KilledRender, TwoProcessesDivideTheFramesOrRefuse) {
     program.wait();
     EXPECT_EQ(run(words("4000", folder_ / "out/f.####.exr", {"--seed", "2"})).code, 0);
     for (const std::string& name : names_in(folder_ / "out")) EXPECT_FALSE(name.starts_with('.')) << name;
+}
+
+TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
+    // Later options count. The frame takes seconds, in which it is asked how far it is, stopped, killed and finished.
+    const auto long_frame = [&](const fs::path& output, const Words& more) {
+        Words words = this->words("7", output, {"--size", "120x90", "--spp", "60", "--accuracy", "0"});
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    const fs::path file = folder_ / "out/f.exr", state = folder_ / "out/.f.exr.checkpoint";
+    ASSERT_EQ(run(long_frame(folder_ / "whole/f.exr", {})).code, 0);
+    const Words kept = long_frame(file, {"--checkpoint", "0.05"});
+    {
+        FolderEvents events(folder_ / "out");
+        StartedProgram program(kept, folder_ / "log");
+        ASSERT_TRUE(events.wait(IN_MOVED_TO, 1, program)) << "no state was written";
+        program.send(SIGUSR1);
+        while (!fs::exists(folder_ / "out/f.partial.exr")) ASSERT_TRUE(events.wait(IN_MOVED_TO, 1, program));
+        program.send(SIGTERM);
+        const Ended ended = program.wait();
+        EXPECT_EQ(ended.code, 75);
+        EXPECT_NE(ended.err.find("0 of 1 frames are finished; frame 7: shade"), std::string::npos) << ended.err;
+        EXPECT_EQ(names_in(folder_ / "out"), (Words{".f.exr.checkpoint", "f.partial.exr"}));
+        EXPECT_EQ(read_image(folder_ / "out/f.partial.exr").channels.size(), 3u);
+    }
+    const std::string first = read_bytes(state);
+    Words resumed = kept;
+    resumed.push_back("--resume");
+    {
+        FolderEvents events(folder_ / "out");
+        StartedProgram program(resumed, folder_ / "log");
+        ASSERT_TRUE(events.wait(IN_MOVED_TO, 1, program));
+        program.send(SIGKILL);
+        program.wait();
+    }
+    EXPECT_NE(read_bytes(state), first) << "it went on";
+    EXPECT_EQ(run(resumed).code, 0);
+    expect_whole();
 }
 
 TEST_F(KilledRender, WhatCannotBeResumedIsSaid) {

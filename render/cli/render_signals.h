@@ -1,5 +1,5 @@
 #pragma once
-// Signals that end a render in good order: SIGTERM and SIGINT. What is finished then stays, and is said.
+// Signals while frames are made: SIGTERM and SIGINT end it in good order, SIGUSR1 asks how far it is.
 
 #include <array>
 #include <csignal>
@@ -20,18 +20,20 @@ class Stopped : public std::runtime_error {
 
 /// Takes SIGTERM and SIGINT during its lifetime, one object at a time, unless they are ignored. A second SIGINT ends
 /// the program at once.
-class StopSignals {
+class RenderSignals {
   public:
-    StopSignals();
-    ~StopSignals();
-    StopSignals(const StopSignals&) = delete;
-    StopSignals& operator=(const StopSignals&) = delete;
+    RenderSignals();
+    ~RenderSignals();
+    RenderSignals(const RenderSignals&) = delete;
+    RenderSignals& operator=(const RenderSignals&) = delete;
 
-    /// The signal that arrived, or 0.
+    /// SIGTERM or SIGINT, whichever arrived first, or 0.
     int received() const;
+    /// Returns whether SIGUSR1 has arrived since this was called last.
+    bool take_status_request();
 
   private:
-    std::array<struct sigaction, 2> before_{};
+    std::array<struct sigaction, 3> before_{};
 };
 
 }  // namespace aleph

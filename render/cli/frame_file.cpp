@@ -1,0 +1,111 @@
+#include "render/cli/frame_file.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "engine/image/image_file.h"
+#include "render/cli/output_path.h"
+#include "render/output/flow_file.h"
+#include "render/output/frame_files.h"
+#include "render/output/map_preview.h"
+#include "render/settings/fingerprint.h"
+#include "render/settings/measure.h"
+
+namespace aleph {
+
+namespace {
+
+ChannelImage with_texts(ChannelImage image, const PictureTexts& texts) {
+    for (const auto& [key, text] : texts) image.metadata[key] = text;
+    return image;
+}
+
+/// EXR: the channel Y. PNG: grey, its bytes in proportion to the values.
+void write_importance(const std::filesystem::path& path, const FrameOutput& output, const PictureTexts& texts) {
+    const Image<float> importance = make_importance(output.perception.aleph);
+    if (output_format(path) == OutputFormat::exr) {
+        ChannelImage file;
+        file.channels.push_back({"Y", importance});
+        write_exr(path, with_texts(std::move(file), texts));
+        return;
+    }
+    Image<Rgb> grey(importance.width, importance.height);
+    for (std::size_t i = 0; i < grey.size(); ++i) grey.pixels[i] = Rgb(srgb_to_linear(importance.pixels[i]));
+    write_png(path, grey, texts);
+}
+
+/// "name.0020.partial.exr"
+std::filesystem::path partial_file(const std::filesystem::path& file) {
+    return file.parent_path() / fmt::format("{}.partial{}", file.stem().string(), file.extension().string());
+}
+
+ChannelImage color_image(const Image<Rgb>& color) {
+    ChannelImage image;
+    for (int c = 0; c < 3; ++c) {
+        Image<float> channel(color.width, color.height);
+        for (std::size_t i = 0; i < color.size(); ++i) channel.pixels[i] = color.pixels[i][c];
+        image.channels.push_back({std::string(1, "RGB"[c]), std::move(channel)});
+    }
+    return image;
+}
+
+}  // namespace
+
+std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
+                        bool importance, const std::string& fingerprint) {
+    StageClock clock;
+    std::size_t changed = 0;
+    const PictureTexts texts{{fingerprint_key, fingerprint}};
+    switch (output_format(path)) {
+        case OutputFormat::flow:
+            write_flow(path, output.motion);
+            break;
+        case OutputFormat::png:
+            if (importance) {
+                write_importance(path, output, texts);
+            } else if (output.shaded.color.empty()) {
+                write_map_preview(path, output, texts);
+            } else {
+                write_png(path, output.shaded.color, texts);
+            }
+            break;
+        case OutputFormat::hdr:
+            changed = write_hdr(path, output.shaded.color, texts);
+            break;
+        case OutputFormat::exr:
+            if (importance) {
+                write_importance(path, output, texts);
+            } else {
+                write_exr(path,
+                          with_texts(make_frame_image(output, maps, job.scene, job.settings, job.exposure), texts));
+            }
+            break;
+    }
+    StageSeconds& seconds = output.statistics.seconds;
+    clock.add_to(seconds.write);
+    seconds.total += seconds.write;
+    return changed;
+}
+
+void remove_partial(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::filesystem::remove(partial_file(file), ignored);
+}
+
+void write_partial(const std::filesystem::path& file, const Image<Rgb>& color) {
+    const std::filesystem::path partial = partial_file(file);
+    switch (output_format(file)) {
+        case OutputFormat::png:
+            return write_png(partial, color);
+        case OutputFormat::hdr:
+            write_hdr(partial, color);
+            return;
+        case OutputFormat::exr:
+            return write_exr(partial, color_image(color));
+        case OutputFormat::flow:
+            return;
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,25 @@
+#pragma once
+// The file of one frame, and what lies beside it while the frame is made.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "render/cli/frame_writer.h"
+
+namespace aleph {
+
+/// Writes a frame, and adds the time for it to the frame's statistics.
+/// @param importance   one picture in place of the maps
+/// @param fingerprint  kept in the file
+/// @return how many values the format could not hold
+/// @throws OutputError
+std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
+                        bool importance, const std::string& fingerprint);
+
+/// Writes the picture so far beside the frame's file, as "name.0020.partial.exr".
+/// @throws OutputError
+void write_partial(const std::filesystem::path& file, const Image<Rgb>& color);
+void remove_partial(const std::filesystem::path& file);
+
+}  // namespace aleph

@@ -1,0 +1,195 @@
+#include "render/cli/frame_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <numeric>
+#include <thread>
+#include <utility>
+
+#include "engine/base/errors.h"
+#include "render/cli/frame_file.h"
+#include "render/cli/output_path.h"
+#include "render/guide/error_report.h"
+
+namespace aleph {
+
+namespace {
+
+void warn_of_changed_values(std::size_t count) {
+    if (count == 0) return;
+    std::cerr << fmt::format(
+        "aleph: warning: {} values were below 0, NaN or too large for .hdr files, and were changed; write .exr to keep "
+        "them\n",
+        count);
+}
+
+/// Thresholds of vision are in cd/m2. In a scene of another unit every pixel is above or below all of them.
+void warn_of_units(const FrameStatistics& frame) {
+    const double median = frame.estimate.median_luminance;
+    if (median == 0.0 || (median >= 1e-3 && median <= 1e4)) return;
+    std::cerr << fmt::format(
+        "aleph: warning: frame {}: the median luminance is {:.3g} cd/m2, outside 1e-3 to 1e4: check \"exposure\" and "
+        "\"display_white\" of the scene\n",
+        frame.frame, median);
+}
+
+/// Prints the share of the pixels that is estimated to err by more than was asked for, and why.
+void print_error(const FrameStatistics& frame) {
+    if (!frame.error) return;
+    const ErrorShares& shares = *frame.error;
+    std::string causes;
+    for (std::size_t i = 0; i < cause_count; ++i) {
+        if (shares.by_cause[i] < 1e-5) continue;
+        causes += fmt::format("{}{} {:.2g} %", causes.empty() ? "; alone: " : ", ", cause_names()[i],
+                              100.0 * shares.by_cause[i]);
+    }
+    std::cerr << fmt::format(
+        "aleph: frame {}: about {:.2g} % of the pixels err by more than {:g} visible threshold{}{}\n", frame.frame,
+        100.0 * shares.beyond, shares.asked, shares.asked == 1.0 ? "" : "s", causes);
+}
+
+}  // namespace
+
+FrameWriter::FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request,
+                         const std::optional<BudgetStatistics>& budget)
+    : job_(job),
+      options_(options),
+      request_(request),
+      statistics_(options.stats, job.scene, job.settings, job.exposure, budget) {
+    if (options.resume && !options.stats.empty()) rows_ = read_statistics_rows(options.stats);
+}
+
+void FrameWriter::make_all() {
+    RenderSignals signals;
+    Progress progress(request_.frame ? "render" : "maps", static_cast<double>(job_.frames.size()),
+                      progress_look(options_.quiet));
+    std::vector<std::size_t> left(job_.frames.size());
+    std::iota(left.begin(), left.end(), 0);
+    while (!left.empty()) {
+        const std::size_t before = left.size();
+        std::erase_if(left, [&](std::size_t place) { return !is_busy(place, progress, signals); });
+        if (left.size() < before || left.empty()) continue;
+        stop_if_asked(signals);
+        progress.update(done_, fmt::format("frame {}: another process makes it", job_.frames[left.front()]));
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+}
+
+void FrameWriter::finish() {
+    keep_rows();
+    statistics_.finish();
+    if (options_.quiet) return;
+    warn_of_changed_values(changed_);
+    std::cerr << describe_copies(made_);
+    print_files();
+}
+
+bool FrameWriter::is_busy(std::size_t place, Progress& progress, RenderSignals& signals) {
+    const int frame = job_.frames[place];
+    const Claim claim = job_.claims.claim(frame);
+    if (claim == Claim::busy) return true;
+    if (claim == Claim::ours) {
+        make(place, progress, signals);
+        job_.claims.release(frame);
+    } else {
+        kept_.push_back(place);
+        keep_row(place);
+    }
+    progress.update(++done_, fmt::format("frame {}", frame));
+    return false;
+}
+
+void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& signals) {
+    const int frame = job_.frames[place];
+    const std::filesystem::path file = output_path(options_.output, job_.name, frame);
+    const std::string fingerprint = job_.fingerprint(frame);
+    std::optional<FrameCheckpoint> checkpoint;
+    StageClock since;
+    double waited = 0.0;
+    const auto is_due = [&] {
+        since.add_to(waited);
+        const bool is_time = options_.checkpoint > 0.0 && waited >= options_.checkpoint;
+        if (!is_time && signals.received() == 0) return false;
+        waited = 0.0;
+        return true;
+    };
+    if (options_.checkpoint > 0.0 || (options_.resume && std::filesystem::exists(checkpoint_file(file))))
+        checkpoint.emplace(checkpoint_file(file), fingerprint, is_due);
+    bool wants_picture = false;
+    FrameRequest watched = request_;
+    watched.progress = [&](double fraction, const char* stage) {
+        stop_if_asked(signals);
+        if (signals.take_status_request()) {
+            wants_picture = true;
+            print_status(frame, stage, fraction);
+        }
+        progress.update(done_ + fraction, fmt::format("frame {}: {}", frame, stage));
+    };
+    watched.checkpoint = checkpoint ? &*checkpoint : nullptr;
+    watched.partial.is_wanted = [&] { return std::exchange(wants_picture, false); };
+    watched.partial.show = [&](const Image<Rgb>& color) { write_partial(file, color); };
+    stop_if_asked(signals);
+    FrameOutput output = job_.make(frame, watched);
+    if (job_.keep_light) job_.keep_light();
+    statistics_.note(output.statistics, fingerprint);
+    changed_ += write_frame(file, job_, output, request_.maps, options_.importance, fingerprint);
+    if (checkpoint) checkpoint->remove();
+    remove_partial(file);
+    statistics_.add(place, output.statistics, fingerprint);
+    if (made_.empty() && !options_.quiet) warn_of_units(output.statistics);
+    estimate_.add(output.statistics);
+    made_.push_back({frame, output.statistics.copy_of});
+    if (!options_.quiet && job_.settings.error > 0.0) print_error(output.statistics);
+}
+
+void FrameWriter::print_status(int frame, const char* stage, double fraction) const {
+    std::cerr << fmt::format("aleph: {} of {} frames are finished; frame {}: {}, {:.0f} %\n",
+                             kept_.size() + made_.size(), job_.frames.size(), frame, stage, 100.0 * fraction);
+}
+
+void FrameWriter::stop_if_asked(const RenderSignals& signals) const {
+    if (signals.received() == 0) return;
+    const bool again = options_.resume || options_.checkpoint > 0.0;
+    throw Stopped(fmt::format("stopped by {}: {} of {} frames are finished; {}",
+                              signals.received() == SIGINT ? "SIGINT" : "SIGTERM", kept_.size() + made_.size(),
+                              job_.frames.size(),
+                              options_.resume ? "the same command goes on with the others"
+                                              : "the same command with --resume makes the others"),
+                  again ? static_cast<int>(exit_again) : 128 + signals.received());
+}
+
+bool FrameWriter::keep_row(std::size_t place) {
+    if (options_.stats.empty()) return true;
+    const auto row = rows_.find(job_.fingerprint(job_.frames[place]));
+    if (row != rows_.end()) statistics_.keep(place, row->second);
+    return row != rows_.end();
+}
+
+void FrameWriter::keep_rows() {
+    if (options_.stats.empty() || kept_.empty()) return;
+    rows_.merge(read_statistics_rows(options_.stats));
+    const auto missing = std::ranges::count_if(kept_, [this](std::size_t place) { return !keep_row(place); });
+    if (missing == 0 || options_.quiet) return;
+    std::cerr << fmt::format("aleph: warning: there are no statistics of {} frame{} that {} finished before\n", missing,
+                             missing == 1 ? "" : "s", missing == 1 ? "was" : "were");
+}
+
+void FrameWriter::print_files() const {
+    const auto file = [&](int frame) {
+        return printable(output_path(options_.output, job_.name, frame).string(), 400);
+    };
+    std::string text = fmt::format("aleph: wrote {}", file(job_.frames.front()));
+    if (job_.frames.size() > 1) text += fmt::format(" to {} ({} frames)", file(job_.frames.back()), job_.frames.size());
+    if (!kept_.empty()) text += fmt::format(", {} of them finished before or by other processes", kept_.size());
+    if (!options_.stats.empty()) text += fmt::format(", statistics in {}", printable(options_.stats, 400));
+    std::cerr << text << "\n";
+    if (job_.claims.replaced() == 0) return;
+    std::cerr << fmt::format("aleph: replaced {} file{}: cut, or of another scene, other settings or another program\n",
+                             job_.claims.replaced(), job_.claims.replaced() == 1 ? "" : "s");
+}
+
+}  // namespace aleph

@@ -1,0 +1,97 @@
+#pragma once
+// Makes the frames that are not finished, writes each to its file, and says how far it is.
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/cli/copied_frames.h"
+#include "render/cli/frame_claims.h"
+#include "render/cli/progress.h"
+#include "render/cli/render_signals.h"
+#include "render/cli/scene_options.h"
+#include "render/cli/statistics_file.h"
+#include "render/frame/frame_output.h"
+#include "render/output/frame_files.h"
+#include "render/output/verified_statistics.h"
+#include "render/settings/measure.h"
+
+namespace aleph {
+
+/// A budget whose error has been chosen.
+struct Budget {
+    BudgetStatistics statistics;
+    StageClock clock;  ///< since the command began
+};
+
+/// Frames that are to be made, and what their files say of them.
+struct FrameJob {
+    const Scene& scene;  ///< its frame rate, viewing conditions and file
+    const RenderSettings& settings;
+    double exposure;  ///< factor on radiance
+    const std::vector<int>& frames;
+    const std::string& name;  ///< of the files, where --output does not say
+    std::function<FrameOutput(int frame, const FrameRequest& request)> make;
+    FrameClaims& claims;                                ///< which of them are to be made now
+    std::function<std::string(int frame)> fingerprint;  ///< of a frame's file
+    std::optional<Budget> budget = std::nullopt;
+    /// Checks the frames once they are written. @param estimated  share of the pixels that are beyond, where it is
+    /// known
+    std::function<VerifiedStatistics(std::optional<double> estimated)> verify = {};
+    std::function<void()> keep_light = {};  ///< called before a frame's file is written
+};
+
+/// Share of the pixels of all frames that are estimated to err by more than was asked for, as far as frames tell.
+class MeanEstimate {
+  public:
+    void add(const FrameStatistics& frame) {
+        if (!frame.error) return;
+        sum_ += frame.error->beyond;
+        ++frames_;
+    }
+    std::optional<double> mean() const { return frames_ > 0 ? std::optional(sum_ / frames_) : std::nullopt; }
+
+  private:
+    double sum_ = 0.0;
+    int frames_ = 0;
+};
+
+class FrameWriter {
+  public:
+    FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request,
+                const std::optional<BudgetStatistics>& budget);
+    /// @throws Stopped
+    void make_all();
+    void finish();
+
+    StatisticsFile& statistics() { return statistics_; }
+    std::optional<double> estimate() const { return estimate_.mean(); }
+
+  private:
+    /// Makes the frame unless it is finished. Returns whether another process makes it.
+    bool is_busy(std::size_t place, Progress& progress, RenderSignals& signals);
+    void make(std::size_t place, Progress& progress, RenderSignals& signals);
+    void print_status(int frame, const char* stage, double fraction) const;
+    void stop_if_asked(const RenderSignals& signals) const;
+    /// Keeps the statistics of a frame that was finished before. Returns whether there are any.
+    bool keep_row(std::size_t place);
+    /// The same for frames of other processes, which have written theirs meanwhile.
+    void keep_rows();
+    /// Says at the end which files there are now.
+    void print_files() const;
+
+    const FrameJob& job_;
+    const SceneOptions& options_;
+    const FrameRequest& request_;
+    StatisticsFile statistics_;
+    std::map<std::string, std::string> rows_;  ///< of an earlier run, by fingerprint
+    std::vector<FinishedFrame> made_;
+    std::vector<std::size_t> kept_;  ///< places of frames that others made
+    double done_ = 0.0;              ///< frames
+    std::size_t changed_ = 0;
+    MeanEstimate estimate_;
+};
+
+}  // namespace aleph

@@ -1,0 +1,49 @@
+#include "render/cli/render_signals.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr std::array taken{SIGTERM, SIGINT, SIGUSR1};
+volatile std::sig_atomic_t received_signal = 0, status_requests = 0;
+
+extern "C" void note_signal(int signal) {
+    if (signal == SIGUSR1) {
+        status_requests = 1;
+    } else if (received_signal == 0) {
+        received_signal = signal;
+    } else if (signal == SIGINT) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+}
+
+}  // namespace
+
+RenderSignals::RenderSignals() {
+    received_signal = 0;
+    status_requests = 0;
+    struct sigaction action {};
+    action.sa_handler = note_signal;
+    action.sa_flags = SA_RESTART;
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+        ::sigaction(taken[i], nullptr, &before_[i]);
+        if (before_[i].sa_handler != SIG_IGN) ::sigaction(taken[i], &action, nullptr);
+    }
+}
+
+RenderSignals::~RenderSignals() {
+    for (std::size_t i = 0; i < taken.size(); ++i) ::sigaction(taken[i], &before_[i], nullptr);
+}
+
+int RenderSignals::received() const {
+    return received_signal;
+}
+
+bool RenderSignals::take_status_request() {
+    const bool requested = status_requests != 0;
+    status_requests = 0;
+    return requested;
+}
+
+}  // namespace aleph

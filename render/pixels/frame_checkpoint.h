@@ -1,0 +1,133 @@
+#pragma once
+// The state of a frame that is not finished, in a file, so that another process goes on from there: the results of
+// irradiance gathers in the order in which they were computed, and the samples of all pixels. What is computed quickly
+// is computed again.
+
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "engine/base/color.h"
+#include "engine/base/image.h"
+
+namespace aleph {
+
+/// Plain values as bytes, in the order of the machine.
+class ByteWriter {
+  public:
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void add(const T& value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void add(const std::vector<T>& values) {
+        add(values.size());
+        bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    }
+    void add_text(std::string_view text) {
+        add(text.size());
+        bytes_ += text;
+    }
+    std::string take() { return std::move(bytes_); }
+
+  private:
+    std::string bytes_;
+};
+
+/// Reads what ByteWriter wrote. Bytes that are not enough make is_good() false, and values their defaults.
+class ByteReader {
+  public:
+    explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+
+    template <class T>
+    T read() {
+        T value{};
+        const std::string_view found = take(sizeof value);
+        if (good_) std::memcpy(static_cast<void*>(&value), found.data(), sizeof value);
+        return value;
+    }
+    template <class T>
+    std::vector<T> read_all() {
+        const auto count = read<std::size_t>();
+        if (count > bytes_.size() / sizeof(T)) good_ = false;
+        std::vector<T> values(good_ ? count : 0);
+        const std::string_view found = take(values.size() * sizeof(T));
+        if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), found.data(), found.size());
+        return values;
+    }
+    std::string_view read_text() { return take(read<std::size_t>()); }
+    bool is_good() const { return good_; }
+    bool at_end() const { return bytes_.empty(); }
+
+  private:
+    std::string_view take(std::size_t size) {
+        good_ = good_ && size <= bytes_.size();
+        const std::string_view found = bytes_.substr(0, good_ ? size : 0);
+        bytes_.remove_prefix(found.size());
+        return found;
+    }
+
+    std::string_view bytes_;
+    bool good_ = true;
+};
+
+class FrameCheckpoint {
+  public:
+    /// Reads the state that an earlier process left, if the file is whole and of this identity; any other is ignored.
+    /// @param identity  what the frame is made from
+    /// @param is_due    asked between pieces of work: the state is to be written now
+    FrameCheckpoint(std::filesystem::path file, std::string identity, std::function<bool()> is_due);
+
+    /// Results of some gathers. Gathers of one round do not see what the others found: that is kept apart until the
+    /// round has ended, and is then part of the light that gathers share.
+    struct Gathers {
+        std::string results;
+        std::string found;  ///< empty: the round has ended
+    };
+    /// Returns whether an earlier process computed the next gathers.
+    bool has_gathers() const { return next_ < gathers_.size(); }
+    const Gathers& next_gathers() { return gathers_.at(next_++); }
+    void add_gathers(Gathers gathers);
+    /// Drops what the gathers of this round found.
+    void end_round();
+
+    /// The light that gathers shared when the earlier process wrote the file: once; empty afterwards.
+    std::string take_shared_light() { return std::exchange(light_, {}); }
+    /// Sets how this state is found. Called when the file is written, until the frame is finished.
+    void set_shared_light(std::function<std::string()> find) { find_light_ = std::move(find); }
+
+    /// The samples of the earlier process, once; empty: none.
+    std::string take_samples();
+
+    /// Writes the state if that is due and nothing of the earlier process is left to be taken.
+    /// @param find_samples  may be empty: samples have not begun
+    /// @throws OutputError
+    void offer(const std::function<std::string()>& find_samples = {});
+
+    /// Removes the file: the frame is finished.
+    void remove() const;
+
+  private:
+    const std::filesystem::path file_;
+    const std::string identity_;
+    const std::function<bool()> is_due_;
+    std::vector<Gathers> gathers_;
+    std::size_t next_ = 0;   ///< of gathers_
+    std::size_t round_ = 0;  ///< the first of the present round
+    std::string light_, samples_;
+    std::function<std::string()> find_light_;
+};
+
+/// Shows the picture so far while a frame is made; functions may be empty.
+struct PartialPicture {
+    std::function<bool()> is_wanted;  ///< asked between pieces of work
+    std::function<void(const Image<Rgb>& color)> show;
+};
+
+}  // namespace aleph
