@@ -191,6 +191,8 @@ silent aleph render first.json --frames 0-1 "${quick[@]}" --seed 5 -q -o other/
 answers 1 'frames differ; the largest difference is in frame' aleph compare 'both/first.####.exr' other/
 is [ "$(grep -cE '^ *[01] ' output)" = 2 ]
 answers 0 'same' aleph compare 'both/first.####.exr' new/deep/
+answers 1 'frames differ' aleph compare 'both/first.####.exr' other/ --junit results.xml
+is grep -q '<failure message="' results.xml
 
 echo "$((checks - failures)) of $checks answers are right"
 [ "$failures" = 0 ]

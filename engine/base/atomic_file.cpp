@@ -61,7 +61,7 @@ void flush_to_disk(const fs::path& file, const fs::path& named) {
 }
 
 fs::path temporary_path(const fs::path& target) {
-    return target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+    return hidden_beside(target, fmt::format("{}.part", ::getpid()));
 }
 
 void create_folder_of(const fs::path& path) {
@@ -72,6 +72,15 @@ void create_folder_of(const fs::path& path) {
 }
 
 }  // namespace
+
+fs::path hidden_beside(const fs::path& path, std::string_view suffix) {
+    constexpr std::size_t longest = 255, kept = 150;
+    const std::string name = path.filename().string();
+    std::string hidden = fmt::format(".{}.{}", name, suffix);
+    if (hidden.size() > longest && name.size() <= longest)
+        hidden = fmt::format(".{}-{:016x}.{}", name.substr(0, kept), std::hash<std::string>()(name), suffix);
+    return path.parent_path() / hidden;
+}
 
 void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& named) {
     FileDescriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));

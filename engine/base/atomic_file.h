@@ -14,6 +14,10 @@ namespace aleph {
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
+/// The file `.NAME.SUFFIX` beside `path`. A name that would be too long for a file system is shortened, so that a
+/// number made from all of it tells it apart.
+std::filesystem::path hidden_beside(const std::filesystem::path& path, std::string_view suffix);
+
 /// Refuses now what write_atomically would refuse later: creates the folder of `path`, with its parents, if it is
 /// missing, creates the temporary file and removes it.
 /// @throws OutputError naming `path`

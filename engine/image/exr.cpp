@@ -23,6 +23,7 @@
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
@@ -72,10 +73,17 @@ class MemoryInput : public Imf::IStream {
 };
 
 /// OpenEXR has one pool of threads per process. It only grows: another caller may be using its threads.
-void grow_thread_pool(int threads) {
+/// @return how many of the threads asked for it is to use; 0: none of the pool's
+int grow_thread_pool(int threads) {
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
-    if (threads > 1 && Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+    const int most = static_cast<int>(std::thread::hardware_concurrency());
+    const int wanted = std::min(threads, most);
+    try {
+        if (wanted > 1 && Imf::globalThreadCount() < wanted) Imf::setGlobalThreadCount(wanted);
+    } catch (const std::exception&) {  // the system has no more threads: with those that there are
+    }
+    return wanted > 1 ? std::min(wanted, Imf::globalThreadCount()) : 0;
 }
 
 /// Checks faults that OpenEXR would find late or write into the file.
@@ -215,10 +223,9 @@ std::string encode_exr(const ChannelImage& image, int threads) {
             pixels.insert(channel.name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(base), sizeof(float),
                                                    sizeof(float) * first.width));
         }
-        grow_thread_pool(threads);
         {
             MemoryOutput stream(bytes);
-            Imf::OutputFile file(stream, header, threads > 1 ? threads : 0);
+            Imf::OutputFile file(stream, header, grow_thread_pool(threads));
             file.setFrameBuffer(pixels);
             file.writePixels(first.height);
         }
@@ -259,9 +266,7 @@ ChannelImage decode_exr(ByteView bytes, const std::string& name) {
     refuse_unsupported_kinds(bytes, name);
     try {
         MemoryInput stream(bytes);
-        const int threads = thread_count();
-        grow_thread_pool(threads);
-        Imf::InputFile file(stream, threads > 1 ? threads : 0);
+        Imf::InputFile file(stream, grow_thread_pool(thread_count()));
         const Imf::Header& header = file.header();
         const Imath::Box2i window = header.dataWindow();
         const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;

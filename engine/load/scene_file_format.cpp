@@ -1,6 +1,8 @@
 // The format of aleph's own scene files (.json): the pictures and files that they name, and saving.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <set>
 #include <system_error>
 
@@ -20,6 +22,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Materials have no values below 0: those, and what is not finite, count as 0.
+/// @return texels that were changed
+std::size_t clean_texels(Image<glm::vec4>& image) {
+    std::size_t changed = 0;
+    for (glm::vec4& texel : image.pixels) {
+        const glm::vec4 before = texel;
+        for (int c = 0; c < 4; ++c) {
+            if (!std::isfinite(texel[c]) || texel[c] < 0.0f) texel[c] = 0.0f;
+        }
+        if (!(texel == before)) ++changed;
+    }
+    return changed;
+}
+
 void load_images(SceneText& text, const fs::path& folder, const std::string& file) {
     for (std::size_t i = 0; i < text.scene.images.size(); ++i) {
         SceneImage& image = text.scene.images[i];
@@ -38,6 +54,12 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
                 const auto& c = decoded.floats.pixels[p];
                 image.floats.pixels[p] = {c[0], c[1], c[2], c[3]};
             }
+            if (static_cast<int>(i) == text.scene.environment.image) continue;  // rendering leaves out what is no light
+            if (const std::size_t changed = clean_texels(image.floats); changed > 0) {
+                text.scene.source.warnings.push_back(
+                    fmt::format("{}: {} texels of {} are below 0, NaN or infinite there, and count as 0", image.path,
+                                changed, image.floats.size()));
+            }
         } catch (const InputError& error) {
             if (error.file() == file) throw;
             throw InputError(file, place, fmt::format("{}: {}", error.file(), error.reason()));
@@ -46,16 +68,17 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
 }
 
 void check_cameras(const Scene& scene, const std::string& file) {
+    const CameraNames cameras(scene);
     if (!scene.film.camera.empty()) {
         try {
-            find_camera(scene, scene.film.camera);
+            cameras.find(scene.film.camera);
         } catch (const InputError& error) {
             throw InputError(file, "/camera", error.reason());
         }
     }
     for (std::size_t i = 0; i < scene.film.camera_keys.size(); ++i) {
         try {
-            find_camera(scene, scene.film.camera_keys[i].camera);
+            cameras.find(scene.film.camera_keys[i].camera);
         } catch (const InputError& error) {
             throw InputError(file, fmt::format("/camera/keys/{}", i), error.reason());
         }

@@ -97,11 +97,12 @@ void validate_shot(const Scene& scene) {
 }
 
 void validate_camera_keys(const Scene& scene) {
+    const CameraNames cameras(scene);
     for (std::size_t i = 0; i < scene.film.camera_keys.size(); ++i) {
         const Element at(scene, "camera key", i, scene.film.camera_keys[i].camera);
         at.require(i == 0 || scene.film.camera_keys[i].frame > scene.film.camera_keys[i - 1].frame,
                    "frames have to ascend");
-        find_camera(scene, scene.film.camera_keys[i].camera);
+        cameras.find(scene.film.camera_keys[i].camera);
     }
     const Element both(scene, "camera", 0, scene.film.camera);
     both.require(scene.film.camera.empty() || scene.film.camera_keys.empty(),

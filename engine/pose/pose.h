@@ -3,6 +3,8 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/base/color.h"
@@ -87,10 +89,22 @@ ScenePose pose(const Scene& scene, double seconds);
 /// The scene's frames: Film::range where given, else the span of all keys, rounded inwards to whole frames.
 FrameRange frame_range(const Scene& scene);
 
-/// Index into ScenePose::cameras (the same at every time) by node or camera name; an empty name takes the scene's
-/// choice (the first of its camera keys), then the first.
-/// @throws InputError if there is none of that name, listing those that exist, or no camera at all
-int find_camera(const Scene& scene, const std::string& name);
+/// The cameras of a scene by name.
+class CameraNames {
+  public:
+    /// Keeps a reference to the scene.
+    explicit CameraNames(const Scene& scene);
+
+    /// Index into ScenePose::cameras (the same at every time) by node or camera name; an empty name takes the scene's
+    /// choice (the first of its camera keys), then the first.
+    /// @throws InputError if there is none of that name, listing those that exist, or no camera at all
+    int find(const std::string& name) const;
+
+  private:
+    const Scene& scene_;
+    int count_ = 0;
+    std::unordered_map<std::string, int> nodes_, cameras_;  ///< the first of each name
+};
 
 /// The camera that looks from a frame on.
 struct CameraShot {
@@ -101,7 +115,7 @@ struct CameraShot {
 };
 
 /// The scene's camera keys, without those that change nothing; one shot if a camera is named or there are no keys.
-/// @throws InputError as find_camera
+/// @throws InputError as CameraNames::find
 std::vector<CameraShot> list_camera_shots(const Scene& scene, const std::string& name);
 
 /// The camera of the shot that a frame belongs to.

@@ -104,48 +104,50 @@ FrameRange frame_range(const Scene& scene) {
     return {first, std::max(first, last)};  // keys that all lie between two frames: the frame after them
 }
 
-int find_camera(const Scene& scene, const std::string& name) {
-    const std::string& chosen =
-        scene.film.camera_keys.empty() ? scene.film.camera : scene.film.camera_keys.front().camera;
+CameraNames::CameraNames(const Scene& scene) : scene_(scene) {
+    for (const Node& node : scene.nodes) {
+        if (node.camera == no_index) continue;
+        nodes_.emplace(node.name, count_);
+        cameras_.emplace(scene.cameras[node.camera].name, count_);
+        ++count_;
+    }
+}
+
+int CameraNames::find(const std::string& name) const {
+    const Film& film = scene_.film;
+    const std::string& chosen = film.camera_keys.empty() ? film.camera : film.camera_keys.front().camera;
     const std::string& wanted = name.empty() ? chosen : name;
-    std::vector<const Node*> holders;
-    for (const Node& node : scene.nodes)
-        if (node.camera != no_index) holders.push_back(&node);
-    if (holders.empty()) throw InputError(scene.source.file, "camera", "the scene has no camera");
+    if (count_ == 0) throw InputError(scene_.source.file, "camera", "the scene has no camera");
     if (wanted.empty()) return 0;
-
-    const auto index_where = [&](const auto& is_it) {
-        const auto found = std::ranges::find_if(holders, is_it);
-        return found == holders.end() ? no_index : static_cast<int>(found - holders.begin());
-    };
-    const auto camera_name = [&](const Node* node) -> const std::string& { return scene.cameras[node->camera].name; };
-    int index = index_where([&](const Node* node) { return node->name == wanted; });
-    if (index == no_index) index = index_where([&](const Node* node) { return camera_name(node) == wanted; });
-    if (index != no_index) return index;
-
+    for (const auto& names : {&nodes_, &cameras_}) {
+        if (const auto found = names->find(wanted); found != names->end()) return found->second;
+    }
     std::string known;
-    for (const Node* node : holders) {
-        const std::string& shown = node->name.empty() ? camera_name(node) : node->name;
+    for (const Node& node : scene_.nodes) {
+        if (node.camera == no_index) continue;
+        const std::string& shown = node.name.empty() ? scene_.cameras[node.camera].name : node.name;
         known += fmt::format("{}'{}'", known.empty() ? "" : ", ", printable(shown));
     }
-    throw InputError(scene.source.file, "camera",
+    throw InputError(scene_.source.file, "camera",
                      fmt::format("there is no camera '{}'; there is {}", printable(wanted), known));
 }
 
 std::vector<CameraShot> list_camera_shots(const Scene& scene, const std::string& name) {
-    std::vector<CameraShot> shots{{0, find_camera(scene, name)}};
+    const CameraNames names(scene);
+    std::vector<CameraShot> shots{{0, names.find(name)}};
     if (!name.empty()) return shots;
     for (const CameraKey& key : scene.film.camera_keys) {
-        const int camera = find_camera(scene, key.camera);
+        const int camera = names.find(key.camera);
         if (camera != shots.back().camera) shots.push_back({key.frame, camera});
     }
     return shots;
 }
 
 int camera_at(const std::vector<CameraShot>& shots, std::int64_t frame) {
-    int camera = shots.front().camera;
-    for (std::size_t i = 1; i < shots.size() && shots[i].first <= frame; ++i) camera = shots[i].camera;
-    return camera;
+    // The first shot holds before its frame too.
+    const auto next = std::upper_bound(shots.begin() + 1, shots.end(), frame,
+                                       [](std::int64_t f, const CameraShot& shot) { return f < shot.first; });
+    return std::prev(next)->camera;
 }
 
 bool is_world_animated(const Scene& scene) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "render/settings/fingerprint.h"
@@ -24,17 +25,17 @@ fs::path lock_file(const ClaimedOutput& output) {
     for (std::size_t i = 0; i < name.size() && name.size() == second.size(); ++i) {
         if (name[i] != second[i]) name[i] = '#';
     }
-    return file.parent_path() / fmt::format(".{}.lock", name);
+    return hidden_beside(file.parent_path() / name, "lock");
 }
 
-/// The file that ".name.<process id>.part" was to become (write_atomically); empty: it is no such file.
-std::string target_of(std::string_view name) {
+/// The name of a temporary file (write_atomically) without the process and ".part"; empty: it is none.
+std::string without_process(std::string_view name) {
     if (!name.starts_with('.') || !name.ends_with(".part")) return {};
-    name = name.substr(1, name.size() - 1 - std::string_view(".part").size());
+    name.remove_suffix(std::string_view(".part").size());
     const std::size_t dot = name.rfind('.');
     if (dot == std::string_view::npos || name.find_first_not_of("0123456789", dot + 1) != std::string_view::npos)
         return {};
-    return std::string(name.substr(0, dot));
+    return std::string(name.substr(0, dot + 1));
 }
 
 /// Frames of one file name are one frame.
@@ -46,7 +47,7 @@ std::string identity_of(const ClaimedOutput& output) {
 }  // namespace
 
 fs::path checkpoint_file(const fs::path& file) {
-    return file.parent_path() / fmt::format(".{}.checkpoint", file.filename().string());
+    return hidden_beside(file, "checkpoint");
 }
 
 FrameClaims::FrameClaims(ClaimedOutput output)
@@ -90,13 +91,13 @@ void FrameClaims::release(int frame) {
 void FrameClaims::remove_leftovers() {
     std::map<std::string, int> frames;
     for (const int frame : output_.frames) {
-        frames[output_.file(frame).filename().string()] = frame;
-        frames[checkpoint_file(output_.file(frame)).filename().string()] = frame;
+        for (const fs::path& file : {output_.file(frame), checkpoint_file(output_.file(frame))})
+            frames[hidden_beside(file, "").filename().string()] = frame;
     }
     const fs::path folder = output_.file(output_.frames.front()).parent_path();
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
-        const auto found = frames.find(target_of(entry.path().filename().string()));
+        const auto found = frames.find(without_process(entry.path().filename().string()));
         if (found == frames.end()) continue;
         if (output_.resume && !locks_.lock(found->second)) continue;  // being written
         fs::remove(entry.path(), error);

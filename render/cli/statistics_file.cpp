@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::filesystem::path rows_file(const std::filesystem::path& path) {
-    return path.parent_path() / fmt::format(".{}.rows", path.filename().string());
+    return hidden_beside(path, "rows");
 }
 
 /// Empty where there is no such file.

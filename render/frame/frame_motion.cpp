@@ -100,4 +100,26 @@ void FrameMotion::compute(const FrameWork& work, const FrameScene& here, Estimat
     out.motion = compute_image_motion(out.estimate, other_estimate, work.other);
 }
 
+void FrameMotion::compute_backward(const FrameWork& work, const FrameScene& here, PreparedFrame& frame) {
+    FrameOutput& out = frame.out;
+    if (work.edited || shot_.settings.guide.motion != MotionSource::model) return;
+    const auto turn_round = [](MotionField& field) {
+        for (glm::dvec2& displacement : field.displacement.pixels) displacement = glm::dvec2(0.0) - displacement;
+    };
+    const OtherFrame other = shot_.backward_frame(work.frame);
+    if (other == OtherFrame::next) {
+        out.backward = out.motion;
+        return turn_round(out.backward);
+    }
+    if (!model_) model_.emplace(shot_.scene, shot_.pose_plan);
+    const Image<Hit>& hits = frame.centers.hits;
+    if (other == OtherFrame::previous) other_.pose(work.frame - 1);
+    const PosedView& before = other == OtherFrame::previous ? other_.posed() : here.posed();
+    out.backward = model_->compute(here.posed(), before, hits, other);
+    if (other == OtherFrame::none) return;
+    turn_round(out.backward);
+    other_.update_rays();
+    out.statistics.counts.rays.primary += mark_hidden(out.backward, shot_.scene, other_.posed(), hits, other_.rays());
+}
+
 }  // namespace aleph

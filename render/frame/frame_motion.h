@@ -36,7 +36,11 @@ class FrameMotion {
     void compute(const FrameWork& work, const FrameScene& here, EstimateLight& light, StageClock& clock,
                  PreparedFrame& frame);
 
-    /// The scene at other frames, for others to pose: it is needed from pose_other to compute only.
+    /// Motion to the frame before, with the hidden pixels. The first frame's is its motion to the next one, turned
+    /// round; behind a cut there is none. Nothing after an edit, and where motion comes from pictures. After compute.
+    void compute_backward(const FrameWork& work, const FrameScene& here, PreparedFrame& frame);
+
+    /// The scene at other frames, for others to pose: it is needed from pose_other to compute_backward only.
     FrameScene& other() { return other_; }
     TracedRays traced() const { return edited_ ? other_.traced() + edited_->traced() : other_.traced(); }
 

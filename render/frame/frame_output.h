@@ -53,8 +53,8 @@ struct FrameStatistics {
 
 /// Outputs to compute beyond the statistics.
 struct FrameRequest {
-    bool frame = true;       ///< the picture
-    bool maps = false;       ///< every map of perception and motion, with the hidden pixels in motion.validity
+    bool frame = true;         ///< the picture
+    bool maps = false;         ///< every map of perception and motion, with the hidden pixels in motion.validity
     FrameProgress progress{};  ///< may be empty; what it throws ends the frame
     FrameCheckpoint* checkpoint = nullptr;  ///< keeps the state of the frame while it is made; null: it is not kept
     PartialPicture partial{};
@@ -81,6 +81,7 @@ struct FrameOutput {
     Image<Hit> hits;                   ///< through the pixel centres
     Image<Rgb> estimate;               ///< sanitized
     MotionField motion;                ///< pixels, x right, y down; the channel forward.v is positive upwards
+    MotionField backward;              ///< to the frame before; with `maps`, of a scene, model-based
     bool motion_from_picture = false;  ///< as another program wrote it, not computed
     Image<float> velocity;             ///< deg/s
     PerceptionMaps perception;

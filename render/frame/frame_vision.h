@@ -17,7 +17,7 @@ void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const View
 /// @param noise  of that viewing and frame rate
 /// @param maps   also the maps that only files need: retinal velocity and conspicuity
 /// @param clock  adds the time to the stages motion and perception
-void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, const NoiseVisibility& noise,
-                          bool maps, StageClock& clock);
+void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings,
+                          const NoiseVisibility& noise, bool maps, StageClock& clock);
 
 }  // namespace aleph

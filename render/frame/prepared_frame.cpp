@@ -23,6 +23,7 @@ void perceive(Preparation& kept, const FrameScene& here, const FrameWork& work, 
     note_estimate(out, sanitize_estimate(out.estimate), shot.scene.film.viewing);
     clock.add_to(out.statistics.seconds.estimate);
     kept.motion.compute(work, here, kept.estimate_light, clock, frame);
+    if (work.maps) kept.motion.compute_backward(work, here, frame);
     blur_frame_estimate({shot, work.frame, plan, here, kept.shutter}, frame.centers, indirect, out.estimate, counts);
     clock.add_to(out.statistics.seconds.estimate);
     RenderSettings vision = shot.settings;

@@ -94,7 +94,10 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         if (is_needed) s.static_frame.keep(first, request, *out);
     }
     out->statistics.frame = frame;
-    if (first != frame) out->statistics.copy_of = first;
+    if (first != frame) {
+        out->statistics.copy_of = first;
+        if (!out->backward.validity.empty()) out->backward = out->motion;  // nothing has moved since the frame before
+    }
     return std::move(*out);
 }
 

@@ -100,8 +100,8 @@ class Sequence {
     /// program, or if these settings have no lighting keyframes; OutputError if the folder cannot be made
     void load_light(const std::filesystem::path& path);
 
-    /// Writes the file with the light of all lighting keyframes that were loaded, and of those that were computed since,
-    /// if there are any. A folder has them already.
+    /// Writes the file with the light of all lighting keyframes that were loaded, and of those that were computed
+    /// since, if there are any. A folder has them already.
     /// @throws OutputError; std::logic_error before load_light
     void save_light();
 

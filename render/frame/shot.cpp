@@ -83,4 +83,9 @@ OtherFrame Shot::other_frame(std::int64_t frame) const {
     return is_last ? OtherFrame::previous : OtherFrame::next;
 }
 
+OtherFrame Shot::backward_frame(std::int64_t frame) const {
+    if (is_cut(scene, frame)) return OtherFrame::none;
+    return frame <= range.first ? OtherFrame::next : OtherFrame::previous;
+}
+
 }  // namespace aleph

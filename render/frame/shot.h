@@ -36,6 +36,9 @@ struct Shot {
     /// The frame that a frame's motion leads to: the next one; the previous one at the scene's last frame; none across
     /// a cut.
     OtherFrame other_frame(std::int64_t frame) const;
+    /// The frame that a frame's backward motion leads to: the previous one; at the first frame the next one, turned
+    /// round; none behind a cut.
+    OtherFrame backward_frame(std::int64_t frame) const;
     /// Returns whether a frame's noise is that of the frames around it, where nothing moves: its camera never does, and
     /// no error is asked for. Noise that is new in every frame is seen less, so that less work keeps to an error.
     bool keeps_noise(std::int64_t frame) const { return is_still(camera(frame)) && !(settings.error > 0.0); }

@@ -79,6 +79,18 @@ std::vector<ChannelInfo> motion_channels() {
          "-4 hidden in frame N+1",
          "whole number, -4 to 1",
          "0"},
+        {{"backward.u", "backward.v"},
+         "motion to frame N-1; pixels, u right, v up (scenes)",
+         "position in frame N-1 minus position in frame N; in the scene's first frame that in N minus that in N+1, "
+         "behind a "
+         "cut 0; model-based motion only",
+         "pixels, u positive to the right, v positive upwards",
+         "motion by the camera's rotation"},
+        {{"backward.valid"},
+         "the same as motion.valid, for backward",
+         "the same as motion.valid, for backward: -4 hidden in frame N-1",
+         "whole number, -4 to 1",
+         "0"},
         {{"velocity.image"},
          "speed on the image, degrees per second",
          "speed on the image",
@@ -121,7 +133,8 @@ std::vector<ChannelInfo> perception_channels() {
          as_surfaces},
         {{"threshold.noise"},
          "noise of single pixels that goes unseen, standard deviation, cd/m2",
-         "standard deviation of the luminance of single pixels that goes unseen; new in every frame, but of a camera that "
+         "standard deviation of the luminance of single pixels that goes unseen; new in every frame, but of a camera "
+         "that "
          "never moves",
          "cd/m2, above 0",
          as_surfaces},

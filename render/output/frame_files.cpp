@@ -67,12 +67,16 @@ void add_descriptions(ChannelImage& file) {
     }
 }
 
-void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene) {
-    const MotionField& motion = output.motion;
-    add(file, "forward.u", pick(motion.displacement, [](const glm::dvec2& d) { return d.x; }));
+void add_motion(ChannelImage& file, const MotionField& motion, const std::string& layer, const std::string& valid) {
+    add(file, layer + ".u", pick(motion.displacement, [](const glm::dvec2& d) { return d.x; }));
     // 0 - y: a still pixel is +0 in the file.
-    add(file, "forward.v", pick(motion.displacement, [](const glm::dvec2& d) { return 0.0 - d.y; }));
-    add(file, "motion.valid", pick(motion.validity, [](MotionValidity v) { return static_cast<int>(v); }));
+    add(file, layer + ".v", pick(motion.displacement, [](const glm::dvec2& d) { return 0.0 - d.y; }));
+    add(file, valid, pick(motion.validity, [](MotionValidity v) { return static_cast<int>(v); }));
+}
+
+void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene) {
+    add_motion(file, output.motion, "forward", "motion.valid");
+    add_motion(file, output.backward, "backward", "backward.valid");
     add(file, "velocity.image", output.velocity);
     const PerceptionMaps& maps = output.perception;
     add(file, "velocity.retinal", maps.retinal_velocity);

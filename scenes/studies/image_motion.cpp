@@ -117,7 +117,7 @@ struct Motions {
 /// Model-based motion once more, by itself, and what rasterized maps would give.
 void time_model(const Sequence& sequence, const RenderSettings& settings, int frame, Motions& motions) {
     const Scene& scene = sequence.scene();
-    const int camera = find_camera(scene, "");
+    const int camera = CameraNames(scene).find("");
     const auto pose_frame = [&](int number) {
         return make_posed_view(scene, scene.film.frame_rate.seconds_of(number), camera, settings.picture.width,
                                settings.picture.height);

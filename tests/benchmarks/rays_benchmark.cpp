@@ -246,8 +246,8 @@ int main(int argc, char** argv) {
         const std::int64_t frame = argc > 2 ? std::stoll(argv[2]) : frame_range(scene).first;
         int width = 640, height = 480;
         if (argc > 3) std::sscanf(argv[3], "%dx%d", &width, &height);
-        run(scene,
-            make_posed_view(scene, scene.film.frame_rate.seconds_of(frame), find_camera(scene, ""), width, height));
+        run(scene, make_posed_view(scene, scene.film.frame_rate.seconds_of(frame), CameraNames(scene).find(""), width,
+                                   height));
         return 0;
     } catch (const std::exception& e) {
         fmt::print(stderr, "bench_rays: {}\n", e.what());

@@ -47,7 +47,7 @@ struct Inputs {
     explicit Inputs(Scene from) : scene(std::move(from)), rays(scene), other_rays(rays.share_meshes()) {
         const FrameRange range = frame_range(scene);
         frame_number = range.first + (range.last - range.first) / 4;
-        const int camera = find_camera(scene, "");
+        const int camera = CameraNames(scene).find("");
         now = make_posed_view(scene, scene.film.frame_rate.seconds_of(frame_number), camera, width, height);
         next = make_posed_view(scene, scene.film.frame_rate.seconds_of(frame_number + 1), camera, width, height);
         rays.update(now.pose, compute_anchor(now.view));

@@ -17,3 +17,16 @@ cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/moved" >"$
 cmake --build "$work/build" --parallel "${JOBS:-2}"
 "$work/build/consumer"
 "$work/moved/bin/aleph" --version
+
+# The example of golden images: the same frames pass, and those with another seed and one sample fail.
+aleph=$work/moved/bin/aleph scene=$root/scenes/cornell/scene.json quick="--size;32x24;--spp;4"
+"$aleph" render "$scene" --frames 0-1 ${quick//;/ } -o "$work/golden/" -q
+"$aleph" maps "$scene" --frames 0-1 --size 32x24 -o "$work/golden/maps/" -q
+golden() {
+  cmake -S "$here/golden" -B "$work/$1" -DALEPH="$aleph" -DSCENE="$scene" -DGOLDEN="$work/golden" -DSETTINGS="$2" >/dev/null
+  ctest --test-dir "$work/$1" >"$work/$1.log" 2>&1
+}
+golden same "$quick" || { cat "$work/same.log"; exit 1; }
+grep -q 'tests="2" failures="0"' "$work/same/results.xml"
+! golden other "--size;32x24;--spp;1;--seed;9" || { echo "noise was not seen"; exit 1; }
+grep -q '<failure message="' "$work/other/results.xml"

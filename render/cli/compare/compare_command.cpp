@@ -9,6 +9,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/compare/compare_frames.h"
 #include "render/cli/compare/compare_print.h"
+#include "render/cli/compare/junit_file.h"
 #include "render/cli/compare/seen_file.h"
 #include "render/cli/output_conflicts.h"
 
@@ -19,7 +20,7 @@ namespace {
 int compare_pictures(const CompareOptions& options) {
     if (!options.cuts.empty()) throw InputError("", "--cuts", "applies to sequences only");
     refuse_overwriting({options.first, options.second, options.threshold, options.seen},
-                       {{options.difference, "--diff"}, {options.seen_out, "--seen-out"}});
+                       {{options.difference, "--diff"}, {options.seen_out, "--seen-out"}, {options.junit, "--junit"}});
     const ChannelImage first = read_image(options.first), second = read_image(options.second);
     ChannelImage map;
     if (!options.threshold.empty()) map = read_image(options.threshold);
@@ -42,6 +43,10 @@ int compare_pictures(const CompareOptions& options) {
         print_comparison(options, result, visible);
     }
     if (!options.difference.empty()) write_png(options.difference, difference_picture(first, second, options.settings));
+    if (!options.junit.empty()) {
+        write_junit(options.junit, junit_suite,
+                    {make_junit_case(options.first, result, visible, options.settings, result.same)});
+    }
     return result.same ? exit_done : exit_different;
 }
 
@@ -115,6 +120,7 @@ constexpr const char* compare_footer =
     "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?\n"
     "  aleph compare 'guided.####.exr' reference/ --seen maps/ --share 1 --seen-out seen.####.png\n"
     "  aleph compare cached.exr traced.exr --standard-errors 4 --relative 0.1 --share 1 --max-bias 1\n"
+    "  aleph compare new/ golden/ --seen golden-maps/ --share 1 --junit results.xml    as tests of golden images\n"
     "  aleph compare a.exr b.exr --channels forward,Z --diff where.png";
 
 }  // namespace
@@ -158,6 +164,10 @@ void add_compare_command(CLI::App& app, Command& command) {
         ->add_option("--diff", options->difference,
                      "write the difference as a picture; white is the largest difference")
         ->type_name("OUT.png");
+    compare_app
+        ->add_option("--junit", options->junit,
+                     "write the result as JUnit's XML, a test case for each frame, for CI services")
+        ->type_name("FILE.xml");
     compare_app->add_flag("--json", options->json, "print JSON in place of the table");
     compare_app->add_flag("-q,--quiet", options->quiet, "print nothing; the exit code is the result");
     compare_app->footer(compare_footer);

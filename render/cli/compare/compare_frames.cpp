@@ -6,6 +6,7 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/compare/compare_frames_print.h"
+#include "render/cli/compare/junit_file.h"
 #include "render/cli/compare/seen_file.h"
 #include "render/cli/frame_pattern.h"
 #include "render/cli/options.h"
@@ -107,6 +108,7 @@ void check_outputs(const CompareOptions& options, const std::vector<const Sequen
     };
     add(options.difference, "--diff");
     add(options.seen_out, "--seen-out");
+    if (!options.junit.empty()) outputs.push_back({options.junit, "--junit"});
     refuse_overwriting(read, outputs);
 }
 
@@ -162,6 +164,14 @@ int compare_frames(const CompareOptions& options) {
         sequence.finish();
     }
     const SequenceSummary summary = sequence.summary();
+    if (!options.junit.empty()) {
+        std::vector<JunitCase> cases;
+        for (const FrameComparison& frame : sequence.frames()) {
+            cases.push_back(make_junit_case(first.at(frame.frame).string(), frame.result, frame.visible,
+                                            options.settings, frame.same));
+        }
+        write_junit(options.junit, junit_suite, cases);
+    }
     if (options.json) {
         print_sequence_json(sequence.frames(), summary);
     } else if (!options.quiet) {

@@ -14,6 +14,7 @@ struct CompareOptions {
     std::string seen;        ///< maps of the reference for visible differences, likewise
     std::string seen_out;    ///< file or pattern of the pictures of visible differences; may be empty
     std::string difference;  ///< file or pattern of the difference pictures; may be empty
+    std::string junit;       ///< file of test results; may be empty
     std::string cuts;        ///< list of frames that begin a new shot
     CompareSettings settings;
     bool json = false, quiet = false;

@@ -20,7 +20,12 @@ const fs::path folder = build_folder() / "round_trip";
 
 SeenMotion look(const Scene& scene, std::int64_t frame) {
     const FrameRate rate;
-    return {scene, rate.seconds_of(frame), rate.seconds_of(frame + 1), 320, 240, find_camera(scene, scene.film.camera)};
+    return {scene,
+            rate.seconds_of(frame),
+            rate.seconds_of(frame + 1),
+            320,
+            240,
+            CameraNames(scene).find(scene.film.camera)};
 }
 
 /// Nodes may come in another order: objects are compared by node name and position of the mesh under the node.

@@ -41,6 +41,19 @@ TEST(Output, OU01_ValuesBeyondHalfSurvive) {
                               std::numeric_limits<float>::max(), float_infinity, -float_infinity, float_nan});
 }
 
+TEST(Output, NamesMayBeAsLongAsTheFileSystemAllows) {
+    const ScratchFolder folder;
+    for (const std::size_t length : {200u, 240u, 255u}) {
+        const std::string name = std::string(length - 4, 'n') + ".exr";
+        write_exr(folder / name, row_image("R", {1.0f}));
+        EXPECT_EQ(read_image(folder / name).channels.size(), 1u) << length;
+    }
+    const std::string one = std::string(251, 'n') + ".exr", other = std::string(250, 'n') + "m.exr";
+    EXPECT_NE(hidden_beside(one, "part"), hidden_beside(other, "part"));
+    EXPECT_LE(hidden_beside(one, "checkpoint").string().size(), 255u);
+    EXPECT_EQ(hidden_beside("a/b.exr", "lock"), std::filesystem::path("a/.b.exr.lock"));
+}
+
 TEST(Output, OU02_EveryChannelIs32BitFloat) {
     const ScratchFolder folder;
     write_exr(folder / "a.exr", noise_image(4, 4, {"R", "forward.u", "aleph.Y", "objectId.X", "Z"}));

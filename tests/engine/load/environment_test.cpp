@@ -77,6 +77,22 @@ TEST_F(LoadEnvironment, APictureThatIsATextureTooIsThereTwice) {
     EXPECT_TRUE(without_path(load_scene(folder_ / "again.json")) == without_path(scene));
 }
 
+TEST_F(LoadEnvironment, TexelsThatAreNoLightCountAsZero) {
+    ChannelImage image;
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(2, 2, 0.5f)});
+    image.channels[0].values(0, 0) = nan;
+    image.channels[1].values(1, 0) = -infinite;
+    image.channels[2].values(1, 0) = -1e-6f;
+    write_exr(folder_ / "t.exr", image);
+    const Scene scene = load_scene(write_scene(R"("materials": {"m": {"base_color_texture": "t.exr"}})"));
+    EXPECT_TRUE(has_warning(scene, "t.exr: 2 texels of 4 are below 0, NaN or infinite there, and count as 0"));
+    const Image<glm::vec4>& texels = scene.images.at(0).floats;
+    EXPECT_EQ(texels(0, 0), glm::vec4(0.0f, 0.5f, 0.5f, 1.0f));
+    EXPECT_EQ(texels(1, 0), glm::vec4(0.5f, 0.0f, 0.0f, 1.0f));
+    EXPECT_EQ(texels(1, 1), glm::vec4(0.5f, 0.5f, 0.5f, 1.0f));
+}
+
 TEST_F(LoadEnvironment, PicturesThatCannotBeReadAreRefused) {
     const auto refused = [&](const std::string& body, const std::string& place, const std::string& word) {
         expect_refused(write_scene(body), place, word);

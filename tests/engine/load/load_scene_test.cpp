@@ -198,7 +198,7 @@ TEST_F(LoadScene, ModelsLoadAsScenesAndAsIncludes) {
     for (const fs::path& name : {own / "truck.glb", own / "lamp_box.glb", own / "morph_cube.glb", own / "skin.glb",
                                  source_folder() / "scenes/room/room.glb"}) {
         const Scene scene = load_scene(name);
-        EXPECT_NO_THROW(find_camera(scene, "")) << name;
+        EXPECT_NO_THROW(CameraNames(scene).find("")) << name;
         fs::copy_file(name, folder_ / "lib/asset.glb", fs::copy_options::overwrite_existing);
         const Scene included =
             load_scene(write_scene(R"("nodes": [{"name": "place", "scale": 2, "include": "lib/asset.glb"}])"));

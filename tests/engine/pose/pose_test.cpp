@@ -204,7 +204,7 @@ TEST(FrameRange, TakesTheNoiseOfSinglePrecisionTimes) {
 TEST(FindCamera, ByNodeThenByCameraThenTheScenesChoice) {
     Scene scene;
     scene.source.file = "room.json";
-    EXPECT_THROW(find_camera(scene, ""), InputError);
+    EXPECT_THROW(CameraNames(scene).find(""), InputError);
     scene.cameras.resize(2);
     scene.cameras[0].name = "wide";
     scene.cameras[1].name = "near";
@@ -214,13 +214,13 @@ TEST(FindCamera, ByNodeThenByCameraThenTheScenesChoice) {
     scene.nodes[1].camera = 0;
     scene.nodes[2].name = "wide";  // a node's name goes first
     scene.nodes[2].camera = 1;
-    EXPECT_EQ(find_camera(scene, ""), 0);
-    EXPECT_EQ(find_camera(scene, "left"), 0);
-    EXPECT_EQ(find_camera(scene, "wide"), 1);
-    EXPECT_EQ(find_camera(scene, "near"), 1);
+    EXPECT_EQ(CameraNames(scene).find(""), 0);
+    EXPECT_EQ(CameraNames(scene).find("left"), 0);
+    EXPECT_EQ(CameraNames(scene).find("wide"), 1);
+    EXPECT_EQ(CameraNames(scene).find("near"), 1);
     scene.film.camera = "near";
-    EXPECT_EQ(find_camera(scene, ""), 1);
-    EXPECT_EQ(find_refusal([&] { find_camera(scene, "wall"); }).message,
+    EXPECT_EQ(CameraNames(scene).find(""), 1);
+    EXPECT_EQ(find_refusal([&] { CameraNames(scene).find("wall"); }).message,
               "room.json: camera: there is no camera 'wall'; there is 'left', 'wide'");
 }
 

@@ -25,6 +25,7 @@ std::set<std::string> written_channels() {
                    output.motion.path_length, output.motion.validity, output.velocity, output.limits.alpha,
                    output.limits.threshold, output.limits.threshold_noise, output.surface.depth, output.surface.normal,
                    output.surface.albedo, output.effects);
+    output.backward = output.motion;
     make_one_pixel(output.shaded.errors.total);
     for (Image<float>& cause : output.shaded.errors.by_cause) make_one_pixel(cause);
     PerceptionMaps& maps = output.perception;
@@ -60,7 +61,7 @@ std::vector<std::string> expected_rows() {
 }
 
 TEST(Channels, TheReadmeListsEveryChannelAndNoOther) {
-    EXPECT_EQ(written_channels().size(), 48u);
+    EXPECT_EQ(written_channels().size(), 51u);
     std::set<std::string> known;
     for (const ChannelInfo& info : channel_table()) known.insert(info.names.begin(), info.names.end());
     EXPECT_EQ(known, written_channels());

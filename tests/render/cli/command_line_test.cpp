@@ -82,7 +82,7 @@ TEST(CommandLine, HelpAndVersion) {
 
 TEST(CommandLine, BadUsageIsExitCode2) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-        {{}, "compare; aleph --help"},
+        {{}, "farm; aleph --help"},
         {{"fly"}, "fly (commands: "},
         {{"compare", "a.exr", "b.exr", "--fast"}, "--fast (aleph compare --help"},
         {{"compare", "a.exr", "b.exr", "--share", "much"}, "--share: 'much' is not a number"},

@@ -5,6 +5,7 @@
 #include "engine/image/image_file.h"
 #include "render/cli/frame_pattern.h"
 #include "tests/support/grey_image.h"
+#include "tests/support/read_bytes.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
@@ -52,6 +53,30 @@ TEST(CompareFrames, PatternsAndFoldersArePairedByNumber) {
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q"}).out, "");
     const Ran limits = run_command({"compare"}, {s.a, s.b, "--share", "100", "--max-error", "0.2"});
     EXPECT_NE(limits.out.find("different (--max-error)"), std::string::npos) << limits.out;
+}
+
+TEST(CompareFrames, ResultsAsJunit) {
+    const Sequences s({8, 9, 10}, {0.0f, 0.25f, 0.0f});
+    const std::string file = s.folder / "results.xml";
+    EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--junit", file}).code, 1);
+    const std::string text = read_bytes(file);
+    EXPECT_TRUE(text.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"3\" failures=\"1\">"))
+        << text;
+    EXPECT_NE(
+        text.find("new.0009.exr\">\n      <failure message=\"100 % of the pixels are beyond the tolerance, allowed 0 "
+                  "%; largest difference 0.25 in R at 0,0\"/>"),
+        std::string::npos)
+        << text;
+    EXPECT_NE(text.find("new.0010.exr\"/>"), std::string::npos) << text;
+    EXPECT_EQ(run_command({"compare"}, {s.a + "/new.0008.exr", s.b + "/old.0008.exr", "-q", "--junit", file}).code, 0);
+    EXPECT_NE(read_bytes(file).find("tests=\"1\" failures=\"0\""), std::string::npos);
+    EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--junit", s.a + "/new.0008.exr"}).code, 2) << "an input";
+    // A speck on one pixel, which a viewer sees.
+    ChannelImage speck = grey(0.9f);
+    for (Channel& channel : speck.channels) channel.values(3, 2) = 0.1f;
+    write_exr(s.a + "/new.0009.exr", speck);
+    EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--seen", s.maps, "--share", "1", "--junit", file}).code, 1);
+    EXPECT_NE(read_bytes(file).find("100 % of the pixels are seen to differ, allowed 1 %"), std::string::npos);
 }
 
 TEST(CompareFrames, MissingPartnersAreNamed) {

@@ -41,6 +41,9 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "forward.u",
                              "forward.v",
                              "motion.valid",
+                             "backward.u",
+                             "backward.v",
+                             "backward.valid",
                              "velocity.image",
                              "velocity.retinal",
                              "saliency.Y",
@@ -73,7 +76,7 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "invalid.Y"}) {
         EXPECT_NE(file.find(name), nullptr) << name;
     }
-    EXPECT_EQ(file.channels.size(), 41u);
+    EXPECT_EQ(file.channels.size(), 44u);
     EXPECT_EQ(std::get<double>(file.metadata.at("whiteLuminance")), 100.0);
     EXPECT_EQ((std::get<std::array<int, 2>>(file.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));
 }
@@ -94,6 +97,75 @@ TEST(FrameFiles, MotionInTheFileIsTheFieldToOneUlpWithYUp) {
     }
     EXPECT_GT(moving, 20);
     EXPECT_LT(moving, static_cast<int>(u.size()));
+}
+
+/// A square in front of the camera that moves up and right by 1, 3 and 9 pixels in three frames, before a wall.
+struct MovingSquare {
+    Scene scene;
+    RenderSettings settings;
+
+    MovingSquare() {
+        const double pixel = 0.1;  // m, at the square's distance
+        const ScratchFolder folder;
+        const auto at = [&](double pixels) { return fmt::format("[{}, {}, 0]", pixels * pixel, pixels * pixel); };
+        std::ofstream(folder / "scene.json")
+            << R"({"aleph": 1, "exposure": 1, "frames": [0, 3], "nodes": [
+            {"translation": [0, 0, 10], "camera": {"fov": 28.0724869358530}},
+            {"translation": [0, 0, 9], "light": {"type": "point", "intensity": 300}},
+            {"shape": {"type": "quad", "size": [20, 20]}, "translation": [0, 0, -1]},
+            {"shape": {"type": "quad", "size": [1.61, 1.61]}, "translation": {"keys": [[0, )"
+            << at(-4) << "], [1, " << at(-3) << "], [2, " << at(0) << "], [3, " << at(9) << "]]}}]}";
+        scene = load_scene(folder / "scene.json");
+        settings.picture.width = settings.picture.height = 50;  // 5 m at a distance of 10 m
+        settings.cache.light_step = 0;
+    }
+    ChannelImage maps(std::int64_t frame) const {
+        Sequence sequence(scene, settings);
+        return make_frame_image(sequence.render(frame, {.frame = false, .maps = true, .progress = {}}), true, scene,
+                                settings, sequence.exposure());
+    }
+};
+
+TEST(FrameFiles, MotionHasTheSignsOfOtherPrograms) {
+    const MovingSquare square;
+    const double steps[] = {1.0, 3.0, 9.0};
+    for (int frame = 0; frame <= 3; ++frame) {
+        SCOPED_TRACE(frame);
+        const ChannelImage file = square.maps(frame);
+        const int x = 25 + (frame == 0 ? -4 : frame == 1 ? -3 : frame == 2 ? 0 : 9), y = 49 - x;
+        const auto at = [&](const char* name) { return (*file.find(name))(x, y); };
+        const double before = steps[std::max(frame - 1, 0)], after = steps[std::min(frame, 2)];
+        // Nuke: forward is the next position minus this one, backward the previous minus this one, v upwards.
+        EXPECT_NEAR(at("forward.u"), after, 1e-4);
+        EXPECT_NEAR(at("forward.v"), after, 1e-4);
+        EXPECT_NEAR(at("backward.u"), -before, 1e-4);
+        EXPECT_NEAR(at("backward.v"), -before, 1e-4);
+        // Blender's Vector: X, Y are the previous position minus this one; Z, W this one minus the next.
+        const float vector_x = at("backward.u"), vector_z = -at("forward.u");
+        EXPECT_LT(vector_x, 0.0f);
+        EXPECT_LT(vector_z, 0.0f);
+        EXPECT_EQ(at("backward.valid"), 1.0f);
+        EXPECT_EQ((*file.find("backward.u"))(2, 47), 0.0f) << "the wall";
+        EXPECT_FALSE(std::signbit((*file.find("backward.v"))(2, 47)));
+    }
+    // At frame 3 the square has uncovered a part of the wall that it hid at frame 2.
+    EXPECT_EQ((*square.maps(3).find("backward.valid"))(25, 24), -4.0f);
+    EXPECT_EQ((*square.maps(2).find("motion.valid"))(34, 15), -4.0f) << "and it will hide this";
+}
+
+TEST(FrameFiles, ThereIsNoMotionBackAcrossACutNorFromAFrameThatStands) {
+    MovingSquare square;
+    square.scene.film.cuts = {2};
+    const ChannelImage cut = square.maps(2);
+    EXPECT_EQ((*cut.find("backward.valid"))(25, 24), -3.0f);
+    EXPECT_EQ((*cut.find("backward.u"))(25, 24), 0.0f);
+    EXPECT_NE((*cut.find("forward.u"))(25, 24), 0.0f);
+    // After the last key nothing moves: frame 4 is the first of those that stand still, and has come from frame 3.
+    square.scene.film.cuts.clear();
+    square.scene.film.range = FrameRange{0, 9};
+    EXPECT_NEAR((*square.maps(3).find("backward.u"))(34, 15), -9.0f, 1e-4);
+    EXPECT_EQ((*square.maps(5).find("backward.u"))(34, 15), 0.0f);
+    EXPECT_EQ((*square.maps(5).find("backward.valid"))(34, 15), 1.0f);
 }
 
 TEST(FrameFiles, GeometryChannelsAgreeWithTheCamera) {

@@ -1,0 +1,80 @@
+#include "render/cli/compare/junit_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/errors.h"
+#include "render/cli/compare/compare_print.h"
+
+namespace aleph {
+
+namespace {
+
+/// Text for an attribute of XML. Control characters, which XML 1.0 cannot hold, are escaped as in messages.
+std::string escape_xml(const std::string& text) {
+    std::string out;
+    for (const char c : printable(text, 1000)) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+JunitCase make_junit_case(const std::string& name, const CompareResult& result,
+                          const std::optional<VisibleShares>& visible, const CompareSettings& settings, bool same) {
+    JunitCase test{name, {}};
+    if (same) return test;
+    const auto add = [&](const std::string& reason) { test.failure += (test.failure.empty() ? "" : "; ") + reason; };
+    if (result.a.any() || result.b.any())
+        add(fmt::format("{} values are NaN, {} infinite", result.a.nan + result.b.nan, result.a.inf + result.b.inf));
+    if (visible)
+        add(fmt::format("{:.3g} % of the pixels are seen to differ, allowed {:g} %", visible->seen, settings.share));
+    if (result.threshold)
+        add(fmt::format("{:.3g} % of the pixels are beyond their threshold", result.threshold->percent_beyond()));
+    if (!visible && !result.threshold)
+        add(fmt::format("{:.3g} % of the pixels are beyond the tolerance, allowed {:g} %",
+                        result.percent(result.beyond), settings.share));
+    if (const std::string options = exceeded_options(result); !options.empty()) add("exceeded: " + options);
+    const auto worst = std::ranges::max_element(
+        result.channels, {}, [](const ChannelDifference& channel) { return channel.difference.max_abs; });
+    if (worst != result.channels.end()) {
+        add(fmt::format("largest difference {:.4g} in {} at {},{}", worst->difference.max_abs, worst->name, worst->x,
+                        worst->y));
+    }
+    return test;
+}
+
+void write_junit(const std::filesystem::path& path, const std::string& suite, const std::vector<JunitCase>& cases) {
+    const auto failures = std::ranges::count_if(cases, [](const JunitCase& test) { return !test.failure.empty(); });
+    std::string text = fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\">\n"
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
+        cases.size(), failures, escape_xml(suite), cases.size(), failures);
+    for (const JunitCase& test : cases) {
+        text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escape_xml(suite), escape_xml(test.name));
+        text += test.failure.empty()
+                    ? "/>\n"
+                    : fmt::format(">\n      <failure message=\"{}\"/>\n    </testcase>\n", escape_xml(test.failure));
+    }
+    write_file(path, text + "  </testsuite>\n</testsuites>\n");
+}
+
+}  // namespace aleph
