@@ -64,7 +64,7 @@ TEST(CompareFrames, ResultsAsJunit) {
         << text;
     EXPECT_NE(
         text.find("new.0009.exr\">\n      <failure message=\"100 % of the pixels are beyond the tolerance, allowed 0 "
-                  "%; largest difference 0.25 in R at 0,0\"/>"),
+                  "%; largest difference 0.25 in B at 0,0\"/>"),
         std::string::npos)
         << text;
     EXPECT_NE(text.find("new.0010.exr\"/>"), std::string::npos) << text;
