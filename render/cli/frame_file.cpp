@@ -88,9 +88,10 @@ std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, 
     return changed;
 }
 
-void remove_partial(const std::filesystem::path& file) {
+void remove_unfinished(const std::filesystem::path& file) {
     std::error_code ignored;
     std::filesystem::remove(partial_file(file), ignored);
+    std::filesystem::remove(checkpoint_file(file), ignored);
 }
 
 void write_partial(const std::filesystem::path& file, const Image<Rgb>& color) {

@@ -20,6 +20,7 @@ std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, 
 /// Writes the picture so far beside the frame's file, as "name.0020.partial.exr".
 /// @throws OutputError
 void write_partial(const std::filesystem::path& file, const Image<Rgb>& color);
-void remove_partial(const std::filesystem::path& file);
+/// Removes the picture so far and the state of a frame that is finished.
+void remove_unfinished(const std::filesystem::path& file);
 
 }  // namespace aleph

@@ -131,14 +131,19 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
     };
     watched.checkpoint = checkpoint ? &*checkpoint : nullptr;
     watched.partial.is_wanted = [&] { return std::exchange(wants_picture, false); };
-    watched.partial.show = [&](const Image<Rgb>& color) { write_partial(file, color); };
+    watched.partial.show = [&](const Image<Rgb>& color) {
+        try {
+            write_partial(file, color);
+        } catch (const OutputError& e) {  // the frame itself goes on
+            std::cerr << "aleph: warning: " << e.what() << "\n";
+        }
+    };
     stop_if_asked(signals);
     FrameOutput output = job_.make(frame, watched);
     if (job_.keep_light) job_.keep_light();
     statistics_.note(output.statistics, fingerprint);
     changed_ += write_frame(file, job_, output, request_.maps, options_.importance, fingerprint);
-    if (checkpoint) checkpoint->remove();
-    remove_partial(file);
+    remove_unfinished(file);
     statistics_.add(place, output.statistics, fingerprint);
     if (made_.empty() && !options_.quiet) warn_of_units(output.statistics);
     estimate_.add(output.statistics);

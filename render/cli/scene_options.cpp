@@ -221,6 +221,10 @@ void check_threads(int threads) {
     throw InputError("", "--threads", fmt::format("{}: expected 0 (all processors) to {}", threads, max_threads));
 }
 
+void add_default_error(const Scene& scene, SettingMap& given) {
+    if (!chooses_work(scene.source.settings) && !chooses_work(given)) given["error"] = 1.0;
+}
+
 int find_threads(int given) {
     const char* const slurm = std::getenv("SLURM_CPUS_PER_TASK");
     if (given > 0 || slurm == nullptr) return given;
@@ -241,7 +245,7 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) scene.film.frame_rate = parse_fps(options.fps);
     SettingMap given = options.settings;
-    if (options.keeps_to_error && !chooses_work(scene.source.settings) && !chooses_work(given)) given["error"] = 1.0;
+    if (options.keeps_to_error) add_default_error(scene, given);
     apply_settings(prepared.settings, scene.source.settings, options.scene);
     set_scene_numbers(scene, given, "--set");
     apply_settings(prepared.settings, given, "");

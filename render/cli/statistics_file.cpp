@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <exception>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
@@ -39,17 +41,18 @@ bool is_write_due(double since, double took) {
 }
 
 std::map<std::string, std::string> read_statistics_rows(const std::filesystem::path& path) {
-    std::map<std::string, std::string> rows;
-    const auto add = [&](const Json& row) {
+    std::map<std::string, std::string> rows, unfinished;
+    const auto add = [](const Json& row, std::map<std::string, std::string>& to) {
         if (row.is_object() && row.contains("fingerprint") && row["fingerprint"].is_string())
-            rows.emplace(row["fingerprint"].get<std::string>(), indent_row(row.dump(2)));
+            to[row["fingerprint"].get<std::string>()] = indent_row(row.dump(2));
     };
     const Json whole = Json::parse(read_text(path), nullptr, false);
     if (whole.is_object() && whole.contains("frames") && whole["frames"].is_array()) {
-        for (const Json& row : whole["frames"]) add(row);
+        for (const Json& row : whole["frames"]) add(row, rows);
     }
     std::istringstream lines(read_text(rows_file(path)));
-    for (std::string line; std::getline(lines, line);) add(Json::parse(line, nullptr, false));
+    for (std::string line; std::getline(lines, line);) add(Json::parse(line, nullptr, false), unfinished);
+    rows.merge(unfinished);
     return rows;
 }
 
@@ -64,21 +67,33 @@ StatisticsFile::~StatisticsFile() {
     }
 }
 
-void StatisticsFile::note(const FrameStatistics& frame, const std::string& fingerprint) const {
-    if (path_.empty()) return;
-    // The row before may have been cut.
-    const std::string line = "\n" + Json::parse(format_frame_statistics(frame, fingerprint)).dump();
+StatisticsFile::Row StatisticsFile::append(const std::string& row) {
     const std::filesystem::path path = rows_file(path_);
-    const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-    if (file.get() < 0 || ::write(file.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
+    if (rows_.get() < 0) rows_ = FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+    // The row before may have been cut, by a process that was killed.
+    const std::string line = "\n" + Json::parse(row).dump();
+    if (rows_.get() < 0 || ::write(rows_.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
         throw OutputError(printable(path.string(), 4096),
                           fmt::format("cannot write: {}", std::generic_category().message(errno)));
     }
+    const off_t end = ::lseek(rows_.get(), 0, SEEK_CUR);  // of what was appended, whoever else appends
+    return {end - static_cast<off_t>(line.size()) + 1, line.size() - 1};
+}
+
+std::string StatisticsFile::read(const Row& row) const {
+    std::string line(row.size, '\0');
+    if (::pread(rows_.get(), line.data(), line.size(), row.begin) != static_cast<ssize_t>(line.size()))
+        throw OutputError(printable(rows_file(path_).string(), 4096), "cannot read back what was written");
+    return indent_row(Json::parse(line).dump(2));
+}
+
+void StatisticsFile::note(const FrameStatistics& frame, const std::string& fingerprint) {
+    if (!path_.empty()) append(format_frame_statistics(frame, fingerprint));
 }
 
 void StatisticsFile::add(std::size_t place, const FrameStatistics& frame, const std::string& fingerprint) {
     if (path_.empty()) return;
-    frames_[place] = format_frame_statistics(frame, fingerprint);
+    frames_[place] = append(format_frame_statistics(frame, fingerprint));
     changed_ = true;
     clock_.add_to(since_);
     if (is_write_due(since_, took_)) write();
@@ -86,7 +101,7 @@ void StatisticsFile::add(std::size_t place, const FrameStatistics& frame, const 
 
 void StatisticsFile::keep(std::size_t place, const std::string& row) {
     if (path_.empty() || frames_.contains(place)) return;
-    frames_[place] = row;
+    frames_[place] = append(row);
     changed_ = true;
 }
 
@@ -109,9 +124,18 @@ void StatisticsFile::finish() {
 
 void StatisticsFile::write() {
     StageClock writing;
-    std::string frames;
-    for (const auto& [place, row] : frames_) frames += (frames.empty() ? "" : ",\n") + row;
-    write_file(path_, format_statistics(frames, scene_, settings_, exposure_, budget_, verified_));
+    constexpr std::string_view mark("\1");  // nowhere else in the text
+    const std::string text =
+        format_statistics(frames_.empty() ? "" : mark, scene_, settings_, exposure_, budget_, verified_);
+    const std::size_t middle = std::min(text.find(mark), text.size());
+    write_atomically(path_, [&](const std::filesystem::path& temporary) {
+        std::ofstream out(temporary, std::ios::binary);
+        out << text.substr(0, middle);
+        const char* before = "";
+        for (const auto& [place, row] : frames_) out << std::exchange(before, ",\n") << read(row);
+        if (!frames_.empty()) out << text.substr(middle + mark.size());
+        if (!out.flush()) throw OutputError(printable(path_.string(), 4096), "cannot write the statistics");
+    });
     changed_ = false;
     took_ = since_ = 0.0;
     writing.add_to(took_);

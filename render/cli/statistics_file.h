@@ -1,11 +1,14 @@
 #pragma once
 // The --stats file while frames are made: it has the finished frames, and writing it takes little of their time.
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 
+#include "engine/base/file_descriptor.h"
 #include "render/output/frame_files.h"
 #include "render/settings/measure.h"
 
@@ -34,10 +37,9 @@ class StatisticsFile {
     StatisticsFile(const StatisticsFile&) = delete;
     StatisticsFile& operator=(const StatisticsFile&) = delete;
 
-    /// Notes a frame whose file is about to be written in `.NAME.rows` beside the file, which `finish` removes: a
-    /// process that is killed then loses no row of a finished frame.
+    /// Notes a frame whose file is about to be written: a process that is killed then loses no row of a finished frame.
     /// @throws OutputError
-    void note(const FrameStatistics& frame, const std::string& fingerprint) const;
+    void note(const FrameStatistics& frame, const std::string& fingerprint);
 
     /// Adds a finished frame. The first is written at once, others when that is due.
     /// @param place        of the frame among all
@@ -46,6 +48,7 @@ class StatisticsFile {
     void add(std::size_t place, const FrameStatistics& frame, const std::string& fingerprint);
 
     /// Adds a frame that was finished before, as read_statistics_rows found it.
+    /// @throws OutputError
     void keep(std::size_t place, const std::string& row);
 
     /// Says what the budget came to. `finish` then writes the file with it.
@@ -59,6 +62,14 @@ class StatisticsFile {
     void finish();
 
   private:
+    /// Where a row is in the file of rows, bytes.
+    struct Row {
+        off_t begin = 0;
+        std::size_t size = 0;
+    };
+
+    Row append(const std::string& row);
+    std::string read(const Row& row) const;
     void write();
 
     std::filesystem::path path_;
@@ -67,7 +78,10 @@ class StatisticsFile {
     double exposure_;
     std::optional<BudgetStatistics> budget_;
     std::optional<VerifiedStatistics> verified_;
-    std::map<std::size_t, std::string> frames_;  ///< text of the frames so far
+    /// `.NAME.rows` beside the file: rows as they came, one JSON a line, so that a long sequence takes no memory.
+    /// Removed by `finish`.
+    FileDescriptor rows_;
+    std::map<std::size_t, Row> frames_;  ///< by place
     bool changed_ = false;
     StageClock clock_;
     double since_ = 0.0;  ///< seconds since the file was written

@@ -21,6 +21,10 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
     if (format == OutputFormat::flow && (request.frame || options.importance)) {
         throw InputError("--output", printable(options.output), "only `aleph maps` writes motion as .flo, by itself");
     }
+    if (format == OutputFormat::flow && options.resume) {
+        throw InputError("--resume", printable(options.output),
+                         ".flo files cannot tell what they were made from; write .exr or .png");
+    }
     const bool instead = (format == OutputFormat::png || format == OutputFormat::flow) && !request.frame;
     if (request.maps && format != OutputFormat::exr && !instead) {
         throw InputError("--output", printable(options.output),

@@ -76,9 +76,4 @@ void FrameCheckpoint::offer(const std::function<std::string()>& find_samples) {
     write_file(file_, text);
 }
 
-void FrameCheckpoint::remove() const {
-    std::error_code ignored;
-    std::filesystem::remove(file_, ignored);
-}
-
 }  // namespace aleph

@@ -110,9 +110,6 @@ class FrameCheckpoint {
     /// @throws OutputError
     void offer(const std::function<std::string()>& find_samples = {});
 
-    /// Removes the file: the frame is finished.
-    void remove() const;
-
   private:
     const std::filesystem::path file_;
     const std::string identity_;

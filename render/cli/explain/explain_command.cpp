@@ -85,6 +85,7 @@ int explain(const ExplainOptions& options) {
         RenderSettings settings;
         apply_settings(settings, scene.source.settings, options.scene);
         SettingMap given = options.settings;
+        if (options.fingerprint) add_default_error(scene, given);
         set_scene_numbers(scene, given, "--set");
         apply_settings(settings, given, "");
         std::vector<int> frames =
@@ -119,7 +120,7 @@ void add_explain_command(CLI::App& app, Command& command) {
     explain_app->add_flag(
         "--fingerprint", options->fingerprint,
         "print what pictures of the scene depend on, as JSON: SHA-1 of the program and of the content "
-        "of all files that it reads, and the settings");
+        "of all files that it reads, and the settings that `aleph render` has with these options");
     CLI::Option* at =
         add_value(*explain_app, "--at", options->at,
                   "print world matrix, visibility, bounds and points of every object at this time (s) as JSON");

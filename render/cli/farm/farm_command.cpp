@@ -27,7 +27,7 @@ constexpr int most_tasks = 100000;
 
 struct FarmOptions {
     SceneOptions scene;
-    std::string command = "render", cache;
+    std::string command = "render", cache, checkpoint;
     bool aovs = false, submit = false;
     int tasks = 0;
     FarmResources resources;
@@ -52,6 +52,7 @@ std::vector<std::string> list_arguments(const FarmOptions& options) {
     for (const auto& [key, value] : scene.settings) add("--set", key + "=" + setting_text(value));
     // A folder, in which tasks find the keyframes of each other.
     if (!options.cache.empty()) add("--cache", (fs::path(options.cache) / "").string());
+    add("--checkpoint", options.checkpoint);
     if (options.aovs) words.push_back("--aovs");
     if (scene.importance) words.push_back("--importance");
     return words;
@@ -153,6 +154,8 @@ void add_job_options(CLI::App& app, FarmOptions& options) {
     app.add_flag("--aovs", options.aovs, "as of `aleph render`");
     app.add_flag("--importance", options.scene.importance, "as of `aleph maps`");
     app.add_option("--cache", options.cache, "as of `aleph render`; a folder")->type_name("FOLDER");
+    app.add_option("--checkpoint", options.checkpoint, "as of `aleph render`, for frames that take long")
+        ->type_name("SECONDS");
     app.add_flag("--submit", options.submit, "run the script that submits the tasks, too");
 }
 

@@ -29,6 +29,7 @@ FrameCommand parse_frame_command(const FarmJob& job, const std::string& frames) 
     app.add_flag("--aovs", command.request.maps);
     app.add_flag("--importance", command.options.importance);
     app.add_option("--cache", command.cache);
+    add_value(app, "--checkpoint", command.options.checkpoint, "");
     std::vector<std::string> words = job.arguments;
     words.insert(words.end(), {"--frames", frames.empty() ? job.frames : frames, "-o", job.output});
     std::ranges::reverse(words);  // CLI11 takes the last first

@@ -68,7 +68,7 @@ class FarmTest : public testing::Test {
     FarmTest() {
         fs::create_directories(folder_ / "it's a folder");
         write_sliding_box(scene_);
-        words_ = {scene_, "--frames", "1-10", "--size", "32x24", "--gather", "16", "--spp", "1"};
+        words_ = {scene_, "--frames", "1-10", "--size", "32x24", "--gather", "16", "--spp", "1", "--checkpoint", "60"};
     }
 
     Ended run(const std::string& command, Words more) const {
