@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <map>
 #include <string_view>
 #include <system_error>
@@ -63,7 +64,10 @@ FrameClaims::FrameClaims(ClaimedOutput output)
 }
 
 FrameClaims::~FrameClaims() {
-    remove_leftovers();
+    try {
+        remove_leftovers();
+    } catch (const std::exception&) {  // the next render of these frames tries again
+    }
 }
 
 bool FrameClaims::is_finished(int frame) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
@@ -169,17 +170,26 @@ std::string identity_of(const PreparedScene& prepared, const MapsOptions& option
                                   motion, depth, describe_content(options.common, maps_request())));
 }
 
-/// Of what the maps of all frames and those of this one depend on: its picture and the one that its motion needs.
-std::string fingerprint_of(const PreparedImages& images, const MapsOptions& options, int frame) {
-    const auto hash_file = [&](std::int64_t of) {
-        const auto found = images.files.find(of);
-        if (found == images.files.end()) return std::string();
-        const Bytes bytes = read_regular_file(found->second, found->second.string(), "");
-        return hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    };
-    return hash_bytes(fmt::format("{}\n{}\n{}\n{}\n{}", identity_of(images.prepared, options), frame,
-                                  hash_file(frame - 1), hash_file(frame), hash_file(frame + 1)));
-}
+/// SHA-1 of the pictures, each read once.
+class PictureHashes {
+  public:
+    explicit PictureHashes(const FrameFiles& files) : files_(files) {}
+
+    /// Empty where there is no such frame.
+    const std::string& find(std::int64_t frame) {
+        const auto [known, is_new] = known_.emplace(frame, "");
+        const auto file = files_.find(frame);
+        if (is_new && file != files_.end()) {
+            const Bytes bytes = read_regular_file(file->second, file->second.string(), "");
+            known->second = hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        }
+        return known->second;
+    }
+
+  private:
+    const FrameFiles& files_;
+    std::map<std::int64_t, std::string> known_;
+};
 
 void write_image_maps(const MapsOptions& options) {
     const PreparedImages images = prepare_images(options);
@@ -194,8 +204,14 @@ void write_image_maps(const MapsOptions& options) {
         replaced.add(maps.statistics);
         return maps;
     };
-    const FramePrints prints{identity_of(prepared, options),
-                             [&](int frame) { return fingerprint_of(images, options, frame); }};
+    PictureHashes hashes(images.files);
+    const std::string identity = identity_of(prepared, options);
+    // A frame's motion needs one of its neighbours.
+    const FramePrints prints{
+        identity, [&](int frame) {
+            return hash_bytes(fmt::format("{}\n{}\n{}\n{}\n{}", identity, frame, hashes.find(frame - 1),
+                                          hashes.find(frame), hashes.find(frame + 1)));
+        }};
     FrameClaims claims = claim_frames(prepared, options.common, prints);
     write_frames({prepared.scene, prepared.settings, *prepared.scene.film.exposure, prepared.frames, prepared.name,
                   make, claims, prints.of},

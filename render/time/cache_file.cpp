@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -11,6 +10,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/scene/scene_hash.h"
+#include "render/pixels/frame_checkpoint.h"
 
 namespace aleph {
 
@@ -41,53 +41,9 @@ std::string find_difference(const Json& found, const Fingerprint& wanted) {
     return {};
 }
 
-class Writer {
-  public:
-    void bytes(const void* data, std::size_t size) { text_.append(static_cast<const char*>(data), size); }
-    template <class T>
-    void value(const T& v) {
-        bytes(&v, sizeof v);
-    }
-    std::string finish() {
-        const std::string digest = hash_bytes(text_);
-        return std::move(text_) + digest;
-    }
-
-  private:
-    std::string text_;
-};
-
-class Reader {
-  public:
-    Reader(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
-
-    std::string_view bytes(std::uint64_t size) {
-        if (size > text_.size()) damaged();
-        const std::string_view found = text_.substr(0, size);
-        text_.remove_prefix(size);
-        return found;
-    }
-    template <class T>
-    T value() {
-        T v;
-        std::memcpy(&v, bytes(sizeof v).data(), sizeof v);
-        return v;
-    }
-    std::vector<IrradianceRecord> records() {
-        const auto count = value<std::uint64_t>();
-        if (count > text_.size() / sizeof(IrradianceRecord)) damaged();
-        std::vector<IrradianceRecord> found(count);
-        const std::string_view data = bytes(count * sizeof(IrradianceRecord));
-        if (count > 0) std::memcpy(found.data(), data.data(), data.size());
-        return found;
-    }
-    bool at_end() const { return text_.empty(); }
-    [[noreturn]] void damaged() const { throw InputError(file_, "", "the cache file is damaged or not complete"); }
-
-  private:
-    std::string_view text_;
-    std::string file_;
-};
+[[noreturn]] void refuse_damaged(const std::string& file) {
+    throw InputError(file, "", "the cache file is damaged or not complete");
+}
 
 }  // namespace
 
@@ -100,19 +56,17 @@ Fingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& set
 
 void write_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint,
                       const KeyframeRecords& keyframes) {
-    Writer out;
-    const std::string text = format_fingerprint(fingerprint);
-    out.bytes(magic.data(), magic.size());
-    out.value(std::uint64_t{text.size()});
-    out.bytes(text.data(), text.size());
-    out.value(std::uint64_t{sizeof(IrradianceRecord)});
-    out.value(std::uint64_t{keyframes.size()});
+    ByteWriter out;
+    out.add_text(format_fingerprint(fingerprint));
+    out.add(std::uint64_t{sizeof(IrradianceRecord)});
+    out.add(std::uint64_t{keyframes.size()});
     for (const auto& [frame, records] : keyframes) {
-        out.value(frame);
-        out.value(std::uint64_t{records.size()});
-        out.bytes(records.data(), records.size() * sizeof(IrradianceRecord));
+        out.add(frame);
+        out.add(records);
     }
-    write_file(path, out.finish());
+    std::string text = std::string(magic) + out.take();
+    text += hash_bytes(text);
+    write_file(path, text);
 }
 
 KeyframeRecords read_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint) {
@@ -122,24 +76,23 @@ KeyframeRecords read_cache_file(const std::filesystem::path& path, const Fingerp
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (!all.starts_with(magic)) throw InputError(file, "", "this is not a cache file of aleph");
     constexpr std::size_t digest_size = 40;
-    Reader in(all.substr(0, all.size() - std::min(all.size(), digest_size)), file);
     if (all.size() < magic.size() + digest_size ||
         hash_bytes(all.substr(0, all.size() - digest_size)) != all.substr(all.size() - digest_size)) {
-        in.damaged();
+        refuse_damaged(file);
     }
-    in.bytes(magic.size());
-    const Json found = Json::parse(in.bytes(in.value<std::uint64_t>()), nullptr, false);
-    if (!is_fingerprint(found)) in.damaged();
+    ByteReader in(all.substr(magic.size(), all.size() - magic.size() - digest_size));
+    const Json found = Json::parse(in.read_text(), nullptr, false);
+    if (!is_fingerprint(found)) refuse_damaged(file);
     const std::string difference = find_difference(found, fingerprint);
     if (!difference.empty()) throw InputError(file, "", "the cache file cannot be used: " + difference);
-    if (in.value<std::uint64_t>() != sizeof(IrradianceRecord)) in.damaged();
+    if (in.read<std::uint64_t>() != sizeof(IrradianceRecord)) refuse_damaged(file);
     KeyframeRecords keyframes;
-    const auto count = in.value<std::uint64_t>();
-    for (std::uint64_t i = 0; i < count; ++i) {
-        const auto frame = in.value<std::int64_t>();
-        keyframes[frame] = in.records();
+    const auto count = in.read<std::uint64_t>();
+    for (std::uint64_t i = 0; i < count && in.is_good(); ++i) {
+        const auto frame = in.read<std::int64_t>();
+        keyframes[frame] = in.read_all<IrradianceRecord>();
     }
-    if (!in.at_end()) in.damaged();
+    if (!in.is_good() || !in.at_end()) refuse_damaged(file);
     return keyframes;
 }
 

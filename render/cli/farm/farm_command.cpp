@@ -58,10 +58,10 @@ std::vector<std::string> list_arguments(const FarmOptions& options) {
     return words;
 }
 
-/// Runs a script; its exit code.
-int run_script(const fs::path& script) {
+/// Runs a command; its exit code.
+int run_words(const std::vector<std::string>& words) {
     std::cout.flush();
-    const int status = std::system(quote_words({"bash", script.string()}).c_str());
+    const int status = std::system(quote_words(words).c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_failed);
 }
 
@@ -84,9 +84,7 @@ std::vector<std::string> prepare_job(const FarmOptions& options, FarmJob& job) {
     job.command = options.command;
     if (job.output.empty()) throw InputError("", "--output", "name the files of the frames, or their folder");
     job.frames = options.scene.frames;
-    FrameCommand command = parse_frame_command(job, options.scene.frames.empty() ? "0" : options.scene.frames);
-    if (options.scene.frames.empty()) command.options.frames.clear();
-    const PreparedScene prepared = prepare_scene(command.options);
+    const PreparedScene prepared = prepare_scene(parse_frame_command(job).options);
     const fs::path first = output_path(job.output, prepared.name, prepared.frames.front());
     if (output_format(first) == OutputFormat::flow)
         throw InputError("", "--output", ".flo files cannot tell what they were made from; write .exr, .png or .hdr");
@@ -108,7 +106,7 @@ int write_job(const FarmOptions& options, const std::string& scheduler) {
     if (fs::exists(job.folder / "job.json")) job.rounds = read_farm_job(job.folder).rounds;
     const fs::path submit = write_farm_scripts(job, parts, this_program());
     std::cout << fmt::format("{} tasks; bash {}\n", parts.size(), submit.string());
-    return options.submit ? run_script(submit) : static_cast<int>(exit_done);
+    return options.submit ? run_words({"bash", submit.string()}) : static_cast<int>(exit_done);
 }
 
 int print_farm_status(const std::string& folder) {
@@ -130,15 +128,15 @@ int collate(const std::string& folder, bool submit) {
         std::vector<std::string> words{this_program(), "study"};
         words.insert(words.end(), job.arguments.begin(), job.arguments.end());
         words.insert(words.end(), {"-o", job.output});
-        const int status = std::system(quote_words(words).c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_failed);
+        return run_words(words);
     }
     const FarmStatus status = find_status(job, true);
     print_status(status, std::cout);
     join_statistics(job, status);
     if (status.left().empty()) return exit_done;
     if (!submit) return exit_failed;
-    return run_script(write_farm_scripts(job, divide_frames(status.left(), job.tasks), this_program()));
+    const fs::path script = write_farm_scripts(job, divide_frames(status.left(), job.tasks), this_program());
+    return run_words({"bash", script.string()});
 }
 
 /// What all schedulers are told.
@@ -169,10 +167,9 @@ void add_slurm(CLI::App& farm, Command& command) {
     slurm->add_option("--partition", resources.partition, "partition of the cluster")->type_name("NAME");
     add_value(*slurm, "--cpus", resources.cpus, "processors of a task, which it uses all; 0: the cluster's default");
     slurm->footer(
-        "The folder `farm` beside the frames gets plain scripts: task.1.sh, which runs a task, submit.1.sh, which "
-        "submits "
-        "all. A minute before its time is up a task is told to stop, finishes nothing more and exits with 75; where "
-        "the cluster has RequeueExit=75 it then goes on by itself, elsewhere `aleph farm collate --submit` submits "
+        "The folder `farm` beside the frames gets plain scripts: task.1.sh runs a task, submit.1.sh submits all of "
+        "them. A minute before its time is up Slurm tells a task to stop, and it exits with 75; where the cluster has "
+        "RequeueExit=75 it then goes on by itself, elsewhere `aleph farm collate --submit` submits "
         "what is left. A task on a node that dies is begun again. Nothing that is finished is made twice.\n\n"
         "Examples:\n"
         "  aleph farm slurm scene.json --frames 0-749 --error 1 -o out/ --tasks 40 --time 2:00:00 --submit\n"

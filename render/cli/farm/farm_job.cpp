@@ -22,7 +22,7 @@ constexpr const char* job_file = "job.json";
 
 }  // namespace
 
-FrameCommand parse_frame_command(const FarmJob& job, const std::string& frames) {
+FrameCommand parse_frame_command(const FarmJob& job) {
     FrameCommand command;
     CLI::App app{"aleph"};
     add_scene_options(app, command.options);
@@ -31,7 +31,8 @@ FrameCommand parse_frame_command(const FarmJob& job, const std::string& frames) 
     app.add_option("--cache", command.cache);
     add_value(app, "--checkpoint", command.options.checkpoint, "");
     std::vector<std::string> words = job.arguments;
-    words.insert(words.end(), {"--frames", frames.empty() ? job.frames : frames, "-o", job.output});
+    words.insert(words.end(), {"-o", job.output});
+    if (!job.frames.empty()) words.insert(words.end(), {"--frames", job.frames});
     std::ranges::reverse(words);  // CLI11 takes the last first
     app.parse(words);
     command.request.frame = job.command == "render";

@@ -39,9 +39,9 @@ struct FrameCommand {
     std::string cache;
 };
 
-/// The command for frames of a job; empty: all of them.
+/// The command for all frames of a job.
 /// @throws CLI::ParseError, InputError
-FrameCommand parse_frame_command(const FarmJob& job, const std::string& frames = "");
+FrameCommand parse_frame_command(const FarmJob& job);
 
 /// The frames of a task each, contiguous and of about equal number: all of the frames in their order.
 std::vector<std::string> divide_frames(const std::vector<int>& frames, int tasks);
