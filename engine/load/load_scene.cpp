@@ -40,13 +40,8 @@ Scene load_alone(const SceneFormat& format, const LoadRequest& request) {
     return scene;
 }
 
-}  // namespace
-
-Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits, const SceneFormats& formats) {
-    const LoadRequest request{path, path.string(), limits, formats};
-    const SceneFormat& format = require_format(formats, FormatUse::load, path, request.file, "");
-    check_regular_file(path, request.file, "");
-    Scene scene = format.load != nullptr ? format.load(request) : load_alone(format, request);
+/// Adds the warnings, and a light where there is none.
+void complete(Scene& scene, const SceneFormats& formats) {
     check_camera_axes(scene);
     add_rotation_warnings(scene);
     add_mesh_warnings(scene);
@@ -54,6 +49,22 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits, co
     add_radian_warnings(scene);
     add_cut_warnings(scene);
     add_missing_light(scene);
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits, const SceneFormats& formats) {
+    const LoadRequest request{path, path.string(), limits, formats};
+    const SceneFormat& format = require_format(formats, FormatUse::load, path, request.file, "");
+    check_regular_file(path, request.file, "");
+    Scene scene = format.load != nullptr ? format.load(request) : load_alone(format, request);
+    complete(scene, formats);
+    return scene;
+}
+
+Scene load_scene_text(std::string_view text, const std::filesystem::path& folder, const LoadLimits& limits) {
+    Scene scene = load_scene_file_text(text, {folder / "", "", limits, scene_formats()});
+    complete(scene, scene_formats());
     return scene;
 }
 

@@ -2,6 +2,7 @@
 // Loads and saves scenes. The ending of the file's name picks the format; every format's reader fills the same Scene.
 
 #include <filesystem>
+#include <string_view>
 
 #include "engine/json/load_limits.h"
 #include "engine/load/scene_format.h"
@@ -17,6 +18,11 @@ namespace aleph {
 /// @throws InputError with file, place and reason
 Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits = {},
                  const SceneFormats& formats = scene_formats());
+
+/// Reads the text of a scene file.
+/// @param folder  of the files that it names
+/// @throws InputError with place and reason
+Scene load_scene_text(std::string_view text, const std::filesystem::path& folder, const LoadLimits& limits = {});
 
 /// Writes a scene file (.json). load_scene then returns an equal scene, apart from `file` and `warnings`: a camera or a
 /// light that was added is written like the rest. Includes stay includes. In another folder than that of

@@ -90,17 +90,11 @@ SceneText read_text_of(const LoadRequest& request) {
     return read_scene_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, request.file, request.limits);
 }
 
-Scene load_scene_file(const LoadRequest& request) {
+/// Opens the files that the text names.
+Scene load_files_of(SceneText text, const LoadRequest& request) {
     const std::string& file = request.file;
-    if (std::error_code error; fs::file_size(request.path, error) > request.limits.text()) {
-        throw InputError(file, "",
-                         fmt::format("the file is larger than {} MiB; keep large meshes in a .glb or .abc file and "
-                                     "include that",
-                                     request.limits.text() >> 20));
-    }
-    SceneText text = read_text_of(request);
     Scene& scene = text.scene;
-    scene.source.file = file;
+    scene.source.file = request.path.string();
     const fs::path folder = request.path.parent_path();
     for (std::size_t i = 0; i < scene.source.includes.size(); ++i) {
         const std::string &path = scene.source.includes[i].path, &place = text.include_places[i];
@@ -112,6 +106,17 @@ Scene load_scene_file(const LoadRequest& request) {
     load_includes(scene, text.include_places, request);
     check_cameras(scene, file);
     return std::move(scene);
+}
+
+Scene load_scene_file(const LoadRequest& request) {
+    const std::string& file = request.file;
+    if (std::error_code error; fs::file_size(request.path, error) > request.limits.text()) {
+        throw InputError(file, "",
+                         fmt::format("the file is larger than {} MiB; keep large meshes in a .glb or .abc file and "
+                                     "include that",
+                                     request.limits.text() >> 20));
+    }
+    return load_files_of(read_text_of(request), request);
 }
 
 /// A path relative to the folder `from`, made relative to `to`.
@@ -171,6 +176,10 @@ void list_missing_of_scene_file(const LoadRequest& request, std::vector<MissingF
 }
 
 }  // namespace
+
+Scene load_scene_file_text(std::string_view text, const LoadRequest& request) {
+    return load_files_of(read_scene_text(text, request.file, request.limits), request);
+}
 
 SceneFormat scene_file_format() {
     SceneFormat format;

@@ -204,25 +204,12 @@ void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& ra
                              range.first, range.last);
 }
 
-/// Returns whether settings say how much work a picture takes.
-bool chooses_work(const SettingMap& settings) {
-    constexpr const char* keys[] = {"error", "accuracy", "gather", "spp", "sampling", "light_samples", "integrator"};
-    return std::ranges::any_of(keys, [&](const char* key) { return settings.contains(key); });
-}
-
-}  // namespace
-
-namespace {
 constexpr int max_threads = 4096;
 }
 
 void check_threads(int threads) {
     if (threads >= 0 && threads <= max_threads) return;
     throw InputError("", "--threads", fmt::format("{}: expected 0 (all processors) to {}", threads, max_threads));
-}
-
-void add_default_error(const Scene& scene, SettingMap& given) {
-    if (!chooses_work(scene.source.settings) && !chooses_work(given)) given["error"] = 1.0;
 }
 
 int find_threads(int given) {
@@ -245,7 +232,7 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) scene.film.frame_rate = parse_fps(options.fps);
     SettingMap given = options.settings;
-    if (options.keeps_to_error) add_default_error(scene, given);
+    if (options.keeps_to_error) add_default_error(scene.source.settings, given);
     apply_settings(prepared.settings, scene.source.settings, options.scene);
     set_scene_numbers(scene, given, "--set");
     apply_settings(prepared.settings, given, "");

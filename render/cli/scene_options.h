@@ -44,9 +44,6 @@ void add_load_limits(CLI::App& app, LoadLimits& limits);
 /// @throws InputError (--fps)
 FrameRate parse_fps(const std::string& text);
 
-/// `aleph render` asks for an error of 1 where neither the scene nor the options have a setting that chooses the work.
-void add_default_error(const Scene& scene, SettingMap& given);
-
 /// Behind the name of files of maps, to keep them apart from the pictures in the same folder.
 inline constexpr const char* maps_suffix = "-maps";
 

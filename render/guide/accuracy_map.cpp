@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/errors.h"
+
 namespace aleph {
 
 double compress_accuracy(double accuracy, double aleph) {
@@ -33,11 +35,21 @@ double adapt(double aleph, const RenderSettings& settings) {
     return settings.cache.accuracy;
 }
 
+Image<float> adapt_by_own(const Image<float>& aleph, const RenderSettings& settings) {
+    const auto accuracy = static_cast<float>(settings.cache.accuracy);
+    Image<float> alpha = settings.guide.own_adapter->adapt(aleph, settings.cache.accuracy);
+    if (!same_size(alpha, aleph) || alpha.size() != aleph.size())
+        throw InputError("", "adapter", "the accuracy map has another size than the Aleph map");
+    for (float& value : alpha.pixels) value = std::isnan(value) ? accuracy : std::clamp(value, 0.0f, 1.0f);
+    return alpha;
+}
+
 }  // namespace
 
 Image<float> compute_accuracy_map(const Image<float>& aleph, const RenderSettings& settings) {
     Image<float> alpha(aleph.width, aleph.height, static_cast<float>(settings.cache.accuracy));
     if (settings.perception.guide == Guide::none) return alpha;
+    if (settings.guide.own_adapter != nullptr) return adapt_by_own(aleph, settings);
     for (std::size_t i = 0; i < alpha.size(); ++i)
         alpha.pixels[i] = static_cast<float>(adapt(aleph.pixels[i], settings));
     return alpha;

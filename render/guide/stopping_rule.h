@@ -1,6 +1,9 @@
 #pragma once
 // When a pixel has enough samples (Yee 2000, section 6.2, and a rule of our own).
 
+#include <cstdint>
+#include <vector>
+
 #include "engine/base/image.h"
 #include "render/pixels/outlines.h"
 #include "render/pixels/pixel_samples.h"
@@ -50,6 +53,24 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outlin
 /// within the tolerance; at a lone outline with fewer samples, around it with more.
 /// @param tolerance  of luminance, in the samples' unit. 0 or less is met by an error of 0 only
 bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance);
+
+/// The pixels of a stage that may take more samples, one element each.
+struct StagePixels {
+    std::vector<int> x, y;
+    std::vector<int> samples;        ///< so far
+    std::vector<float> error;        ///< standard error of the mean luminance, as the pixels around tell it
+    std::vector<float> deviation;    ///< of the luminance of one sample, likewise
+    std::vector<float> tolerance;    ///< of the mean luminance (is_enough)
+};
+
+/// A rule of a program's own: SamplingSettings::own_rule.
+class StoppingRule {
+  public:
+    virtual ~StoppingRule() = default;
+
+    /// 1 for each pixel that has enough samples, 0 for those that double theirs. Called after each stage.
+    virtual std::vector<std::uint8_t> find_enough(const StagePixels& pixels) const = 0;
+};
 
 /// Samples of the Aleph sampling protocol (6.13): most / aleph, but at least 16, and at most `most`.
 int protocol_samples(double aleph, int most);

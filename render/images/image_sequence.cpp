@@ -65,7 +65,7 @@ struct ImageSequence::State {
     Scene shot;
     FrameFiles files;
     RenderSettings settings;
-    PictureLayers layers;
+    std::function<PictureFrame(std::int64_t)> read;
     std::map<std::int64_t, LoadedFrame> loaded;  ///< at most the two frames used last
     int width = 0, height = 0;
     std::string first_read;
@@ -76,7 +76,7 @@ struct ImageSequence::State {
         const auto found = loaded.find(frame);
         if (found != loaded.end()) return found->second;
         const std::filesystem::path& path = files.at(frame);
-        PictureFrame picture = read_picture_frame(path, layers);
+        PictureFrame picture = read(frame);
         LoadedFrame made;
         made.estimate = std::move(picture.color);
         made.depth = std::move(picture.depth);
@@ -121,7 +121,19 @@ ImageSequence::ImageSequence(Scene shot, FrameFiles files, const RenderSettings&
     state_->shot = std::move(shot);
     state_->files = std::move(files);
     state_->settings = settings;
-    state_->layers = std::move(layers);
+    state_->read = [files = state_->files, layers = std::move(layers)](std::int64_t frame) {
+        return read_picture_frame(files.at(frame), layers);
+    };
+}
+
+ImageSequence::ImageSequence(Scene shot, std::map<std::int64_t, PictureFrame> pictures,
+                             const RenderSettings& settings) {
+    validate(settings);
+    state_ = std::make_unique<State>();
+    state_->shot = std::move(shot);
+    for (const auto& [frame, picture] : pictures) state_->files[frame] = fmt::format("frame {}", frame);
+    state_->settings = settings;
+    state_->read = [pictures = std::move(pictures)](std::int64_t frame) { return pictures.at(frame); };
 }
 
 ImageSequence::~ImageSequence() = default;

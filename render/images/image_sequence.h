@@ -32,6 +32,10 @@ class ImageSequence {
     /// files
     /// @throws InputError: settings out of range
     ImageSequence(Scene shot, FrameFiles files, const RenderSettings& settings, PictureLayers layers = {});
+    /// Maps of pictures in memory.
+    /// @param pictures  by frame number, colours with exposure
+    /// @throws InputError: as above, if there are none, or if their sizes differ
+    ImageSequence(Scene shot, std::map<std::int64_t, PictureFrame> pictures, const RenderSettings& settings);
     ~ImageSequence();
     ImageSequence(ImageSequence&&) noexcept;
 

@@ -5,7 +5,7 @@
 
 namespace aleph {
 
-/// The version and the SHA-1 of the program file.
+/// The version and the SHA-1 of the file that holds this code: the program, or the Python module.
 /// @throws InputError if the file cannot be read
 const std::string& program_build();
 

@@ -201,9 +201,24 @@ std::vector<Setting> make_table() {
 
 }  // namespace
 
-const std::vector<Setting>& setting_table() {
-    static const std::vector<Setting> table = make_table();
+namespace {
+
+std::vector<Setting>& all_settings() {
+    static std::vector<Setting> table = make_table();
     return table;
+}
+
+}  // namespace
+
+const std::vector<Setting>& setting_table() {
+    return all_settings();
+}
+
+void add_vision(const VisionModel& model) {
+    add_to_vision_list(model);
+    Setting& setting = *std::ranges::find(all_settings(), "vision", &Setting::key);
+    setting.choices.clear();
+    for (const VisionModel* const known : vision_list()) setting.choices.push_back(known->name());
 }
 
 }  // namespace aleph

@@ -30,6 +30,10 @@ struct Setting {
 /// All settings, in the order in which help shows them.
 const std::vector<Setting>& setting_table();
 
+/// Adds a model of vision of a program's own: the setting `vision` takes its name. As add_to_vision_list.
+/// @throws InputError
+void add_vision(const VisionModel& model);
+
 /// The allowed values in words: "a number from 0 to 1", "one of flat, direct".
 std::string describe_values(const Setting& setting);
 

@@ -37,7 +37,17 @@ void refuse_contradiction(const EffectSettings& effects, const std::string& sour
     }
 }
 
+/// Returns whether settings say how much work a picture takes.
+bool chooses_work(const SettingMap& settings) {
+    constexpr const char* keys[] = {"error", "accuracy", "gather", "spp", "sampling", "light_samples", "integrator"};
+    return std::ranges::any_of(keys, [&](const char* key) { return settings.contains(key); });
+}
+
 }  // namespace
+
+void add_default_error(const SettingMap& scene, SettingMap& given) {
+    if (!chooses_work(scene) && !chooses_work(given)) given["error"] = 1.0;
+}
 
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source) {
     const std::vector<Setting>& table = setting_table();

@@ -11,6 +11,9 @@
 
 namespace aleph {
 
+class AccuracyAdapter;
+class StoppingRule;
+
 /// Reconstruction filters: how the light around a pixel's centre makes up the pixel.
 enum class PixelFilter {
     box,              ///< the pixel's square
@@ -75,6 +78,8 @@ struct GuideSettings {
     MotionSource motion = MotionSource::model;
     Adapter adapter = Adapter::compress;
     double adapter_k = 100.0;  ///< K of (6.8)
+    /// In place of `adapter`: a program's own (guide/accuracy_map.h). Has no key.
+    const AccuracyAdapter* own_adapter = nullptr;
 
     bool operator==(const GuideSettings&) const = default;
 };
@@ -105,6 +110,8 @@ struct SamplingSettings {
     Sampling rule = Sampling::uniform;  ///< key "sampling"
     int spp = 16;                       ///< samples per pixel, or the most of them; 1 is the pixel's centre
     VarianceTest variance_test = VarianceTest::standard_error;
+    /// Decides in place of a rule with stages: a program's own (guide/stopping_rule.h). Has no key.
+    const StoppingRule* own_rule = nullptr;
 
     bool operator==(const SamplingSettings&) const = default;
 };
@@ -139,6 +146,9 @@ struct RenderSettings {
 /// @throws InputError naming the key, if it is unknown, or its value has another type, is out of range, or is not in
 /// this version. The settings before that key, in alphabetical order, have been overwritten.
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source);
+
+/// Asks for an error of 1 where neither the scene's settings nor those given choose the work.
+void add_default_error(const SettingMap& scene, SettingMap& given);
 
 /// Settings with which a picture is made to an error that is asked for: the accuracy of records that leaves most of the
 /// error to samples, no lighting keyframes, 16 bounces, and as many samples as their noise needs to go unseen, 4,096 at

@@ -56,6 +56,7 @@ SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSetting
     SamplingPlan plan;
     plan.rule = settings.sampling.rule;
     plan.test = settings.sampling.variance_test;
+    plan.own = settings.sampling.own_rule;
     plan.most = settings.sampling.spp;
     if (limits == nullptr) return plan;
     plan.tolerance = compute_sampling_tolerance(*limits, settings, exposure);

@@ -1,7 +1,9 @@
 #include "render/shade/progressive.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/time/shutter.h"
 
@@ -24,9 +26,9 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
     return ranges;
 }
 
-/// The pixels of a stage that need another one.
-std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
-                                    const std::vector<PixelRange>& stage) {
+/// Whether the plan's rule lets each pixel of a stage go on.
+std::vector<std::uint8_t> ask_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
+                                   const std::vector<PixelRange>& stage) {
     std::vector<std::uint8_t> goes_on(stage.size());
     const Image<float> around =
         plan.rule == Sampling::threshold ? deviations_around(pixels, plan.reach) : Image<float>();
@@ -39,6 +41,35 @@ std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelS
             goes_on[i] = !is_enough(plan.rule, plan.test, mean, plan.tolerance(range.x, range.y));
         }
     });
+    return goes_on;
+}
+
+/// Whether a rule of a program's own lets each pixel of a stage go on.
+std::vector<std::uint8_t> ask_own_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
+                                       const std::vector<PixelRange>& stage) {
+    StagePixels asked;
+    for (const PixelRange& range : stage) {
+        const MeanEstimate mean = estimate_mean(pixels, plan.outlines, range.x, range.y);
+        asked.x.push_back(range.x);
+        asked.y.push_back(range.y);
+        asked.samples.push_back(range.last);
+        asked.error.push_back(static_cast<float>(std::sqrt(mean.error2)));
+        asked.deviation.push_back(static_cast<float>(std::sqrt(mean.variance)));
+        asked.tolerance.push_back(plan.tolerance(range.x, range.y));
+    }
+    const std::vector<std::uint8_t> enough = plan.own->find_enough(asked);
+    if (enough.size() != stage.size())
+        throw InputError("", "stopping rule", "it has to decide for each pixel that it is asked about");
+    std::vector<std::uint8_t> goes_on(stage.size());
+    for (std::size_t i = 0; i < stage.size(); ++i) goes_on[i] = enough[i] == 0 && stage[i].last < plan.most;
+    return goes_on;
+}
+
+/// The pixels of a stage that need another one.
+std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
+                                    const std::vector<PixelRange>& stage) {
+    const std::vector<std::uint8_t> goes_on =
+        plan.own != nullptr ? ask_own_rule(plan, pixels, stage) : ask_rule(plan, pixels, stage);
     std::vector<PixelRange> next;
     for (std::size_t i = 0; i < stage.size(); ++i) {
         const PixelRange& range = stage[i];

@@ -14,6 +14,7 @@ namespace aleph {
 struct SamplingPlan {
     Sampling rule = Sampling::uniform;
     VarianceTest test = VarianceTest::standard_error;
+    const StoppingRule* own = nullptr;  ///< decides in their place
     int most = 1;             ///< samples of a pixel
     Image<float> tolerance;   ///< of luminance, in the samples' unit (is_enough); empty for `uniform` and `protocol`
     Image<float> aleph;       ///< for `protocol`

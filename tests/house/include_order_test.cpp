@@ -34,7 +34,7 @@ const std::vector<Layer>& layers() {
         std::vector<Layer> rooms;
         for (const char* room : {"settings", "surface", "pixels", "guide", "light",       "path",   "cache",
                                  "estimate", "time",    "shade",  "plan",  "frame",       "output", "compare",
-                                 "images",   "budget",  "verify", "study", "study/pages", "cli"}) {
+                                 "images",   "budget",  "verify", "study", "study/pages", "python", "cli"}) {
             rooms.push_back({std::string("render/") + room, stages});
             stages.push_back(rooms.back().folder);
         }

@@ -85,7 +85,7 @@ int explain(const ExplainOptions& options) {
         RenderSettings settings;
         apply_settings(settings, scene.source.settings, options.scene);
         SettingMap given = options.settings;
-        if (options.fingerprint) add_default_error(scene, given);
+        if (options.fingerprint) add_default_error(scene.source.settings, given);
         set_scene_numbers(scene, given, "--set");
         apply_settings(settings, given, "");
         std::vector<int> frames =

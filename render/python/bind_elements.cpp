@@ -1,0 +1,224 @@
+// Materials, lights, cameras, meshes and nodes.
+
+#include <pybind11/stl.h>
+
+#include <numbers>
+
+#include "render/python/arrays.h"
+#include "render/python/elements.h"
+
+namespace aleph::python {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+py::object share_floats(const std::vector<glm::vec3>& values) {
+    return py::array_t<float>({static_cast<py::ssize_t>(values.size()), py::ssize_t{3}},
+                              reinterpret_cast<const float*>(values.data()));
+}
+
+void set_positions(const Element<Mesh>& element, const py::array_t<float, py::array::c_style>& positions) {
+    Mesh& mesh = element.get();
+    const auto count = static_cast<py::ssize_t>(mesh.positions.size());
+    if (positions.ndim() != 2 || positions.shape(0) != count || positions.shape(1) != 3)
+        throw InputError("", fmt::format("Mesh '{}': positions", mesh.name),
+                         fmt::format("expected an array ({}, 3): the number of points does not change", count));
+    if (mesh.shape || mesh.deformation.points != no_index || mesh.subdivision.cage != no_index)
+        throw InputError("", fmt::format("Mesh '{}': positions", mesh.name),
+                         "its points come from a shape, a cage or a list of points");
+    const auto* const data = reinterpret_cast<const glm::vec3*>(positions.data());
+    mesh.positions.assign(data, data + count);
+}
+
+}  // namespace
+
+void bind_materials(py::module_& module) {
+    auto m = bind_elements<Material>(module, "Material", "Materials",
+                                     "A material. Properties have the names and units of scene files; colours are "
+                                     "linear Rec.709, (3,); all but the flags may be a Track.");
+    add_track(
+        m, "base_color", "Base colour.", [](Material & x) -> auto& { return x.base_color; });
+    add_track(
+        m, "alpha", "Coverage, 0 to 1.", [](Material & x) -> auto& { return x.opacity.alpha; });
+    add_track(
+        m, "emission", "Radiance that it sends out, cd/m2 before exposure, times emission_strength.",
+        [](Material & x) -> auto& { return x.glow.color; });
+    add_track(
+        m, "emission_strength", "Factor on emission.", [](Material & x) -> auto& { return x.glow.strength; });
+    add_track(
+        m, "metallic", "0 to 1.", [](Material & x) -> auto& { return x.gloss.metallic; });
+    add_track(
+        m, "roughness", "0 to 1.", [](Material & x) -> auto& { return x.gloss.roughness; });
+    add_track(
+        m, "specular", "0 to 1; 0 is Lambert's surface.", [](Material & x) -> auto& { return x.gloss.specular; });
+    add_track(
+        m, "specular_color", "Colour of the dielectric reflection.",
+        [](Material & x) -> auto& { return x.gloss.specular_color; });
+    add_track(
+        m, "ior", "Index of refraction.", [](Material & x) -> auto& { return x.gloss.ior; });
+    add_track(
+        m, "transmission", "Share of light that passes.", [](Material & x) -> auto& { return x.glass.transmission; });
+    add_track(
+        m, "thickness", "Metres; above 0 the mesh encloses a volume.",
+        [](Material & x) -> auto& { return x.glass.thickness; });
+    add_track(
+        m, "attenuation_distance", "Metres.", [](Material & x) -> auto& { return x.glass.attenuation_distance; });
+    add_track(
+        m, "attenuation_color", "Colour of white after that distance.",
+        [](Material & x) -> auto& { return x.glass.attenuation_color; });
+    add_track(
+        m, "clearcoat", "Strength of the coat.", [](Material & x) -> auto& { return x.layers.clearcoat; });
+    add_track(
+        m, "clearcoat_roughness", "0 to 1.", [](Material & x) -> auto& { return x.layers.clearcoat_roughness; });
+    add_track(
+        m, "sheen_color", "Colour of the sheen.", [](Material & x) -> auto& { return x.layers.sheen_color; });
+    add_track(
+        m, "sheen_roughness", "0 to 1.", [](Material & x) -> auto& { return x.layers.sheen_roughness; });
+    add_track(
+        m, "anisotropy", "Strength, 0 to 1.", [](Material & x) -> auto& { return x.layers.anisotropy; });
+    add_track(
+        m, "anisotropy_rotation", "Degrees.", [](Material & x) -> auto& { return x.layers.anisotropy_rotation; },
+        degree);
+    add_field(
+        m, "unlit", "Shows its base colour, takes and gives no light.", [](Material & x) -> auto& { return x.unlit; });
+    add_field(
+        m, "double_sided", "Lit and shining on both sides.", [](Material & x) -> auto& { return x.double_sided; });
+}
+
+void bind_lights_and_cameras(py::module_& module) {
+    auto light = bind_elements<Light>(module, "Light", "Lights", "A point, directional or spot light.");
+    light.def_property_readonly(
+        "kind",
+        [](const Element<Light>& e) {
+            constexpr const char* kinds[] = {"point", "directional", "spot"};
+            return kinds[static_cast<int>(e.get().kind)];
+        },
+        "\"point\", \"directional\" or \"spot\".");
+    add_track(
+        light, "color", "Linear colour.", [](Light & x) -> auto& { return x.color; });
+    add_track(
+        light, "intensity", "Candela; of a directional light lux.", [](Light & x) -> auto& { return x.intensity; });
+    add_track(
+        light, "range", "Metres; 0: unlimited.", [](Light & x) -> auto& { return x.range; });
+    add_track(
+        light, "inner_cone", "Degrees from the axis.", [](Light & x) -> auto& { return x.inner_cone; }, degree);
+    add_track(
+        light, "outer_cone", "Degrees from the axis.", [](Light & x) -> auto& { return x.outer_cone; }, degree);
+
+    auto camera = bind_elements<Camera>(module, "Camera", "Cameras", "A camera; it looks along -z of its node.");
+    add_field(
+        camera, "orthographic", "True: half_height counts, and not fov.",
+        [](Camera & x) -> auto& { return x.orthographic; });
+    add_track(
+        camera, "fov", "Degrees, vertical.", [](Camera & x) -> auto& { return x.fov; }, degree);
+    add_track(
+        camera, "half_height", "Metres, of an orthographic view.", [](Camera & x) -> auto& { return x.half_height; });
+    add_track(
+        camera, "shift_x", "Heights of the picture.", [](Camera & x) -> auto& { return x.shift_x; });
+    add_track(
+        camera, "shift_y", "Heights of the picture.", [](Camera & x) -> auto& { return x.shift_y; });
+    add_track(
+        camera, "aperture", "Radius of the lens, metres.", [](Camera & x) -> auto& { return x.aperture; });
+    add_track(
+        camera, "focus_distance", "Metres.", [](Camera & x) -> auto& { return x.focus_distance; });
+    camera.def_property(
+        "shutter", [](const Element<Camera>& e) { return std::pair(e.get().shutter.x, e.get().shutter.y); },
+        [](const Element<Camera>& e, std::pair<double, double> times) {
+            e.get().shutter = {times.first, times.second};
+        },
+        "Open and close, frames relative to the frame.");
+}
+
+void bind_nodes_and_meshes(py::module_& module) {
+    auto mesh = bind_elements<Mesh>(module, "Mesh", "Meshes", "Triangles of one material.");
+    mesh.def_property(
+            "positions", [](const Element<Mesh>& e) { return share_floats(e.get().positions); }, &set_positions,
+            "A copy of the points, (points, 3), metres in the space of its node. Those of a mesh that neither "
+            "deforms nor is made from a shape may be assigned.")
+        .def_property_readonly(
+            "triangles",
+            [](const Element<Mesh>& e) {
+                const std::vector<glm::uvec3>& triangles = e.get().triangles;
+                return py::array_t<std::uint32_t>({static_cast<py::ssize_t>(triangles.size()), py::ssize_t{3}},
+                                                  reinterpret_cast<const std::uint32_t*>(triangles.data()));
+            },
+            "A copy of the indices of points, (triangles, 3).")
+        .def_property(
+            "material",
+            [](const Element<Mesh>& e) { return element_or_none(e.scene, &Scene::materials, e.get().material); },
+            [](const Element<Mesh>& e, const Element<Material>& material) {
+                if (material.scene != e.scene) throw InputError("", "Mesh.material", "it is of another scene");
+                e.get().material = static_cast<int>(material.index);
+            },
+            "Its material; None: white and rough.");
+    add_track(
+        mesh, "present", "0 where it is not there; step.", [](Mesh & x) -> auto& { return x.present; });
+
+    auto node = bind_elements<Node>(module, "Node", "Nodes",
+                                    "A node of the scene. From its space to its parent's: `matrix` where set, else "
+                                    "translation * rotation * scale. Each may be a Track.");
+    node.def_property_readonly(
+            "parent", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::nodes, e.get().parent); },
+            "The node above; None at the top.")
+        .def_property_readonly(
+            "meshes",
+            [](const Element<Node>& e) {
+                py::list meshes;
+                for (const int index : e.get().meshes) meshes.append(element_or_none(e.scene, &Scene::meshes, index));
+                return meshes;
+            },
+            "The meshes that it shows.")
+        .def_property_readonly(
+            "camera", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::cameras, e.get().camera); },
+            "Its camera, or None.")
+        .def_property_readonly(
+            "light", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::lights, e.get().light); },
+            "Its light, or None.");
+    add_track(
+        node, "translation", "Metres, (3,).", [](Node & x) -> auto& { return x.transform.translation; });
+    add_track(
+        node, "scale", "Factors, (3,).", [](Node & x) -> auto& { return x.transform.scale; });
+    add_track(
+        node, "visible", "1: as its parent; 0: hidden, with all below; step.",
+        [](Node & x) -> auto& { return x.visible; });
+    node.def_property(
+        "rotation",
+        [](const Element<Node>& e) -> py::object {
+            const LocalTransform& transform = e.get().transform;
+            if (!transform.axis_rotation) return track_to_python(transform.rotation);
+            const glm::dvec3& axis = transform.axis_rotation->axis;
+            return py::make_tuple(py::make_tuple(axis.x, axis.y, axis.z),
+                                  track_to_python(transform.axis_rotation->angle, degree));
+        },
+        [](const Element<Node>& e, const py::object& value) {
+            const std::string place = fmt::format("Node '{}': rotation", e.get().name);
+            LocalTransform& transform = e.get().transform;
+            if (!py::isinstance<py::tuple>(value) || py::len(value) != 2) {
+                transform.rotation = track_from_python<glm::dquat>(value, place);
+                transform.axis_rotation.reset();
+                return;
+            }
+            const auto pair = value.cast<py::tuple>();
+            const glm::dvec3 axis = track_from_python<glm::dvec3>(pair[0], place).values.front();
+            if (!(glm::length(axis) > 0.0)) throw InputError("", place, "the axis has no length");
+            transform.axis_rotation =
+                AxisRotation{glm::normalize(axis), track_from_python<double>(pair[1], place, degree)};
+        },
+        "A quaternion x, y, z, w, or a pair of an axis (3,) and its degrees.");
+    node.def_property(
+        "matrix",
+        [](const Element<Node>& e) -> py::object {
+            if (!e.get().transform.matrix) return py::none();
+            return track_to_python(*e.get().transform.matrix);
+        },
+        [](const Element<Node>& e, const py::object& value) {
+            const std::string place = fmt::format("Node '{}': matrix", e.get().name);
+            auto& matrix = e.get().transform.matrix;
+            if (value.is_none()) return matrix.reset();
+            matrix = track_from_python<glm::dmat4>(value, place);
+        },
+        "An affine (4, 4) matrix for column vectors in place of translation, rotation and scale; None: it has these.");
+}
+
+}  // namespace aleph::python

@@ -1,0 +1,114 @@
+// Rendering: single frames, and sequences.
+
+#include <pybind11/stl.h>
+
+#include "engine/pose/pose.h"
+#include "render/frame/sequence.h"
+#include "render/python/background.h"
+#include "render/python/frame_object.h"
+#include "render/python/scene_object.h"
+#include "render/python/settings_object.h"
+
+namespace aleph::python {
+
+namespace {
+
+class PythonSequence {
+  public:
+    PythonSequence(const py::object& source, const std::string& camera, int threads, const py::dict& arguments)
+        : threads_(threads) {
+        Scene scene = py::isinstance<Scene>(source)
+                          ? source.cast<const Scene&>()
+                          : py::module_::import("aleph._aleph").attr("load")(source).cast<const Scene&>();
+        given_ = read_settings(scene, arguments, true);
+        run_in_background(threads_, py::none(), [&](const FrameProgress&) {
+            sequence_ = std::make_unique<Sequence>(std::move(scene), given_.settings, camera);
+        });
+    }
+
+    std::shared_ptr<Frame> render(std::int64_t number, bool maps, bool picture, const py::object& on_progress) {
+        auto frame = std::make_shared<Frame>();
+        run_in_background(threads_, on_progress, [&](const FrameProgress& progress) {
+            FrameRequest request;
+            request.frame = picture;
+            request.maps = maps;
+            request.progress = progress;
+            frame->output = sequence_->render(number, request);
+        });
+        if (!origin_) origin_ = describe_origin(sequence_->scene(), given_.settings, sequence_->exposure());
+        frame->origin = origin_;
+        return frame;
+    }
+
+    void edit(const py::function& change) {
+        sequence_->edit([&](Scene& scene) {
+            const auto edited = std::make_shared<Scene>(std::move(scene));
+            try {
+                change(edited);
+            } catch (...) {
+                scene = std::move(*edited);
+                throw;
+            }
+            scene = *edited;  // Python may keep elements of it
+        });
+        origin_.reset();
+    }
+
+    std::pair<std::int64_t, std::int64_t> frames() const {
+        const FrameRange range = sequence_->range();
+        return {range.first, range.last};
+    }
+    double exposure() const { return sequence_->exposure(); }
+
+  private:
+    int threads_;
+    GivenSettings given_;
+    std::unique_ptr<Sequence> sequence_;  ///< after what its settings point to
+    std::shared_ptr<const FrameOrigin> origin_;
+};
+
+std::shared_ptr<Frame> render(const py::object& scene, std::optional<std::int64_t> frame, bool maps,
+                              const std::string& camera, int threads, const py::object& on_progress,
+                              const py::kwargs& settings) {
+    PythonSequence sequence(scene, camera, threads, settings);
+    return sequence.render(frame.value_or(sequence.frames().first), maps, true, on_progress);
+}
+
+}  // namespace
+
+void bind_sequences(py::module_& module) {
+    py::class_<PythonSequence>(module, "Sequence", R"(Renders frames of one scene, and keeps what they share.
+
+scene: an aleph.Scene, which is copied, or what aleph.load takes.
+camera: name of a camera or of its node; "": the scene's choice.
+threads: 0: one for each processor.
+settings: as of aleph.render.)")
+        .def(py::init([](const py::object& scene, const std::string& camera, int threads, const py::kwargs& settings) {
+                 return std::make_unique<PythonSequence>(scene, camera, threads, settings);
+             }),
+             py::arg("scene"), py::kw_only(), py::arg("camera") = "", py::arg("threads") = 0)
+        .def("render", &PythonSequence::render, py::arg("frame"), py::kw_only(), py::arg("maps") = true,
+             py::arg("picture") = true, py::arg("on_progress") = py::none(),
+             "Renders a frame; does not depend on the frames before. picture=False: its maps alone. "
+             "on_progress(fraction, stage) is called as it goes on; what it raises, and Ctrl-C, end the frame.")
+        .def("edit", &PythonSequence::edit, py::arg("change"),
+             "Calls change(scene) between frames; the next frame's motion leads from the frame rendered last.")
+        .def_property_readonly("frames", &PythonSequence::frames, "First and last frame.")
+        .def_property_readonly("exposure", &PythonSequence::exposure, "Factor on radiance.");
+    module.def("render", &render, py::arg("scene"), py::arg("frame") = py::none(), py::kw_only(),
+               py::arg("maps") = true, py::arg("camera") = "", py::arg("threads") = 0,
+               py::arg("on_progress") = py::none(), R"(Renders a frame.
+
+scene: an aleph.Scene, or what aleph.load takes.
+frame: its number; None: the first.
+maps: False: the picture alone, without maps that nothing else needs.
+on_progress(fraction, stage): called as it goes on; what it raises, and Ctrl-C, end the frame.
+settings: by the names of `aleph render --help`, with _ for -, such as error=1, size=(320, 240), guide="none"; they
+override those of the scene. Without one that chooses the work, error=1. Functions on arrays may stand for
+  vision(frequency, retinal, tracked, luminance) -> elevations of pixels, 1 to 250;
+  adapter(aleph, accuracy) -> ambient accuracies, (h, w), 0 to 1;
+  sampling(x, y, samples, error, deviation, tolerance) -> True where a pixel has enough.
+Returns a Frame. Raises InputError for a scene or a setting that is wrong.)");
+}
+
+}  // namespace aleph::python

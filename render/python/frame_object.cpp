@@ -1,0 +1,149 @@
+#include "render/python/frame_object.h"
+
+#include <pybind11/stl.h>
+
+#include "engine/base/errors.h"
+#include "engine/image/image_file.h"
+#include "render/output/frame_files.h"
+#include "render/python/arrays.h"
+#include "render/python/scene_object.h"
+
+namespace aleph::python {
+
+std::shared_ptr<const FrameOrigin> describe_origin(const Scene& scene, const RenderSettings& settings,
+                                                   double exposure) {
+    auto origin = std::make_shared<FrameOrigin>(FrameOrigin{{}, settings, exposure});
+    Scene& out = origin->scene;
+    out.source.name = scene.source.name;
+    out.source.settings = scene.source.settings;
+    out.film = scene.film;
+    for (const Node& node : scene.nodes) {
+        Node& named = out.nodes.emplace_back();
+        named.name = node.name;
+        named.parent = node.parent;
+        named.meshes = node.meshes;
+    }
+    for (const Mesh& mesh : scene.meshes) out.meshes.emplace_back().name = mesh.name;
+    return origin;
+}
+
+ChannelImage frame_channels(const Frame& frame) {
+    const FrameOrigin& origin = *frame.origin;
+    return make_frame_image(frame.output, true, origin.scene, origin.settings, origin.exposure);
+}
+
+namespace {
+
+/// A property whose array shares the frame's memory; None where the frame has no such map.
+template <class Number, class Field>
+void add_map(py::class_<Frame, std::shared_ptr<Frame>>& frame, const char* name, const char* doc, Field field) {
+    frame.def_property_readonly(
+        name,
+        [=](const py::object& self) { return share_image<Number>(field(self.cast<const Frame&>().output), self); },
+        doc);
+}
+
+using Out = const FrameOutput&;
+
+void add_pictures(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
+    add_map<float>(
+        frame, "color", "Linear RGB with exposure, (h, w, 3).", [](Out o) -> auto& { return o.shaded.color; });
+    add_map<float>(
+        frame, "estimate", "The quick estimate that the model of vision sees, (h, w, 3).",
+        [](Out o) -> auto& { return o.estimate; });
+    add_map<float>(
+        frame, "samples", "Samples of each pixel.", [](Out o) -> auto& { return o.shaded.samples; });
+    add_map<float>(
+        frame, "error", "Estimated standard error, in visible thresholds.",
+        [](Out o) -> auto& { return o.shaded.errors.total; });
+    add_map<float>(
+        frame, "variance", "Of the mean luminance, with exposure; of traced paths.",
+        [](Out o) -> auto& { return o.shaded.variance; });
+    add_map<float>(
+        frame, "depth", "Planar, metres; 1e30 for background.", [](Out o) -> auto& { return o.surface.depth; });
+    add_map<float>(
+        frame, "normal", "World space, towards the viewer, (h, w, 3).",
+        [](Out o) -> auto& { return o.surface.normal; });
+    add_map<float>(
+        frame, "albedo", "Base of what is reflected, (h, w, 3).", [](Out o) -> auto& { return o.surface.albedo; });
+}
+
+void add_motion(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
+    add_map<double>(
+        frame, "motion", "To the next frame, pixels, x right, y down, (h, w, 2).",
+        [](Out o) -> auto& { return o.motion.displacement; });
+    add_map<std::int8_t>(
+        frame, "motion_valid",
+        "1: valid; 0: background; -1: behind the camera; -2: leaves the picture; -3: no counterpart; "
+        "-4: hidden there.",
+        [](Out o) -> auto& { return o.motion.validity; });
+    add_map<double>(
+        frame, "backward", "To the frame before, as `motion`.", [](Out o) -> auto& { return o.backward.displacement; });
+    add_map<std::int8_t>(
+        frame, "backward_valid", "As `motion_valid`.", [](Out o) -> auto& { return o.backward.validity; });
+    add_map<float>(
+        frame, "velocity", "Image velocity, degrees per second.", [](Out o) -> auto& { return o.velocity; });
+}
+
+void add_perception(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
+    add_map<float>(
+        frame, "aleph", "The Aleph map: how many times the least visible contrast goes unnoticed.",
+        [](Out o) -> auto& { return o.perception.aleph; });
+    add_map<float>(
+        frame, "threshold", "Least visible luminance difference that lasts, cd/m2.",
+        [](Out o) -> auto& { return o.limits.threshold; });
+    add_map<float>(
+        frame, "threshold_noise", "Standard deviation of noise of single pixels that goes unseen, cd/m2.",
+        [](Out o) -> auto& { return o.limits.threshold_noise; });
+    add_map<float>(
+        frame, "accuracy", "Ambient accuracy of cached light.", [](Out o) -> auto& { return o.limits.alpha; });
+    add_map<float>(
+        frame, "saliency", "Where viewers look, 0 to 1.", [](Out o) -> auto& { return o.perception.saliency; });
+    add_map<float>(
+        frame, "retinal_velocity", "Degrees per second.", [](Out o) -> auto& { return o.perception.retinal_velocity; });
+}
+
+/// By the ending of the name.
+void save(const Frame& frame, const py::object& to) {
+    const std::filesystem::path path = to_path(to);
+    const std::string ending = path.extension().string();
+    if (ending == ".exr") return write_exr(path, frame_channels(frame));
+    const Image<Rgb>& color = frame.output.shaded.color;
+    if (color.empty()) throw InputError(path.string(), "save", "the frame has maps only, and no picture: write .exr");
+    if (ending == ".png") return write_png(path, color);
+    if (ending == ".hdr") {
+        write_hdr(path, color);
+        return;
+    }
+    throw InputError(path.string(), "save", "the name has to end in .exr, .png or .hdr");
+}
+
+}  // namespace
+
+void bind_frames(py::module_& module) {
+    py::class_<Frame, std::shared_ptr<Frame>> frame(module, "Frame",
+                                                    "A frame and its maps, as read-only arrays of shape (height, "
+                                                    "width, ...) that share its memory; row 0 is at the "
+                                                    "top. What was not computed is None.");
+    add_pictures(frame);
+    add_motion(frame);
+    add_perception(frame);
+    frame
+        .def_property_readonly(
+            "number", [](const Frame& f) { return f.output.statistics.frame; }, "Frame number.")
+        .def_property_readonly(
+            "exposure", [](const Frame& f) { return f.origin->exposure; }, "Factor on radiance that is in the colours.")
+        .def_property_readonly(
+            "statistics", [](const Frame& f) { return from_json(format_frame_statistics(f.output.statistics)); },
+            "Counts and times, a dict; `aleph render --stats` writes the same.")
+        .def_property_readonly(
+            "plan", [](const py::object& self) -> py::object { return self.attr("statistics")["plan"]; },
+            "The effects plan: for each effect its decision, reason and bound.")
+        .def("save", &save, py::arg("path"),
+             "Writes the picture as .png or .hdr, or the picture and all maps as .exr (`aleph maps --help` has the "
+             "channels).")
+        .def("__repr__",
+             [](const Frame& f) { return "<aleph.Frame " + std::to_string(f.output.statistics.frame) + ">"; });
+}
+
+}  // namespace aleph::python

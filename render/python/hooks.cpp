@@ -1,0 +1,160 @@
+#include "render/python/hooks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/errors.h"
+#include "render/python/arrays.h"
+
+namespace aleph::python {
+
+namespace {
+
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+/// A function's result, with one value for each pixel; a single value stands for all.
+/// @throws InputError
+Floats to_row(const py::object& result, py::ssize_t count, const char* what) {
+    const auto numpy = py::module_::import("numpy");
+    const Floats values = Floats::ensure(result);
+    if (!values || (values.ndim() != 0 && values.size() != count)) {
+        PyErr_Clear();
+        throw InputError("", what, fmt::format("expected {} numbers, one for each that it was given", count));
+    }
+    if (values.ndim() != 0) return values;
+    return Floats(numpy.attr("full")(count, values, "float32"));
+}
+
+class PythonVision;
+
+/// One row of pixels.
+class PythonRow : public ElevationRow {
+  public:
+    PythonRow(const PythonVision& vision, std::array<double, band_count> rho, int width)
+        : vision_(vision), rho_(rho), width_(width) {}
+    void load(const StimulusRow& row) override { row_ = row; }
+    void elevations(int band, float* out) const override;
+
+  private:
+    const PythonVision& vision_;
+    std::array<double, band_count> rho_;
+    int width_;
+    StimulusRow row_;
+};
+
+class PythonVision : public VisionModel {
+  public:
+    PythonVision(std::string name, py::function elevation, py::object threshold)
+        : name_(std::move(name)), elevation_(std::move(elevation)), threshold_(std::move(threshold)) {}
+
+    std::string name() const override { return name_; }
+    std::string summary() const override { return "a Python function"; }
+    bool uses_luminance() const override { return true; }
+
+    double elevation(const Stimulus& stimulus, const Presentation&) const override {
+        const auto retinal = static_cast<float>(stimulus.retinal), tracked = static_cast<float>(stimulus.tracked),
+                   luminance = static_cast<float>(stimulus.luminance);
+        float out = 1.0f;
+        find_elevations(stimulus.frequency, {&retinal, &tracked, &luminance}, 1, &out);
+        return static_cast<double>(out);
+    }
+
+    double threshold(double luminance) const override {
+        const auto value = static_cast<float>(luminance);
+        float out = 0.0f;
+        thresholds(&value, 1, &out);
+        return static_cast<double>(out);
+    }
+
+    ElevationRowMaker make_rows(const std::array<double, band_count>& rho, const Presentation&) const override {
+        return [this, rho](int width) { return std::make_unique<PythonRow>(*this, rho, width); };
+    }
+
+    void thresholds(const float* luminance, std::size_t count, float* out) const override {
+        const py::gil_scoped_acquire lock;
+        if (threshold_.is_none()) return thesis_vision().thresholds(luminance, count, out);
+        const Floats values = to_row(threshold_(row(luminance, count)), static_cast<py::ssize_t>(count), "threshold");
+        for (std::size_t i = 0; i < count; ++i) {
+            out[i] = values.data()[i];
+            if (!(out[i] > 0.0f) || !std::isfinite(out[i]))
+                throw InputError("", "threshold",
+                                 fmt::format("{} cd/m2 for {} cd/m2: it has to be above 0", out[i], luminance[i]));
+        }
+    }
+
+    void find_elevations(double frequency, const StimulusRow& of, std::size_t count, float* out) const {
+        const py::gil_scoped_acquire lock;
+        const Floats values =
+            to_row(elevation_(frequency, row(of.retinal, count), row(of.tracked, count), row(of.luminance, count)),
+                   static_cast<py::ssize_t>(count), "elevation");
+        for (std::size_t i = 0; i < count; ++i) {
+            if (std::isnan(values.data()[i])) throw InputError("", "elevation", "it gave NaN");
+            out[i] = std::clamp(values.data()[i], 1.0f, static_cast<float>(highest_aleph));
+        }
+    }
+
+  private:
+    static py::array_t<float> row(const float* values, std::size_t count) {
+        return py::array_t<float>(static_cast<py::ssize_t>(count), values);
+    }
+
+    std::string name_;
+    py::function elevation_;
+    py::object threshold_;
+};
+
+void PythonRow::elevations(int band, float* out) const {
+    vision_.find_elevations(rho_.at(static_cast<std::size_t>(band)), row_, static_cast<std::size_t>(width_), out);
+}
+
+class PythonAdapter : public AccuracyAdapter {
+  public:
+    explicit PythonAdapter(py::function adapter) : adapter_(std::move(adapter)) {}
+
+    Image<float> adapt(const Image<float>& aleph, double accuracy) const override {
+        const py::gil_scoped_acquire lock;
+        const py::array_t<float> given({py::ssize_t{aleph.height}, py::ssize_t{aleph.width}}, aleph.pixels.data());
+        return take_numbers(adapter_(given, accuracy), "adapter");
+    }
+
+  private:
+    py::function adapter_;
+};
+
+class PythonRule : public StoppingRule {
+  public:
+    explicit PythonRule(py::function rule) : rule_(std::move(rule)) {}
+
+    std::vector<std::uint8_t> find_enough(const StagePixels& pixels) const override {
+        const py::gil_scoped_acquire lock;
+        const py::object result =
+            rule_(copy_list(pixels.x), copy_list(pixels.y), copy_list(pixels.samples), copy_list(pixels.error),
+                  copy_list(pixels.deviation), copy_list(pixels.tolerance));
+        const Floats values = to_row(result, static_cast<py::ssize_t>(pixels.x.size()), "stopping rule");
+        std::vector<std::uint8_t> enough;
+        for (py::ssize_t i = 0; i < values.size(); ++i) enough.push_back(values.data()[i] != 0.0f);
+        return enough;
+    }
+
+  private:
+    py::function rule_;
+};
+
+}  // namespace
+
+std::unique_ptr<VisionModel> make_vision(const std::string& name, const py::function& elevation,
+                                         const py::object& threshold) {
+    return std::make_unique<PythonVision>(name, elevation, threshold);
+}
+
+std::unique_ptr<AccuracyAdapter> make_adapter(const py::function& adapter) {
+    return std::make_unique<PythonAdapter>(adapter);
+}
+
+std::unique_ptr<StoppingRule> make_stopping_rule(const py::function& rule) {
+    return std::make_unique<PythonRule>(rule);
+}
+
+}  // namespace aleph::python
