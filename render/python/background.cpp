@@ -1,9 +1,13 @@
 #include "render/python/background.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -28,53 +32,103 @@ struct Report {
     bool is_new = false, is_last = false;
 };
 
-class Background {
+/// Threads that wait for work. They are kept: Embree keeps memory for every thread that it has met. They end with the
+/// process.
+class Workers {
   public:
-    explicit Background(const Work& work) : thread_([this, &work] { run(work); }) {}
-    ~Background() {
-        stop();
-        const py::gil_scoped_release release;  // the work may wait for the lock
-        thread_.join();
+    void start(std::function<void()> job) {
+        const std::lock_guard lock(mutex_);
+        jobs_.push_back(std::move(job));
+        if (jobs_.size() > idle_) std::thread([this] { work(); }).detach();
+        wake_.notify_one();
     }
 
-    void stop() { stops_ = true; }
+  private:
+    void work() {
+        std::unique_lock lock(mutex_);
+        while (true) {
+            ++idle_;
+            wake_.wait(lock, [this] { return !jobs_.empty(); });
+            --idle_;
+            const std::function<void()> job = std::move(jobs_.front());
+            jobs_.pop_front();
+            lock.unlock();
+            job();
+            lock.lock();
+        }
+    }
 
-    /// Waits for the next report, but no longer than signals may wait.
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::deque<std::function<void()>> jobs_;
+    std::size_t idle_ = 0;
+};
+
+/// Those of this process: a child that was forked has none of its parent's threads.
+Workers& find_workers() {
+    static Workers* workers = nullptr;
+    static pid_t process = 0;
+    if (process != getpid()) {
+        workers = new Workers();
+        process = getpid();
+    }
+    return *workers;
+}
+
+class Background {
+  public:
+    /// @param work  lasts until this ends
+    explicit Background(const Work& work) {
+        find_workers().start([state = state_, &work] { run(*state, work); });
+    }
+    ~Background() {
+        stop();
+        while (!wait().is_last) continue;
+    }
+
+    void stop() { state_->stops = true; }
+
+    /// Waits for the next report, but no longer than signals may wait. The lock is free meanwhile: the work may need
+    /// it.
     Report wait() {
         const py::gil_scoped_release release;
-        std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, between_signals, [&] { return report_.is_new || report_.is_last; });
-        Report report = report_;
-        report_.is_new = false;
+        std::unique_lock lock(state_->mutex);
+        state_->changed.wait_for(lock, between_signals,
+                                 [&] { return state_->report.is_new || state_->report.is_last; });
+        Report report = state_->report;
+        state_->report.is_new = false;
         return report;
     }
 
     /// What the work threw; null if it did not.
-    std::exception_ptr failure() const { return failure_; }
+    std::exception_ptr failure() const { return std::exchange(state_->failure, nullptr); }
 
   private:
-    void run(const Work& work) {
+    struct State {
+        std::mutex mutex;
+        std::condition_variable changed;
+        Report report;
+        std::atomic<bool> stops = false;
+        std::exception_ptr failure;
+    };
+
+    static void run(State& state, const Work& work) {
         try {
-            work([this](double fraction, const char* stage) {
-                if (stops_) throw Stopped();
-                const std::lock_guard lock(mutex_);
-                report_ = {fraction, stage, true, false};
-                changed_.notify_one();
+            work([&](double fraction, const char* stage) {
+                if (state.stops) throw Stopped();
+                const std::lock_guard lock(state.mutex);
+                state.report = {fraction, stage, true, false};
+                state.changed.notify_one();
             });
         } catch (...) {
-            failure_ = std::current_exception();
+            state.failure = std::current_exception();
         }
-        const std::lock_guard lock(mutex_);
-        report_.is_last = true;
-        changed_.notify_one();
+        const std::lock_guard lock(state.mutex);
+        state.report.is_last = true;
+        state.changed.notify_one();
     }
 
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    Report report_;
-    std::atomic<bool> stops_ = false;
-    std::exception_ptr failure_;
-    std::thread thread_;  ///< after what it uses
+    std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A small program outside the repository. It makes an animated scene, renders one frame and checks three values that
-// can be computed by hand: a pixel, a motion vector and an Aleph value.
+// A small program outside the repository. It makes an animated scene, renders one frame and checks values that can
+// be computed by hand: a pixel, a motion vector, an Aleph value, the errors of a study.
 
 #include <aleph/aleph.h>
 #include <algorithm>
@@ -102,5 +102,15 @@ int main() {
     const double peak = 45.9 / (1.7 * velocity + 2.0) / (2.0 * std::numbers::pi * 0.67);
     const double elevation = contrast_sensitivity(peak, velocity) / std::max(contrast_sensitivity(0.25, velocity), 1.0);
     expect_near("aleph of the wall", output.perception.aleph(40, 30), elevation, 1e-3 * elevation);
+
+    // A study of the same wall from a file: what shows its emission has no noise.
+    aleph::save_scene(scene, "wall.json");
+    constexpr const char* study = R"({"scenes": [{"scene": "wall.json", "frames": "3"}], "size": "16x12",
+        "reference": {"passes": 2, "spp": 2}, "sweep": {"spp": [1, 2]}, "metrics": ["samples", "mean_error"]})";
+    const aleph::StudyResults results =
+        aleph::run_study(aleph::prepare_study(aleph::parse_study(study, "study.json")), "wall-study");
+    expect_near("variants of a study", static_cast<double>(results.variants.size()), 2.0, 0.0);
+    expect_near("samples of the second", results.variants.at(1).metrics.at("samples").value, 2.0, 0.0);
+    expect_near("its mean error, thresholds", results.variants.at(1).metrics.at("mean_error").value, 0.0, 1e-3);
     return failures == 0 ? 0 : 1;
 }

@@ -15,7 +15,7 @@ mv "$work/made" "$work/moved"
 cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/moved" >"$work/configure.log" ||
   { cat "$work/configure.log"; exit 1; }
 cmake --build "$work/build" --parallel "${JOBS:-2}"
-"$work/build/consumer"
+(cd "$work" && build/consumer)
 "$work/moved/bin/aleph" --version
 
 # The example of golden images: the same frames pass, and those with another seed and one sample fail.

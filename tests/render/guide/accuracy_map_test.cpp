@@ -80,5 +80,27 @@ TEST(AccuracyMap, WithoutAGuideNoAdapterCounts) {
     }
 }
 
+/// Twice the accuracy on the left, NaN on the right.
+struct LeftAdapter final : AccuracyAdapter {
+    Image<float> adapt(const Image<float>& aleph, double accuracy) const override {
+        Image<float> alpha(width, aleph.height, std::numeric_limits<float>::quiet_NaN());
+        for (int y = 0; y < alpha.height; ++y) alpha(0, y) = static_cast<float>(20.0 * accuracy);
+        return alpha;
+    }
+    int width = 2;
+};
+
+TEST(AccuracyMap, AnAdapterOfAProgramIsAskedAndHeldToItsRange) {
+    LeftAdapter own;
+    RenderSettings settings;
+    settings.cache.accuracy = 0.1;
+    settings.guide.own_adapter = &own;
+    EXPECT_EQ(compute_accuracy_map(Image<float>(2, 1, 5.0f), settings).pixels, (std::vector<float>{1.0f, 0.1f}));
+    own.width = 3;
+    EXPECT_THROW(compute_accuracy_map(Image<float>(2, 1, 5.0f), settings), InputError);
+    settings.perception.guide = Guide::none;
+    EXPECT_EQ(compute_accuracy_map(Image<float>(2, 1, 5.0f), settings).pixels, std::vector<float>(2, 0.1f));
+}
+
 }  // namespace
 }  // namespace aleph

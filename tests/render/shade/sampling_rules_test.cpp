@@ -273,5 +273,36 @@ TEST_P(SamplingRules, MC28_ADiscThroughALens) {
     expect_mean(scene, settings_of(GetParam(), shape_width, shape_height), truth, 1.0 / std::sqrt(16.0 * 12.0));
 }
 
+/// Columns from 4 on have enough at 64 samples.
+struct ColumnRule final : StoppingRule {
+    std::vector<std::uint8_t> find_enough(const StagePixels& pixels) const override {
+        std::vector<std::uint8_t> enough;
+        for (std::size_t i = 0; i < pixels.x.size(); ++i) {
+            EXPECT_EQ(pixels.tolerance[i], pixels.tolerance[0]);
+            EXPECT_TRUE(pixels.error[i] >= 0.0f && pixels.deviation[i] >= 0.0f && pixels.y[i] < 6);
+            enough.push_back(pixels.x[i] < 4 || pixels.samples[i] >= 64);
+        }
+        enough.resize(enough.size() + extra);
+        return enough;
+    }
+    std::size_t extra = 0;
+};
+
+TEST(SamplingRules, ARuleOfAProgramDecides) {
+    ColumnRule own;
+    Scene scene = make_scene_seen_along_z(1.0);
+    add_mesh(scene, make_quad(5.0, 5.0, add_lambert(scene, glm::dvec3(0.5))));
+    RenderSettings settings = settings_of(Sampling::variance, 8, 6);
+    settings.sampling.own_rule = &own;
+    settings.sampling.spp = 256;
+    const Image<float> samples = Sequence(scene, settings).render(0).shaded.samples;
+    for (int y = 0; y < 6; ++y) {
+        for (int x = 0; x < 8; ++x) EXPECT_EQ(samples(x, y), x < 4 ? samples(0, 0) : 64.0f);
+    }
+    EXPECT_LT(samples(0, 0), 64.0f);
+    own.extra = 1;
+    EXPECT_THROW(Sequence(scene, settings).render(0), InputError);
+}
+
 }  // namespace
 }  // namespace aleph
