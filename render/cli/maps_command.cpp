@@ -11,7 +11,7 @@
 #include "engine/image/image_file.h"
 #include "engine/scene/scene_hash.h"
 #include "render/cli/commands.h"
-#include "render/cli/frame_pattern.h"
+#include "render/settings/frame_pattern.h"
 #include "render/cli/maps_help.h"
 #include "render/cli/output_path.h"
 #include "render/cli/scene_options.h"

@@ -8,7 +8,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "render/cli/frame_pattern.h"
+#include "render/settings/frame_pattern.h"
 
 namespace aleph {
 

@@ -10,12 +10,12 @@
 #include "engine/base/parallel.h"
 #include "perception/vision/vision_model.h"
 #include "render/cli/commands.h"
-#include "render/cli/frame_pattern.h"
 #include "render/cli/output_conflicts.h"
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/search_output.h"
 #include "render/cli/study_output.h"
+#include "render/settings/frame_pattern.h"
 #include "render/settings/setting_table.h"
 #include "render/study/pages/error_sheet.h"
 #include "render/study/prepared_study.h"
@@ -28,7 +28,7 @@ namespace {
 
 struct StudyCommandOptions {
     std::string file, frames, size, output, part;
-    std::vector<std::string> sweeps, sets, viewers, judges;
+    std::vector<std::string> sweeps, sets, viewers, judges, pictures;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0, candidates = 0;
     bool search = false, quiet = false, markdown = false;
     StudyExtras extras;
@@ -65,6 +65,14 @@ StudyJudge parse_judge(const std::string& text) {
     return judge;
 }
 
+/// "other=other.####.exr"
+StudyVariant parse_pictures(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+        throw InputError("", "--pictures", fmt::format("{}: expected NAME=other.####.exr", printable(text)));
+    return {text.substr(0, equals), {}, find_frame_files(text.substr(equals + 1), "--pictures")};
+}
+
 /// A model of vision by its name, on a display that holds its frames.
 StudyViewer make_viewer(const std::string& vision) {
     StudyViewer viewer{vision, {{"vision", vision}}};
@@ -95,6 +103,7 @@ Study make_study(const StudyCommandOptions& options) {
         std::erase_if(study.sweep, [&](const StudyAxis& other) { return other.setting == axis.setting; });
         study.sweep.push_back(std::move(axis));
     }
+    for (const std::string& text : options.pictures) study.variants.push_back(parse_pictures(text));
     if (options.search && !study.search) study.search = default_search();
     if (options.candidates > 0) {
         if (!study.search) throw InputError("", "--candidates", "nothing is searched: add --search");
@@ -230,6 +239,12 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
                     "picture that study.json names, a file of the same name in this folder, or for a study of one "
                     "variant files by frame, NAME=maps.####.exr; the page shows where they and our thresholds disagree")
         ->type_name("NAME=FOLDER")
+        ->allow_extra_args(false);
+    study
+        .add_option("--pictures", options.pictures,
+                    "a variant that another program made: frames of the scene, of the study's size, with the exposure "
+                    "that `aleph explain` prints; its errors are measured, and no costs")
+        ->type_name("NAME=other.####.exr")
         ->allow_extra_args(false);
     study.add_option("-o,--output", options.output, "folder of the results; default: NAME-study")->type_name("FOLDER");
     add_value(study, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");

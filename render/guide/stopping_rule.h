@@ -57,10 +57,10 @@ bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, doubl
 /// The pixels of a stage that may take more samples, one element each.
 struct StagePixels {
     std::vector<int> x, y;
-    std::vector<int> samples;        ///< so far
-    std::vector<float> error;        ///< standard error of the mean luminance, as the pixels around tell it
-    std::vector<float> deviation;    ///< of the luminance of one sample, likewise
-    std::vector<float> tolerance;    ///< of the mean luminance (is_enough)
+    std::vector<int> samples;      ///< so far
+    std::vector<float> error;      ///< standard error of the mean luminance, as the pixels around tell it
+    std::vector<float> deviation;  ///< of the luminance of one sample, likewise
+    std::vector<float> tolerance;  ///< of the mean luminance (is_enough)
 };
 
 /// A rule of a program's own: SamplingSettings::own_rule.

@@ -41,7 +41,31 @@ void refuse(const SettingMap& settings, const std::string& place) {
     if (settings.contains("seed")) throw InputError("", place, "the seeds of a study are its list `seeds`");
 }
 
+/// Another program's pictures are of one scene, and there is one for each of its frames, of the study's size.
+void check_pictures(const StudyVariant& variant, const PreparedStudy& prepared) {
+    if (prepared.scenes.size() != 1)
+        throw InputError("", variant.name, "pictures of another program are judged in a study of one scene");
+    const PreparedStudyScene& scene = prepared.scenes.front();
+    const PictureSettings size = with_settings_of(scene, prepared.study, {}).settings.picture;
+    for (const int frame : scene.frames) {
+        const auto found = variant.pictures.find(frame);
+        if (found == variant.pictures.end())
+            throw InputError("", variant.name, fmt::format("it has no picture of frame {}", frame));
+        const ChannelImage picture = read_image(found->second);
+        const Image<float>* const red = picture.find("R");
+        if (red == nullptr || picture.find("G") == nullptr || picture.find("B") == nullptr)
+            throw InputError(found->second.string(), variant.name, "it has no channels R, G and B");
+        if (red->width != size.width || red->height != size.height)
+            throw InputError(
+                found->second.string(), variant.name,
+                fmt::format("it has {}x{} pixels, the study {}x{}", red->width, red->height, size.width, size.height));
+    }
+}
+
 void check(const PreparedStudy& prepared) {
+    for (const StudyVariant& variant : prepared.variants) {
+        if (!variant.pictures.empty()) check_pictures(variant, prepared);
+    }
     for (const PreparedStudyScene& scene : prepared.scenes) {
         for (const StudyVariant& variant : prepared.variants) {
             refuse(variant.settings, variant.name);

@@ -51,7 +51,8 @@ class StudyRunner {
             for (const std::uint32_t seed : study_.runs.seeds) {
                 for (std::size_t v = 0; v < runs.size(); ++v) {
                     for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
-                        runs[v][s].push_back(find_or_make(v, s, seed, repeat, repeat == 0));
+                        if (is_made(v) || runs[v][s].empty())
+                            runs[v][s].push_back(find_or_make(v, s, seed, repeat, repeat == 0));
                 }
             }
         }
@@ -61,7 +62,7 @@ class StudyRunner {
                 std::ranges::move(summarize_runs(prepared_.scenes[s].name, runs[v][s]),
                                   std::back_inserter(result.frames));
             average_frames(result);
-            if (study_.runs.seeds.size() > 1)
+            if (study_.runs.seeds.size() > 1 && is_made(v))
                 add_seed_metrics(results_.frames, pictures_of(runs[v], 0), pictures_of(runs[v], 1), result);
             results_.variants.push_back(std::move(result));
         }
@@ -83,7 +84,7 @@ class StudyRunner {
             for (const std::uint32_t seed : study_.runs.seeds) {
                 for (std::size_t v = 0; v < prepared_.variants.size(); ++v) {
                     for (std::size_t s = 0; s < prepared_.scenes.size(); ++s) {
-                        if (is_ours()) find_or_make(v, s, seed, repeat, false);
+                        if (is_made(v) && is_ours()) find_or_make(v, s, seed, repeat, false);
                     }
                 }
             }
@@ -155,10 +156,28 @@ class StudyRunner {
         return {std::move(reference), reference_picture_path(own.settings, frame, options)};
     }
 
+    /// Returns whether a variant is rendered: another program's pictures are there.
+    bool is_made(std::size_t v) const { return prepared_.variants[v].pictures.empty(); }
+
+    /// The run of another program's pictures.
+    MeasuredRun take_pictures(std::size_t v, std::size_t s) const {
+        MeasuredRun run;
+        for (const int frame : prepared_.scenes[s].frames) {
+            FrameRun& taken = run.frames.emplace_back();
+            taken.frame = frame;
+            taken.plan = "[]";
+            taken.timed = false;
+            run.pictures.push_back(prepared_.variants[v].pictures.at(frame).string());
+        }
+        measure(s, run);
+        return run;
+    }
+
     /// @param judged  its pictures are compared with the references
     MeasuredRun find_or_make(std::size_t v, std::size_t s, std::uint32_t seed, int repeat, bool judged) {
         const PreparedStudyScene& scene = prepared_.scenes[s];
         const StudyVariant& variant = prepared_.variants[v];
+        if (!is_made(v)) return take_pictures(v, s);
         SceneWithSettings own = with_settings_of(scene, study_, variant.settings);
         own.settings.seed = seed;
         RunName name{scene.name, variant.name, identity(own, scene.frames), seed, repeat};
@@ -181,17 +200,16 @@ class StudyRunner {
         }
         done_ += static_cast<double>(scene.frames.size());
         show(0.0, what);
-        if (judged) measure(name, s, run);
+        if (!judged) return run;
+        for (const FrameRun& frame : run.frames) run.pictures.push_back(store_.picture(name, frame.frame).string());
+        measure(s, run);
         return run;
     }
 
     /// From the files, so that a study that went on has the numbers of one that was never stopped.
-    void measure(const RunName& name, std::size_t s, MeasuredRun& run) const {
-        for (std::size_t i = 0; i < run.frames.size(); ++i) {
-            const std::filesystem::path file = store_.picture(name, run.frames[i].frame);
-            run.errors.push_back(measure_errors(read_image(file), truths_[s][i], prepared_.metrics));
-            run.pictures.push_back(file.string());
-        }
+    void measure(std::size_t s, MeasuredRun& run) const {
+        for (std::size_t i = 0; i < run.frames.size(); ++i)
+            run.errors.push_back(measure_errors(read_image(run.pictures[i]), truths_[s][i], prepared_.metrics));
         std::size_t first = 0;
         for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();
         const std::vector<VisibleErrors> errors =

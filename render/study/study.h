@@ -27,10 +27,11 @@ struct StudyAxis {
     std::vector<SettingValue> values;
 };
 
-/// A variant: settings that differ from the study's own.
+/// A variant: settings that differ from the study's own, or pictures that another program made.
 struct StudyVariant {
     std::string name;
     SettingMap settings;
+    std::map<std::int64_t, std::filesystem::path> pictures{};  ///< files by frame; empty: rendered
 };
 
 /// For whom errors are visible: a model of vision with its viewing conditions.

@@ -5,6 +5,7 @@
 #include "engine/json/json_ref.h"
 #include "engine/json/schema.h"
 #include "engine/json/text.h"
+#include "render/settings/frame_pattern.h"
 #include "render/study/search_candidates.h"
 
 namespace aleph {
@@ -95,6 +96,15 @@ std::vector<std::string> read_texts(const JsonRef& root, std::string_view key) {
     return texts;
 }
 
+/// The files by frame that a pattern such as name.####.exr names.
+std::map<std::int64_t, std::filesystem::path> find_pictures(const JsonRef& at, const std::filesystem::path& folder) {
+    try {
+        return find_frame_files((folder / at.string()).string());
+    } catch (const InputError& error) {
+        at.fail(error.reason());
+    }
+}
+
 /// Reads the lists of objects.
 void read_lists(const JsonRef& root, const std::filesystem::path& folder, Study& study) {
     for_each_object(root, "scenes", [&](const JsonRef& scene, std::size_t) {
@@ -106,7 +116,11 @@ void read_lists(const JsonRef& root, const std::filesystem::path& folder, Study&
         SettingMap settings = find_settings(variant, "settings");
         std::string name = variant.find_string("name").value_or(name_settings(settings));
         if (name.empty()) variant.fail("a variant without settings needs a name");
+        const auto pictures = variant.find("pictures");
+        if (pictures && !settings.empty()) pictures->fail("pictures that are there have no settings");
+        if (!pictures && !variant.find("settings")) variant.fail("a variant has settings or pictures");
         study.variants.push_back({std::move(name), std::move(settings)});
+        if (pictures) study.variants.back().pictures = find_pictures(*pictures, folder);
     });
     for_each_object(root, "viewers", [&](const JsonRef& viewer, std::size_t) {
         study.viewers.push_back({viewer.require("name").string(), find_settings(viewer, "settings")});

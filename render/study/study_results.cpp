@@ -42,13 +42,17 @@ FrameResult summarize_frame(const std::string& scene, const std::vector<Measured
     std::map<std::string, std::vector<double>> values;
     for (const MeasuredRun& run : runs) {
         const FrameRun& frame = run.frames.at(i);
-        values["processor_seconds"].push_back(frame.processor_seconds);
-        values["wall_seconds"].push_back(frame.wall_seconds);
+        if (frame.timed) {
+            values["processor_seconds"].push_back(frame.processor_seconds);
+            values["wall_seconds"].push_back(frame.wall_seconds);
+        }
         if (run.errors.empty()) continue;  // a repeat counts the same
-        values["rays"].push_back(1e-6 * total(frame.rays));
-        values["gather_rays"].push_back(1e-6 * (part(frame.rays, "gather") + part(frame.rays, "multi_bounce")));
-        values["samples"].push_back(frame.samples);
-        values["records"].push_back(frame.records);
+        if (frame.timed) {
+            values["rays"].push_back(1e-6 * total(frame.rays));
+            values["gather_rays"].push_back(1e-6 * (part(frame.rays, "gather") + part(frame.rays, "multi_bounce")));
+            values["samples"].push_back(frame.samples);
+            values["records"].push_back(frame.records);
+        }
         for (const auto& [name, value] : run.errors.at(i)) values[name].push_back(value);
     }
     for (const auto& [name, list] : values) result.metrics[name] = mean_of(list);

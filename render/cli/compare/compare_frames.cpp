@@ -8,7 +8,7 @@
 #include "render/cli/compare/compare_frames_print.h"
 #include "render/cli/compare/junit_file.h"
 #include "render/cli/compare/seen_file.h"
-#include "render/cli/frame_pattern.h"
+#include "render/settings/frame_pattern.h"
 #include "render/cli/options.h"
 #include "render/cli/output_conflicts.h"
 #include "render/cli/progress.h"

@@ -43,7 +43,7 @@ def _value(text):
     return int(number) if number.is_integer() and text.lstrip("-").isdigit() else number
 
 
-def study(scene, frames="", sweep=None, *, variants=None, size=(320, 240), settings=None, reference=None,
+def study(scene, frames="", sweep=None, *, variants=None, pictures=None, size=(320, 240), settings=None, reference=None,
           metrics=None, viewers=None, seeds=1, folder=None, threads=0, on_progress=None):
     """Measures what settings cost in time, and what error they leave.
 
@@ -52,6 +52,7 @@ def study(scene, frames="", sweep=None, *, variants=None, size=(320, 240), setti
     frames: a list of numbers, or text such as "0-89x10"; empty: the middle of the shot.
     sweep: lists of values by setting, such as {"error": [0.5, 1, 2]}; every combination is a variant.
     variants: settings by name, such as {"mine": {"vision": "mine"}}.
+    pictures: frames that other programs made, such as {"other": "other.####.exr"}: judged without costs.
     reference: {"passes": 4, "spp": 32}: path tracing that judges the variants.
     seeds: renderings of each with random numbers of their own.
     folder: keeps the pictures and finished runs; None: they are thrown away.
@@ -59,7 +60,7 @@ def study(scene, frames="", sweep=None, *, variants=None, size=(320, 240), setti
     """
     if isinstance(scene, dict):
         asked = scene
-    elif sweep is None and variants is None:
+    elif sweep is None and variants is None and pictures is None:
         asked = _os.fspath(scene)
     else:
         one = {"scene": _os.path.abspath(_os.fspath(scene))}
@@ -68,7 +69,9 @@ def study(scene, frames="", sweep=None, *, variants=None, size=(320, 240), setti
         asked = {"scenes": [one], "size": size if isinstance(size, str) else "{}x{}".format(*size)}
         given = {
             "sweep": sweep, "settings": settings, "reference": reference, "metrics": metrics, "viewers": viewers,
-            "variants": variants and [{"name": name, "settings": chosen} for name, chosen in variants.items()],
+            "variants": [
+                *({"name": name, "settings": chosen} for name, chosen in (variants or {}).items()),
+                *({"name": name, "pictures": _os.path.abspath(files)} for name, files in (pictures or {}).items())],
             "seeds": list(range(seeds))}
         asked.update({key: value for key, value in given.items() if value is not None})
     with _tempfile.TemporaryDirectory() as temporary:

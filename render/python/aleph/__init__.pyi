@@ -218,7 +218,7 @@ def seen(a: _Sequence[_Picture], b: _Sequence[_Picture], maps: _Sequence[Frame],
          cuts: _Sequence[int] = ()) -> dict[str, float | None]: ...
 def study(scene: _Path | Mapping[str, Any], frames: str | _Sequence[int] = "",
           sweep: Mapping[str, _Sequence[Any]] | None = None, *,
-          variants: Mapping[str, Mapping[str, Any]] | None = None, size: str | tuple[int, int] = (320, 240),
+          variants: Mapping[str, Mapping[str, Any]] | None = None, pictures: Mapping[str, str] | None = None, size: str | tuple[int, int] = (320, 240),
           settings: Mapping[str, Any] | None = None, reference: Mapping[str, Any] | None = None,
           metrics: _Sequence[str] | None = None, viewers: _Sequence[Mapping[str, Any]] | None = None, seeds: int = 1,
           folder: _Path | None = None, threads: int = 0, on_progress: _Progress = None) -> Table: ...

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/image/image_file.h"
-#include "render/cli/frame_pattern.h"
+#include "render/settings/frame_pattern.h"
 #include "tests/support/grey_image.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/run_command.h"

@@ -2,7 +2,7 @@
 // Runs `aleph maps` on pictures of a texture that moves.
 
 #include "engine/image/image_file.h"
-#include "render/cli/frame_pattern.h"
+#include "render/settings/frame_pattern.h"
 #include "tests/support/image_patterns.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"

@@ -2,7 +2,7 @@
 // `aleph maps --images`: the files that a pattern names, and the frame that each is compared with.
 
 #include "engine/image/image_file.h"
-#include "render/cli/frame_pattern.h"
+#include "render/settings/frame_pattern.h"
 #include "render/images/image_sequence.h"
 #include "tests/render/cli/maps_images.h"
 #include "tests/support/image_patterns.h"

@@ -1,6 +1,7 @@
 // Studies of a small picture: what is run, what is kept, and that a stopped study ends with the same numbers.
 
 #include "render/study/run_study.h"
+#include "render/study/study_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
@@ -71,6 +72,44 @@ TEST(RunStudy, MeasuresEveryVariantAndKeepsIt) {
     EXPECT_EQ(again.variants[2].metrics.at("processor_seconds").value,
               first.variants[2].metrics.at("processor_seconds").value)
         << "times are those of the finished run";
+}
+
+TEST(RunStudy, PicturesOfAnotherProgramAreJudgedAlikeWithoutCosts) {
+    const ScratchFolder folder;
+    Study study = small_study();
+    study.sweep = {{"spp", {4.0}}};
+    study.viewers = {{"own", {}}};
+    const StudyResults rendered = run_study(prepare_study(study), folder.path() / "own");
+    fs::copy(rendered.variants[0].frames[0].picture, folder.path() / "other.0003.exr");
+    const std::string text = R"({"scenes": [{"scene": "SCENE", "frames": "3"}], "size": "20x15", "sweep": {"spp": [4]},
+        "settings": {"light_step": 0, "filter": "box"}, "reference": {"passes": 2, "spp": 256}, "seeds": [0, 5],
+        "variants": [{"name": "other", "pictures": "other.####.exr"}]})";
+    const std::string scene = (source_folder() / "scenes/cornell/scene.json").string();
+    const auto parse = [&](std::string own) {
+        return parse_study(own.replace(own.find("SCENE"), 5, scene), folder.path() / "study.json");
+    };
+    const StudyResults results = run_study(prepare_study(parse(text)), folder.path() / "judged");
+    ASSERT_EQ(results.variants.size(), 2u);
+    const VariantResult& other = results.variants[1];
+    EXPECT_EQ(other.metrics.at("share_beyond").value, rendered.variants[0].metrics.at("share_beyond").value);
+    EXPECT_EQ(other.metrics.at("mean_error").value, rendered.variants[0].metrics.at("mean_error").value);
+    for (const char* cost : {"processor_seconds", "rays", "samples", "seed_seen"}) {
+        EXPECT_FALSE(other.metrics.contains(cost)) << cost;
+        EXPECT_TRUE(results.variants[0].metrics.contains(cost)) << cost;
+    }
+    EXPECT_FALSE(other.on_front);
+    EXPECT_TRUE(results.variants[0].on_front);
+
+    const auto refused = [&](const char* from, const char* to) {
+        std::string changed = text;
+        changed.replace(changed.find(from), std::string(from).size(), to);
+        EXPECT_THROW(prepare_study(parse(changed)), InputError) << to;
+    };
+    refused("\"frames\": \"3\"", "\"frames\": \"3,4\"");
+    refused("20x15", "20x16");
+    refused("other.####.exr", "another.####.exr");
+    refused("\"pictures\"", "\"settings\": {}, \"picture\"");
+    refused("\"name\": \"other\",", "\"name\": \"other\", \"settings\": {\"spp\": 1},");
 }
 
 TEST(RunStudy, DividedItEndsWithTheSameNumbers) {

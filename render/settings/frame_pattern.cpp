@@ -1,4 +1,4 @@
-#include "render/cli/frame_pattern.h"
+#include "render/settings/frame_pattern.h"
 
 #include <fmt/format.h>
 
