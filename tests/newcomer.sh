@@ -50,6 +50,13 @@ is() {
   "$@" >output 2>&1 || fail "$*"
 }
 
+# A first scene.
+answers 0 "wrote begin.json" aleph new begin.json
+answers 2 "is there already" aleph new begin.json
+answers 2 "ends in .json" aleph new begin.glb
+answers 0 "frames    0 to 47 at 24 a second" aleph explain begin.json
+silent aleph render begin.json "${quick[@]}" --frames 24 -q -o begin.png
+
 cat >first.json <<'JSON'
 {"aleph": 1, "fps": 30, "frames": [0, 59],
  "nodes": [

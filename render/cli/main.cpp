@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     aleph::Command command;
     app.set_version_flag("--version", "aleph " ALEPH_VERSION);
     app.require_subcommand(0, 1);
+    aleph::add_new_command(app, command);
     aleph::add_render_command(app, command);
     aleph::add_maps_command(app, command);
     aleph::add_explain_command(app, command);
