@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "engine/base/errors.h"
 #include "engine/scene/transforms.h"
+#include "engine/scene_file/easing.h"
 
 namespace aleph {
 
@@ -70,6 +73,32 @@ Interpolation read_interpolation(const JsonRef& at, Interpolation absent) {
         if (*word == interpolation_words[i]) return static_cast<Interpolation>(i);
     }
     return absent;
+}
+
+std::optional<Easing> read_easing(const JsonRef& at) {
+    const auto word = at.find_string("interpolation");
+    const auto found = std::find(easing_words.begin(), easing_words.end(), word.value_or(""));
+    if (found == easing_words.end()) return std::nullopt;
+    return static_cast<Easing>(found - easing_words.begin());
+}
+
+/// Keys that are near in time and far apart have tangents that a file cannot hold.
+template <class T>
+void check_tangents(const JsonRef& at, const Track<T>& track) {
+    for (std::size_t i = 0; i < track.values.size(); ++i) {
+        double largest = 0.0;
+        if constexpr (std::is_same_v<T, double>) {
+            largest = std::abs(track.values[i]);
+        } else {
+            for (int c = 0; c < T::length(); ++c) {
+                const double size = std::abs(track.values[i][c]);
+                if (!(size <= largest)) largest = size;  // NaN too
+            }
+        }
+        if (largest <= max_json_number) continue;
+        at.fail(fmt::format("key {}: its tangent {} is beyond {}; the keys are too near in time", i / 3, largest,
+                            max_json_number));
+    }
 }
 
 template <class T>
@@ -155,6 +184,12 @@ Track<T> read_track(const JsonRef& at, const FrameRate& rate, const ValueReader<
         if (const auto values = at.find("values")) read_values(*values, track, read);
     }
     validate(track, at.file(), at.pointer());
+    if constexpr (!std::is_same_v<T, glm::dmat4>) {
+        const auto easing = at.json().is_object() ? read_easing(at) : std::nullopt;
+        if (!easing) return track;
+        track = with_tangents(track, *easing);
+        check_tangents(at, track);
+    }
     return track;
 }
 
