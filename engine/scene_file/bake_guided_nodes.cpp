@@ -12,6 +12,7 @@
 #include "engine/scene/transforms.h"
 #include "engine/scene/visit.h"
 #include "engine/scene_file/aim.h"
+#include "engine/scene_file/bake_times.h"
 #include "engine/scene_file/baked_track.h"
 #include "engine/scene_file/guided_nodes.h"
 #include "engine/scene_file/reader.h"
@@ -23,24 +24,6 @@ namespace {
 /// Nodes that are placed for all keys of a file, and steps of similar cost: seconds of work.
 constexpr std::size_t most_work = 20'000'000;
 
-/// The frames that are shown, with those beside them that a shutter or the motion of a frame reads.
-struct BakedFrames {
-    FrameRate rate;
-    std::int64_t first = 0, last = 0;
-};
-
-BakedFrames find_frames(const Scene& scene) {
-    const FrameRange range = frame_range(scene);
-    double before = 1.0, after = 1.0;
-    for (const Camera& camera : scene.cameras) {
-        before = std::max(before, std::ceil(-camera.shutter.x));
-        after = std::max(after, std::ceil(camera.shutter.y));
-    }
-    constexpr double most = 1e9;
-    return {scene.film.frame_rate, range.first - static_cast<std::int64_t>(std::min(before, most)),
-            range.last + static_cast<std::int64_t>(std::min(after, most))};
-}
-
 class GuidedNodesBaker {
   public:
     explicit GuidedNodesBaker(SceneReader& reader)
@@ -48,7 +31,7 @@ class GuidedNodesBaker {
 
     void bake() {
         add_stand_ins();
-        frames_ = find_frames(scene_);
+        frames_ = find_baked_frames(scene_);
         posed_.world.resize(scene_.nodes.size());
         posed_.visible.resize(scene_.nodes.size());
         find_users();
@@ -115,37 +98,15 @@ class GuidedNodesBaker {
             count = property.key_count();
         if (count < 2) return;
         work(count, place);
+        charge_keys(place)(count * sizeof(double));
         for (std::size_t i = 0; i < count; ++i) times.push_back(sample_time(property.sampling, i));
     }
 
-    /// Whole frames between the first and the last key, and the keys between frames. Without keys, one time.
     std::vector<double> list_times(std::vector<double> keys, const std::string& place) {
-        const auto seconds_of = [&](std::int64_t frame) { return frames_.rate.seconds_of(frame); };
-        if (keys.empty()) return {seconds_of(frames_.first)};
-        std::sort(keys.begin(), keys.end());
-        const double per_second = frames_.rate.per_second();
-        const auto frame_at = [&](double seconds, double slack) {
-            const double frame = std::clamp(seconds * per_second + slack, static_cast<double>(frames_.first) - 1.0,
-                                            static_cast<double>(frames_.last) + 1.0);
-            return static_cast<std::int64_t>(slack < 0.0 ? std::ceil(frame) : std::floor(frame));
-        };
-        constexpr double slack = 1e-6;  // a key so near to a frame is on it
-        const std::int64_t first = std::max(frames_.first, frame_at(keys.front(), -slack));
-        const std::int64_t last = std::min(frames_.last, frame_at(keys.back(), slack));
-        const std::size_t count = last < first ? 0 : static_cast<std::size_t>(last - first) + 1;
-        charge_keys(place)(std::min(count, std::size_t{1} << 40) * sizeof(double));
-        work(count, place);
-        std::vector<double> times;
-        for (std::int64_t frame = first; frame <= last; ++frame) times.push_back(seconds_of(frame));
-        for (const double key : keys) {
-            const double frame = std::round(key * per_second);
-            const bool inside = key > seconds_of(frames_.first) && key < seconds_of(frames_.last);
-            if (inside && std::abs(key * per_second - frame) > slack) times.push_back(key);
-        }
-        std::sort(times.begin(), times.end());
-        times.erase(std::unique(times.begin(), times.end()), times.end());
-        if (times.empty()) times.push_back(seconds_of(frames_.first));
-        return times;
+        return list_bake_times(frames_, std::move(keys), [&](std::size_t count) {
+            charge_keys(place)(count * sizeof(double));
+            work(count, place);
+        });
     }
 
     /// Keys of a rotation that follows an aim.
@@ -283,14 +244,25 @@ class GuidedNodesBaker {
         // Without its scale and rotation the node's matrix has its parent's axes.
         Track<glm::dvec3>& own_scale = scene_.nodes[look.node].transform.scale;
         const Track<glm::dvec3> scale = std::exchange(own_scale, Track<glm::dvec3>(glm::dvec3(1.0)));
-        const auto aim_at = [&](double seconds) {
+        const std::vector<double> times = list_times(std::move(keys), look.place);
+        const auto place = [&](double seconds) {
             work(chain.size(), look.place);
             for (const int node : chain) place_node(scene_, node, seconds, posed_);
-            return with_scale(aim_in(posed_.world[look.node], posed_.world[target][3], look.up), scale, seconds);
+            return std::pair(posed_.world[look.node], glm::dvec3(posed_.world[target][3]));
+        };
+        double farthest = 0.0;
+        for (const double seconds : times) {
+            const auto [axes, seen] = place(seconds);
+            farthest = std::max({farthest, largest_of(axes[3]), largest_of(seen)});
+        }
+        // Nearer than this the difference of the two places is rounding.
+        const double least_distance = 1e-13 * farthest;
+        const auto aim_at = [&](double seconds) {
+            const auto [axes, seen] = place(seconds);
+            return with_scale(aim_in(axes, seen, look.up, least_distance), scale, seconds);
         };
         const Track<glm::dquat> rotation =
-            bake_rotation(aim_at, list_times(std::move(keys), look.place), look.place,
-                          "the node is always where it looks: move it, or look elsewhere");
+            bake_rotation(aim_at, times, look.place, "the node is always where it looks: move it, or look elsewhere");
         own_scale = scale;
         for (const int user : users_of_look_[index]) {
             charge_keys(look.place)(rotation.values.size() * 5 * sizeof(double));
@@ -300,16 +272,14 @@ class GuidedNodesBaker {
 
     /// @param axes  a place with the parent's axes. Directions go from the world to them by their inverse, which the
     ///              cofactors give for every size of scale
-    static Aim aim_in(const glm::dmat4& axes, const glm::dvec3& target, const glm::dvec3& up) {
-        const glm::dvec3 eye(axes[3]), way = target - eye;
-        const auto largest = [](const glm::dvec3& v) {
-            return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-        };
-        // Nearer than this the difference of two places is rounding.
-        if (!(largest(way) > 1e-13 * std::max(largest(eye), largest(target))) || !has_full_rank(axes)) return {};
+    static Aim aim_in(const glm::dmat4& axes, const glm::dvec3& target, const glm::dvec3& up, double least_distance) {
+        const glm::dvec3 way = target - glm::dvec3(axes[3]);
+        if (!(largest_of(way) > least_distance) || !has_full_rank(axes)) return {};
         const glm::dmat3 inverse = glm::transpose(normal_matrix(axes));
         return {safe_normalize(inverse * safe_normalize(way)), safe_normalize(inverse * up)};
     }
+
+    static double largest_of(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
     SceneReader& reader_;
     Scene& scene_;

@@ -1,7 +1,10 @@
 #include "engine/scene_file/easing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <type_traits>
 
 #include "engine/scene/transforms.h"
@@ -48,13 +51,10 @@ void align_signs(std::vector<glm::dquat>& values) {
     }
 }
 
-}  // namespace
-
 template <class T>
-Track<T> with_tangents(const Track<T>& track, Easing easing) {
+Track<T> with_tangents(Track<T> track, Easing easing) {
     const std::size_t keys = track.values.size();
-    if (keys < 2) return track;
-    std::vector<T> values = track.values;
+    std::vector<T>& values = track.values;
     if constexpr (std::is_same_v<T, glm::dquat>) align_signs(values);
     const auto length = [&](std::size_t i) {
         return sample_time(track.sampling, i + 1) - sample_time(track.sampling, i);
@@ -79,8 +79,34 @@ Track<T> with_tangents(const Track<T>& track, Easing easing) {
     return cubic;
 }
 
-template Track<double> with_tangents(const Track<double>&, Easing);
-template Track<glm::dvec3> with_tangents(const Track<glm::dvec3>&, Easing);
-template Track<glm::dquat> with_tangents(const Track<glm::dquat>&, Easing);
+/// Keys that are near in time and far apart have tangents that a file cannot hold.
+template <class T>
+void check_tangents(const JsonRef& at, const Track<T>& track) {
+    for (std::size_t i = 0; i < track.values.size(); ++i) {
+        for_components(track.values[i], track.values[i], [&](double component, double) {
+            if (!(std::abs(component) <= max_json_number)) {
+                at.fail(fmt::format("key {}: its tangent {} is beyond {}; the keys are too near in time", i / 3,
+                                    component, max_json_number));
+            }
+            return component;
+        });
+    }
+}
+
+}  // namespace
+
+template <class T>
+Track<T> apply_easing(const JsonRef& at, Track<T> track) {
+    const std::string word = at.find_string("interpolation").value_or("");
+    const auto found = std::find(easing_words.begin(), easing_words.end(), word);
+    if (found == easing_words.end() || track.values.size() < 2) return track;
+    const Track<T> eased = with_tangents(std::move(track), static_cast<Easing>(found - easing_words.begin()));
+    check_tangents(at, eased);
+    return eased;
+}
+
+template Track<double> apply_easing(const JsonRef&, Track<double>);
+template Track<glm::dvec3> apply_easing(const JsonRef&, Track<glm::dvec3>);
+template Track<glm::dquat> apply_easing(const JsonRef&, Track<glm::dquat>);
 
 }  // namespace aleph

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "engine/json/json_ref.h"
 #include "engine/scene/track.h"
 
 namespace aleph {
@@ -15,12 +16,14 @@ enum class Easing {
 };
 inline constexpr std::array easing_words{"smooth", "ease", "ease_in", "ease_out"};
 
-/// The same keys as a cubic track; a single key stays as it is. Every component stays between its values at the two
-/// keys around it. Quaternions come back unit, each with the sign that is nearer to the key before it.
+/// The track with the tangents of the easing that the "interpolation" at `at` names; as it is where that names none,
+/// and with a single key. Every component stays between its values at the two keys around it. Quaternions come back
+/// unit, each with the sign that is nearer to the key before it.
 /// The tangents of `smooth` are those of a parabola through the key and its neighbours, limited as by Steffen 1990,
 /// Astronomy and Astrophysics 239, 443 (equations 8 and 11).
 /// @param track  valid, linear. Instantiated for double, dvec3 and dquat
+/// @throws InputError where keys are so near in time that a file cannot hold their tangents
 template <class T>
-Track<T> with_tangents(const Track<T>& track, Easing easing);
+Track<T> apply_easing(const JsonRef& at, Track<T> track);
 
 }  // namespace aleph

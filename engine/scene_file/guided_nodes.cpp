@@ -27,7 +27,7 @@ glm::dvec3 read_up(const JsonRef& at) {
 
 void read_look_at(SceneReader& reader, const JsonRef& at, const JsonRef& node, int index) {
     refuse_beside(node, "look_at", {"rotation", "matrix", "operations"});
-    reader.charge(sizeof(LookAt) + 600, at, "fewer nodes can look at something");
+    reader.charge(sizeof(LookAt) + sizeof(Node) + 600, at, "fewer nodes can look at something");
     LookAt look{.node = index, .place = at.pointer()};
     if (at.json().is_string()) {
         look.target = at.string();
@@ -51,7 +51,7 @@ std::vector<glm::dvec3> read_path_points(SceneReader& reader, const JsonRef& at)
 
 void read_follow_path(SceneReader& reader, const JsonRef& at, const JsonRef& node, int index) {
     refuse_beside(node, "follow_path", {"translation", "matrix", "operations"});
-    reader.charge(sizeof(FollowPath) + 600, at, "fewer nodes can follow paths");
+    reader.charge(sizeof(FollowPath) + sizeof(Node) + 600, at, "fewer nodes can follow paths");
     const JsonRef points = at.require("points"), share = at.require("at");
     const auto closed = at.find("closed"), align = at.find("align"), up = at.find("up");
     const bool is_closed = closed && closed->boolean();

@@ -114,7 +114,7 @@ PathCurve::Place PathCurve::at(double distance) const {
         (beyond > 0.0 ? high : low) = u;
         double next = u - beyond / speed;
         if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-        if (std::abs(next - u) <= 1e-15) break;
+        if (std::abs(next - u) <= 1e-14) break;
         u = next;
     }
     const double to_end = u * u * (3.0 - 2.0 * u);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <type_traits>
@@ -73,32 +72,6 @@ Interpolation read_interpolation(const JsonRef& at, Interpolation absent) {
         if (*word == interpolation_words[i]) return static_cast<Interpolation>(i);
     }
     return absent;
-}
-
-std::optional<Easing> read_easing(const JsonRef& at) {
-    const auto word = at.find_string("interpolation");
-    const auto found = std::find(easing_words.begin(), easing_words.end(), word.value_or(""));
-    if (found == easing_words.end()) return std::nullopt;
-    return static_cast<Easing>(found - easing_words.begin());
-}
-
-/// Keys that are near in time and far apart have tangents that a file cannot hold.
-template <class T>
-void check_tangents(const JsonRef& at, const Track<T>& track) {
-    for (std::size_t i = 0; i < track.values.size(); ++i) {
-        double largest = 0.0;
-        if constexpr (std::is_same_v<T, double>) {
-            largest = std::abs(track.values[i]);
-        } else {
-            for (int c = 0; c < T::length(); ++c) {
-                const double size = std::abs(track.values[i][c]);
-                if (!(size <= largest)) largest = size;  // NaN too
-            }
-        }
-        if (largest <= max_json_number) continue;
-        at.fail(fmt::format("key {}: its tangent {} is beyond {}; the keys are too near in time", i / 3, largest,
-                            max_json_number));
-    }
 }
 
 template <class T>
@@ -185,10 +158,7 @@ Track<T> read_track(const JsonRef& at, const FrameRate& rate, const ValueReader<
     }
     validate(track, at.file(), at.pointer());
     if constexpr (!std::is_same_v<T, glm::dmat4>) {
-        const auto easing = at.json().is_object() ? read_easing(at) : std::nullopt;
-        if (!easing) return track;
-        track = with_tangents(track, *easing);
-        check_tangents(at, track);
+        if (at.json().is_object()) track = apply_easing(at, std::move(track));
     }
     return track;
 }
