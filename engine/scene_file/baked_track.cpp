@@ -22,6 +22,13 @@ double distance_of(const glm::dquat& a, const glm::dquat& b) {
     return 4.0 * std::atan2(std::min(minus, plus), std::max(minus, plus));
 }
 
+glm::dvec3 halfway_between(const glm::dvec3& a, const glm::dvec3& b) {
+    return 0.5 * (a + b);
+}
+glm::dquat halfway_between(const glm::dquat& a, const glm::dquat& b) {
+    return slerp_short(a, b, 0.5);
+}
+
 template <class T>
 class Baker {
   public:
@@ -85,6 +92,10 @@ class Baker {
                 return;
             }
             out = in = zero_;
+            track_.values.back() = zero_;
+            // Two quarter turns in place of half a turn, which has no short way.
+            if (left.time < middle && middle < right.time)
+                add_key(middle, zero_, halfway_between(left.value, right.value));
         }
         track_.values.back() = out;
         add_key(right.time, in, right.value);
