@@ -144,6 +144,28 @@ answers 2 'name the node that has the "include"' aleph explain key.json
 printf '{"aleph": 1,\n "fps": 30\n "frames": [0, 1]}\n' >key.json
 answers 2 'line 2, column 11: not valid JSON: a comma is missing here' aleph explain key.json
 
+# Keys that are computed on load: easing, look_at, follow_path and named values, and a slip in each.
+scene eased '"camera": {}, "translation": {"interpolation": "ease", "keys": [[0, [0, 0, 5]], [20, [0, 1, 5]]]}'
+answers 0 'cubic' aleph explain eased.json --json
+scene key '"translation": {"interpolation": "ease-in", "keys": [[0, [0, 0, 5]], [20, [0, 1, 5]]]}'
+answers 2 '"smooth", "ease", "ease_in" or "ease_out", found the text "ease-in"' aleph explain key.json
+scene looking '"camera": {}, "translation": [0, 1, 5], "look_at": [0, 0, 0]'
+silent aleph render looking.json "${quick[@]}" --frames 0 -q -o looking.exr
+scene key '"camera": {}, "look_at": "bal"}, {"name": "ball"'
+answers 2 '/nodes/0/look_at: there is no node called "bal"; did you mean "ball"?' aleph explain key.json
+scene key '"camera": {"target": [0, 0, 0]}'
+answers 2 '"look_at" of the node' aleph explain key.json
+scene moving '"camera": {}, "follow_path": {"points": [[0, 0, 5], [2, 1, 4]], "at": {"keys": [[0, 0], [20, 1]]}}'
+silent aleph render moving.json "${quick[@]}" --frames 0,20 -q -o moving/
+scene key '"follow_path": {"points": [[0, 0, 5], [2, 1, 4]], "at": 0, "aligned": true}'
+answers 2 'unknown key "aligned"; did you mean "align"?' aleph explain key.json
+scene shared '"camera": {}, "translation": [0, {"named": "height"}, 5]' '"named": {"height": 1.5},'
+silent aleph render shared.json "${quick[@]}" --frames 0 -q -o shared.exr
+scene key '"translation": [0, {"named": "hight"}, 5]' '"named": {"height": 1.5},'
+answers 2 'there is no named value "hight"; did you mean "height"?' aleph explain key.json
+scene key '"translation": {"named": "height"}' '"named": {"height": 1.5},'
+answers 2 '/nodes/0/translation: expected 3 numbers or an object with "keys" or "values", found 1.5; this value is defined at /named/height' aleph explain key.json
+
 # What the scene holds, and which object a pixel shows.
 answers 0 '1 light (1 of area)' aleph explain first.json
 answers 0 'lamp: 2 triangles of' aleph explain first.json

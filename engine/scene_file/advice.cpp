@@ -24,7 +24,10 @@ constexpr std::string_view about_rotation =
     "a rotation is {\"axis\": [0, 1, 0], \"degrees\": 90} or a quaternion x, y, z, w; for angles about x, y and z "
     "write "
     "\"operations\": [{\"rotate_z\": 0}, {\"rotate_y\": 90}, {\"rotate_x\": 0}]";
-constexpr std::string_view about_view = "a camera looks along -z of its node; \"rotation\" of the node turns it";
+constexpr std::string_view about_view =
+    "a camera looks along -z of its node; \"look_at\" of the node, beside \"camera\", turns it";
+constexpr std::string_view about_path = "a node moves along \"follow_path\": {\"points\": [...], \"at\": ...}";
+constexpr std::string_view about_easing = "between keys, easing is \"interpolation\": \"ease\" or \"smooth\"";
 constexpr std::string_view about_color = "the colour of a material is \"base_color\"";
 constexpr std::string_view about_emission = "a material gives light with \"emission\": [r, g, b], in cd/m2";
 constexpr std::string_view about_angle =
@@ -45,6 +48,10 @@ constexpr Advice unknown_keys[] = {
     {"", "look_at", about_view},
     {"", "lookat", about_view},
     {"", "target", about_view},
+    {"", "path", about_path},
+    {"", "motion_path", about_path},
+    {"", "easing", about_easing},
+    {"", "ease", about_easing},
     {"", "color", about_color},
     {"", "diffuse", about_color},
     {"", "colour", about_color},

@@ -57,6 +57,9 @@ class NodeReader {
         if (!name) all_names_.add(node.name, index);
 
         read_transform(at, node);
+        read_guides(reader_, at, index);
+        if (const auto target = at.find("look_at"); target && target->json().is_string())
+            all_names_.require(*target, included_nodes_advice());
         if (const auto value = at.find("inherits")) node.inherits = read_visibility(*value, scene_.film.frame_rate);
         if (const auto value = at.find("visible")) node.visible = read_visibility(*value, scene_.film.frame_rate);
         const std::string inner = node.name.empty() ? fmt::format("node {}", index) : node.name;
@@ -96,7 +99,7 @@ class NodeReader {
         const FrameRate& rate = scene_.film.frame_rate;
         for (const char* whole : {"matrix", "operations"}) {
             if (!at.has(whole)) continue;
-            for (const char* other : {"translation", "rotation", "scale", "operations"}) {
+            for (const char* other : {"translation", "rotation", "scale", "operations", "look_at", "follow_path"}) {
                 const auto found = at.find(other);
                 if (!found || std::string(other) == whole) continue;
                 found->fail(fmt::format("a node has either \"{}\" or \"{}\", not both", whole, other));
@@ -153,6 +156,7 @@ class NodeReader {
             copy.name = all_names_.unused(fmt::format("{}/{}", scene_.nodes[index].name, copy.name));
             reader_.charge(4 * copy.name.size(), at, "too many nodes are copied");
             const int made = add_node(std::move(copy));
+            reader_.guided.copies.emplace_back(made, next.source);
             all_names_.add(scene_.nodes.back().name, made);
             shows = share(at, next.source, made) || shows;
             add_children(next.source, made);

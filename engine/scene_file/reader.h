@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/json/json_ref.h"
+#include "engine/scene_file/guided_nodes.h"
 #include "engine/scene_file/scene_text.h"
 
 namespace aleph {
@@ -45,11 +46,13 @@ struct SceneReader {
     SceneNames names;
     std::vector<std::string> cage_places;  ///< JSON pointer per scene.cages
     std::unordered_map<std::string, int> image_of_path;
+    GuidedNodes guided;
     std::size_t memory = 0;  ///< about, of the elements so far, bytes
 
     /// Adds the memory of an element that will be made.
     /// @throws InputError with the pointer of `at` if the sum is above limits.scene()
     void charge(std::size_t bytes, const JsonRef& at, const char* advice);
+    void charge(std::size_t bytes, const std::string& place, const char* advice);
 
     /// Appends an element to its list under its name. @return its index
     template <class Element>

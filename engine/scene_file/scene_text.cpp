@@ -7,6 +7,8 @@
 #include "engine/base/errors.h"
 #include "engine/json/close_names.h"
 #include "engine/json/text.h"
+#include "engine/scene_file/guided_nodes.h"
+#include "engine/scene_file/named_values.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/schema.h"
 #include "engine/scene_file/tracks.h"
@@ -97,6 +99,27 @@ void check_version(const nlohmann::json& root, const std::string& file) {
     }
 }
 
+SceneText read_whole_text(std::string_view text, const std::string& file, const LoadLimits& limits) {
+    JsonText parsed = parse_json_text(text, file, limits);
+    check_version(parsed.root, file);
+    replace_named_values(parsed.root, text, file, limits);
+    check_scene_schema(parsed.root, file);
+    const JsonRef root(parsed.root, file);
+
+    SceneReader reader;
+    reader.file = file;
+    reader.limits = limits;
+    read_header(reader.scene, root);
+    read_elements(reader, root, parsed.key_order);
+    read_environment_picture(reader, root);
+    read_nodes(reader, root);
+    read_includes(reader, root, no_index);
+    read_settings(reader.scene, root);
+    bake_guided_nodes(reader);
+    make_meshes(reader);
+    return std::move(reader.result);
+}
+
 }  // namespace
 
 void NameIndex::add(const std::string& name, int index) {
@@ -137,27 +160,23 @@ void read_environment_picture(SceneReader& reader, const JsonRef& root) {
 
 void SceneReader::charge(std::size_t bytes, const JsonRef& at, const char* advice) {
     memory += bytes;
+    if (memory > limits.scene()) charge(0, at.pointer(), advice);
+}
+
+void SceneReader::charge(std::size_t bytes, const std::string& place, const char* advice) {
+    memory += bytes;
     if (memory <= limits.scene()) return;
-    at.fail(fmt::format("up to here the scene takes more than {} MiB; {}", limits.scene() >> 20, advice));
+    throw InputError(file, place,
+                     fmt::format("up to here the scene takes more than {} MiB; {}", limits.scene() >> 20, advice));
 }
 
 SceneText read_scene_text(std::string_view text, const std::string& file, const LoadLimits& limits) {
-    const JsonText parsed = parse_json_text(text, file, limits);
-    check_version(parsed.root, file);
-    check_scene_schema(parsed.root, file);
-    const JsonRef root(parsed.root, file);
-
-    SceneReader reader;
-    reader.file = file;
-    reader.limits = limits;
-    read_header(reader.scene, root);
-    read_elements(reader, root, parsed.key_order);
-    read_environment_picture(reader, root);
-    read_nodes(reader, root);
-    read_includes(reader, root, no_index);
-    read_settings(reader.scene, root);
-    make_meshes(reader);
-    return std::move(reader.result);
+    try {
+        return read_whole_text(text, file, limits);
+    } catch (const InputError& error) {
+        if (!error.place().starts_with('/') || text.find("\"named\"") == std::string_view::npos) throw;
+        throw with_definition(error, parse_json_text(text, file, limits).root);
+    }
 }
 
 }  // namespace aleph

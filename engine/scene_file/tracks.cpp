@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "engine/base/errors.h"
 #include "engine/scene/transforms.h"
+#include "engine/scene_file/easing.h"
 
 namespace aleph {
 
@@ -155,6 +157,9 @@ Track<T> read_track(const JsonRef& at, const FrameRate& rate, const ValueReader<
         if (const auto values = at.find("values")) read_values(*values, track, read);
     }
     validate(track, at.file(), at.pointer());
+    if constexpr (!std::is_same_v<T, glm::dmat4>) {
+        if (at.json().is_object()) track = apply_easing(at, std::move(track));
+    }
     return track;
 }
 

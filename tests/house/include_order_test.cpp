@@ -50,7 +50,7 @@ const std::vector<Layer>& layers() {
             {"engine/rays", with(model, {"engine/pose"})},
             {"engine/image", {"engine/base"}},
             {"engine/json", {"engine/base"}},
-            {"engine/scene_file", text},
+            {"engine/scene_file", with(text, {"engine/pose"})},
             {"engine/gltf/validate", {"engine/base", "engine/json"}},
             {"engine/gltf", with(text, {"engine/image", "engine/gltf/validate"})},
             {"engine/alembic", with(model, {"engine/json"})},

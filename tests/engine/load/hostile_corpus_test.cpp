@@ -131,7 +131,11 @@ const std::string scene_text = R"({"aleph": 1, "name": "n", "fps": "30000/1001",
     {"shape": {"type": "mesh", "triangles": [[0, 1, 2]], "positions": {"keys": [[0, [[0, 0, 0], [1, 0, 0], [0, 1, 0]]],
       [9, [[0, 0, 1], [1, 0, 1], [0, 1, 1]]]]}, "uv": [[0, 0], [1, 0], [0, 1]]}},
     {"shape": {"type": "cage", "cage": {"positions": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "faces": [[0, 1, 2, 3]],
-      "creases": [{"points": [0, 1, 2], "sharpness": 2}], "corners": [{"point": 0, "sharpness": 1}], "level": 1}}}]})";
+      "creases": [{"points": [0, 1, 2], "sharpness": 2}], "corners": [{"point": 0, "sharpness": 1}], "level": 1}}},
+    {"look_at": "b1", "up": [0, 0, 1], "scale": {"interpolation": "smooth", "keys": [[0, 1], [4, {"named": "n"}], [9, 2]]}},
+    {"follow_path": {"points": [[0, 0, 0], {"named": "v"}, [2, 0, 2]], "closed": true, "align": true, "up": [0, 1, 0],
+      "at": {"interpolation": "ease", "keys": [[0, 0], [9, 1]]}}}],
+  "named": {"v": [1, 2, {"named": "n"}], "n": 3}})";
 
 TEST(HostileCorpus, S13_11_SceneFilesWithEveryValueReplaced) {
     const ScratchFolder folder;

@@ -189,7 +189,7 @@ TEST(BadSceneFile, KF10_KF11_KeyTimes) {
         keys("\"keys\": [[0, 1, 2, 3]]", "/keys/0", "cubic"),
         keys("\"interpolation\": \"cubic\", \"keys\": [[0, 1]]", "/keys/0", "in-tangent"),
         keys("\"interpolation\": \"cubic\", \"values\": [1]", "/values/0", "in-tangent"),
-        keys("\"interpolation\": \"smooth\", \"keys\": [[0, 1]]", "/interpolation", "\"cubic\""),
+        keys("\"interpolation\": \"bezier\", \"keys\": [[0, 1]]", "/interpolation", "\"cubic\""),
         keys("\"unit\": \"hours\", \"keys\": [[0, 1]]", "/unit", "\"frames\""),
         keys("\"interpolation\": \"linear\"", "", "neither"),
         keys("\"keys\": [[0, 1]], \"values\": [1]", "", "not both"),

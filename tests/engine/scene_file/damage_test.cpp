@@ -38,7 +38,11 @@ const std::string whole_file = R"({"aleph": 1, "name": "n", "fps": "30000/1001",
       {"rotate_y": {"keys": [[0, 0], [30, 360]]}}, {"rotate": {"axis": [0, 1, 0], "degrees": 45}}]},
     {"shape": {"type": "lathe", "segments": 5, "smooth": true, "profile": [[0, 0], [0.5, 0.25], [0.5, 0.25], [0, 1]]}},
     {"scale": {"cycle": [0, 0.25], "period": 1, "values": [1, [1, 2, 3]]}, "translation": {"interpolation": "cubic",
-      "keys": [[0, [0, 0, 0], [1, 1, 1], [0, 0, 0]], [9, [0, 0, 0], [2, 2, 2], [0, 0, 0]]]}}]})";
+      "keys": [[0, [0, 0, 0], [1, 1, 1], [0, 0, 0]], [9, [0, 0, 0], [2, 2, 2], [0, 0, 0]]]}},
+    {"name": "d", "look_at": "b1", "up": [0, 0, 1], "translation": {"interpolation": "smooth", "keys": [[0, [9, 0, 0]], [4, {"named": "v"}], [9, [0, 5, 1]]]}},
+    {"follow_path": {"points": [[0, 0, 0], {"named": "v"}, [2, 0, 2]], "closed": true, "at": {"named": "t"}, "align": true, "up": [0, 1, 0]}},
+    {"look_at": {"named": "v"}, "scale": {"named": "t"}}],
+  "named": {"v": [1, 2, {"named": "n"}], "n": 3, "t": {"interpolation": "ease", "keys": [[0, 0.5], [9, 1]]}}})";
 
 class Damage {
   public:
@@ -172,6 +176,17 @@ TEST(HostileSceneFile, StaysWithinTheLimits) {
         {"wrong keys", "\"nodes\": [{\"scale\": {\"keys\": [[]", ",[]", "]}}]}"},
         {"profile", "\"nodes\": [{\"shape\": {\"type\": \"lathe\", \"segments\": 4096, \"profile\": [[0,0]",
          ",[1,0],[2,1]", "]}}]}"},
+        {"eased keys", "\"nodes\": [{\"scale\": {\"interpolation\": \"smooth\", \"values\": [1", ",2", "]}}]}"},
+        {"named", "\"named\": {\"m\": [1,2,3], \"n\": [1", ",{\"named\":\"m\"}", "]}}"},
+        {"uses of names", "\"named\": {\"m\": 1}, \"cuts\": [0", ",{\"named\":\"m\"}", "]}"},
+        {"path points", "\"nodes\": [{\"follow_path\": {\"at\": 0, \"points\": [[0,0,0]", ",[1,0,0],[2,1,0]", "]}}]}"},
+        {"paths", "\"named\": {\"p\": [[0,0,0],[1,0,0]], \"t\": {\"keys\": [[0,0],[99,1]]}}, \"nodes\": [{}",
+         ",{\"follow_path\":{\"points\":{\"named\":\"p\"},\"at\":{\"named\":\"t\"},\"align\":true}}", "]}"},
+        {"still looks", "\"nodes\": [{\"translation\": [0,0,9]}", ",{\"look_at\":[0,9,1]}", "]}"},
+        {"looks",
+         "\"frames\": [0, 1000], \"nodes\": [{\"name\": \"a\", \"operations\": [{\"translate\": {\"keys\": [[0, "
+         "[1,0,9]], [1000, [1,9,9]]]}}, {\"rotate_x\": 4}]}",
+         ",{\"look_at\":\"a\"}", "]}"},
     };
     for (const Hostile& file : files) {
         // The largest text that is parsed: the costliest one.
