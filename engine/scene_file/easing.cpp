@@ -100,7 +100,7 @@ Track<T> apply_easing(const JsonRef& at, Track<T> track) {
     const std::string word = at.find_string("interpolation").value_or("");
     const auto found = std::find(easing_words.begin(), easing_words.end(), word);
     if (found == easing_words.end() || track.values.size() < 2) return track;
-    const Track<T> eased = with_tangents(std::move(track), static_cast<Easing>(found - easing_words.begin()));
+    Track<T> eased = with_tangents(std::move(track), static_cast<Easing>(found - easing_words.begin()));
     check_tangents(at, eased);
     return eased;
 }
