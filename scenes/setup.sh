@@ -15,6 +15,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev           # tests, benchmarks
   fonts-dejavu-core    # labels on the pictures that studies draw
   locales              # the tests check that a comma locale changes nothing
+  ffmpeg               # films: `aleph render -o film.mp4` starts it, and tests decode what it wrote
 )
 
 # For the comparison with Khronos' glTF-Validator. Debian's Node conflicts with other builds of it, so only where there is

@@ -14,6 +14,7 @@
 #include "engine/base/files.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
+#include "render/cli/watch.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
@@ -174,7 +175,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option(
            "-o,--output", options.output,
            "output files: name.####.exr, .png or .hdr (#### is the frame number), or a folder; missing folders are "
-           "made; HDR keeps 8 bits per channel beside the pixel's brightest; default: SCENE.####.exr, or "
+           "made; HDR keeps 8 bits per channel beside the pixel's brightest; name.mp4, .mov, .webm or .gif: a film, "
+           "made by "
+           "the program ffmpeg; default: SCENE.####.exr, or "
            "SCENE-maps.####.exr, in the current folder")
         ->type_name("PATTERN");
     app.add_option("--camera", options.camera, "name of a camera or of its node; default: the scene's choice")
@@ -213,8 +216,19 @@ bool chooses_work(const SettingMap& settings) {
 }  // namespace
 
 namespace {
+
 constexpr int max_threads = 4096;
-}
+
+/// Notes the files of a scene for --watch, also where loading fails.
+struct LoadedFiles {
+    const ReadFiles read{};
+    SceneWatch* const watch;
+    ~LoadedFiles() {
+        if (watch != nullptr) watch->note(read);
+    }
+};
+
+}  // namespace
 
 void check_threads(int threads) {
     if (threads >= 0 && threads <= max_threads) return;
@@ -238,9 +252,9 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     check_threads(options.threads);
     PreparedScene prepared;
     {
-        const ReadFiles read;
+        const LoadedFiles files{.watch = options.watch};
         prepared.scene = load_scene(options.scene, options.limits);
-        prepared.read = read.paths();
+        prepared.read = files.read.paths();
     }
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) scene.film.frame_rate = parse_fps(options.fps);

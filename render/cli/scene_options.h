@@ -12,8 +12,11 @@
 
 namespace aleph {
 
+class SceneWatch;
+
 struct SceneOptions {
     std::string scene, frames, fps, output, camera, stats;
+    std::string film;     ///< that the files of --output become (choose_film); empty: none
     SettingMap settings;  ///< from options and --set
     int threads = 0;
     LoadLimits limits;
@@ -22,6 +25,7 @@ struct SceneOptions {
     bool resume = false;          ///< frames that are finished are kept
     bool keeps_to_error = false;  ///< without a setting that chooses the work, an error of 1 is asked for
     bool importance = false;      ///< `maps` writes this picture in place of the maps
+    SceneWatch* watch = nullptr;  ///< of the files that the scene is loaded from; null: they may change
 };
 
 /// Adds --KEY for every setting of the table, --set, and --help-all, which shows settings that are rarely changed too.
