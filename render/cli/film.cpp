@@ -86,6 +86,8 @@ void encode(const SceneOptions& options, const FilmFrames& frames, const std::st
         mark_film(made, frames.ending, fingerprint);
         move_file(made, options.film);
     } catch (const OutputError& e) {
+        std::error_code ignored;
+        fs::remove(made, ignored);
         throw OutputError(
             printable(options.film, 4096),
             fmt::format("{}; the frames are kept, and the same command with --resume makes the film", e.what()));

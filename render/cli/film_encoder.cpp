@@ -42,8 +42,10 @@ Words input_words(const FilmFrames& frames) {
             "pipe:0"};
 }
 
-void add(Words& words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
+Words joined(const std::vector<Words>& parts) {
+    Words words;
+    for (const Words& part : parts) words.insert(words.end(), part.begin(), part.end());
+    return words;
 }
 
 /// sRGB to YCbCr of BT.709, 16 to 235, with an even size.
@@ -117,26 +119,30 @@ bool is_padded(const std::string& ending, const PictureSize& size) {
 
 void encode_film(const fs::path& ffmpeg, const fs::path& film, const FilmFrames& frames,
                  const std::function<void(double done)>& check) {
-    Words words = input_words(frames);
-    const Words threads{"-threads", std::to_string(frames.threads)};
+    const Words input = input_words(frames);
     if (frames.ending == ".gif") {
         // Two passes: in one, ffmpeg would keep all frames in memory until it knows the palette.
-        const fs::path palette = film.string() + ".palette";
-        Words first = words;
-        add(first, {"-vf", "palettegen=reserve_transparent=0", "-f", "image2pipe", "-c:v", "png", file_word(palette)});
-        run_pass(ffmpeg, first, frames, {0.0, 0.5}, check);
-        add(words, {"-f", "png_pipe", "-i", file_word(palette), "-lavfi", "[0:v][1:v]paletteuse=dither=sierra2_4a"});
-        add(words, {"-f", "gif", file_word(film)});
-        run_pass(ffmpeg, words, frames, {0.5, 0.5}, check);
-        std::error_code ignored;
-        fs::remove(palette, ignored);
-        return;
+        const std::string palette = file_word(film) + ".palette";
+        run_pass(
+            ffmpeg,
+            joined({input, {"-vf", "palettegen=reserve_transparent=0", "-f", "image2pipe", "-c:v", "png", palette}}),
+            frames, {0.0, 0.5}, check);
+        run_pass(ffmpeg,
+                 joined({input,
+                         {"-f", "png_pipe", "-i", palette, "-lavfi", "[0:v][1:v]paletteuse=dither=sierra2_4a"},
+                         {"-f", "gif", file_word(film)}}),
+                 frames, {0.5, 0.5}, check);
+    } else {
+        run_pass(ffmpeg,
+                 joined({input,
+                         {"-vf", filters_420(read_png_size(frames.files.front()))},
+                         {"-threads", std::to_string(frames.threads)},
+                         codec_words(frames.ending),
+                         {file_word(film)}}),
+                 frames, {}, check);
     }
-    add(words, {"-vf", filters_420(read_png_size(frames.files.front()))});
-    add(words, threads);
-    add(words, codec_words(frames.ending));
-    words.push_back(file_word(film));
-    run_pass(ffmpeg, words, frames, {}, check);
+    std::error_code error;
+    if (fs::file_size(film, error) == 0 || error) throw OutputError(printable(ffmpeg.string(), 400), "wrote no film");
 }
 
 void mark_film(const fs::path& film, const std::string& ending, const std::string& fingerprint) {

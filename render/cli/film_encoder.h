@@ -31,7 +31,7 @@ bool is_padded(const std::string& ending, const PictureSize& size);
 /// Writes the film. mp4, mov: H.264; webm: VP9; both YCbCr 4:2:0 with the tags of BT.709. gif: one palette for all
 /// frames, endless. Where the size is odd, the last column or row stands twice.
 /// @param ffmpeg  the program
-/// @param film    written in place; `film`.palette beside it meanwhile
+/// @param film    written in place; for a gif `film`.palette beside it
 /// @param check   called several times a second with the share that is done; what it throws ends ffmpeg
 /// @throws OutputError naming ffmpeg, with the last of what it printed
 void encode_film(const std::filesystem::path& ffmpeg, const std::filesystem::path& film, const FilmFrames& frames,

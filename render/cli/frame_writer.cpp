@@ -191,7 +191,7 @@ void FrameWriter::print_files() const {
     };
     std::string text = fmt::format("aleph: wrote {}", file(job_.frames.front()));
     if (!options_.film.empty()) {
-        text = fmt::format("aleph: made the {} frames of {}", job_.frames.size(), printable(options_.film, 400));
+        text = fmt::format("aleph: {} frames of {}", job_.frames.size(), printable(options_.film, 400));
     } else if (job_.frames.size() > 1)
         text += fmt::format(" to {} ({} frames)", file(job_.frames.back()), job_.frames.size());
     if (!kept_.empty()) text += fmt::format(", {} of them finished before or by other processes", kept_.size());

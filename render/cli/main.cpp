@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "aleph " ALEPH_VERSION);
     app.require_subcommand(0, 1);
     aleph::add_render_command(app, command);
+    aleph::add_preview_command(app, command);
     aleph::add_maps_command(app, command);
     aleph::add_explain_command(app, command);
     aleph::add_study_command(app, command);

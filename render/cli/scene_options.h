@@ -32,7 +32,10 @@ struct SceneOptions {
 /// @param settings  filled once the command line has been read
 void add_setting_options(CLI::App& app, SettingMap& settings);
 
-/// Adds the scene argument and the options that `render` and `maps` share: one per setting, --set for any.
+/// Adds the scene argument and the options of all commands that make frames: --frames, --output, --camera and others.
+void add_shot_options(CLI::App& app, SceneOptions& options, const std::string& output_help);
+
+/// Adds these, and the options that `render` and `maps` share: one per setting, --set for any.
 void add_scene_options(CLI::App& app, SceneOptions& options);
 
 /// @throws InputError (--threads) for a number outside 0 to 4096
