@@ -43,7 +43,8 @@ fs::path full_pattern(const std::string& pattern, const std::string& scene_name)
     if (is_folder(path)) return path / (scene_name + ".####.exr");
     find_number_field(path.filename().string(), "--output");  // its reasons come before the extension's
     if (find_format(path)) return path;
-    if (names_film(pattern)) refuse(pattern, "a film is made of frames here, not of parts; write .exr, .png or .hdr");
+    if (names_film(pattern))
+        refuse(pattern, "films are written by `aleph render`, `maps` and `preview`; name .exr, .png or .hdr files");
     const std::string extension = path.extension().string();
     refuse(pattern,
            fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/', for motion .flo, and "

@@ -22,14 +22,15 @@ bool is_of_file(const InputError& error) {
     return !error.file().empty() && !error.file().starts_with("--");
 }
 
-void wait_for_change(SceneWatch& watch) {
-    const RenderSignals signals;
+void stop_if_asked(const RenderSignals& signals) {
+    if (signals.received() != 0) throw Stopped("stopped", 128 + signals.received());
+}
+
+void wait_for_change(SceneWatch& watch, const RenderSignals& signals) {
     while (!watch.is_changed()) {
-        if (signals.received() != 0) throw Stopped("stopped", 128 + signals.received());
+        stop_if_asked(signals);
         std::this_thread::sleep_for(between_looks);
     }
-    // An editor may write a file in several steps, or remove it before the new one is there.
-    std::this_thread::sleep_for(between_looks);
 }
 
 }  // namespace
@@ -62,6 +63,7 @@ void run_maybe_watched(bool asked, SceneOptions& options, const std::function<vo
     if (!asked) return run();
     SceneWatch watch(options.scene);
     options.watch = &watch;
+    const RenderSignals signals;  // from here on, so that none is lost between two renders
     for (;;) {
         try {
             run();
@@ -70,11 +72,14 @@ void run_maybe_watched(bool asked, SceneOptions& options, const std::function<vo
             if (!is_of_file(e)) throw;
             std::cerr << fmt::format("aleph: error: {}\n", printable(e.what(), 4000));
         }
-        if (!options.quiet)
+        if (!watch.is_changed() && !options.quiet)
             std::cerr << fmt::format("aleph: watching {} files; Ctrl-C ends\n", watch.size()) << std::flush;
-        wait_for_change(watch);
+        wait_for_change(watch, signals);
         if (!options.quiet)
             std::cerr << fmt::format("aleph: {} has changed\n", printable(watch.changed().string(), 400));
+        // An editor may write a file in several steps, or remove it before the new one is there.
+        std::this_thread::sleep_for(between_looks);
+        stop_if_asked(signals);
     }
 }
 

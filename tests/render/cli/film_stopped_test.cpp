@@ -38,7 +38,7 @@ TEST_F(StoppedFilm, KilledAnywhereAResumedRenderCompletesIt) {
     ASSERT_EQ(run(words("whole.mp4", {"-q"})).code, 0);
     const std::string whole = read_bytes(folder_ / "out/whole.mp4");
     fs::remove(folder_ / "out/whole.mp4");
-    for (int event = 1; event <= 21; event += 4) {
+    for (int event = 1; event <= 21; event += 10) {
         SCOPED_TRACE(event);
         fs::remove(folder_ / "out/film.mp4");
         fs::create_directories(frames_);

@@ -80,6 +80,7 @@ TEST_F(Preview, MotionIsDrawnOnTheFrames) {
     // 2500 frames of the way in one: the box moves by pixels.
     std::string text = read_bytes(folder_ / "scene.json");
     text.replace(text.find("[5000, [1, 0.5, 0]]"), 19, "[4, [1, 0.5, 0]]");
+    text.replace(text.find("32x24"), 5, "96x72");
     std::ofstream(folder_ / "scene.json") << text;
     ASSERT_EQ(run("plain.png", {"--frames", "2"}).code, 0);
     ASSERT_EQ(run("motion.png", {"--frames", "2", "--motion"}).code, 0);
