@@ -17,6 +17,7 @@ packages=(
   python3-pytest python3-matplotlib                     # its tests, and the plots of its notebooks
   fonts-dejavu-core    # labels on the pictures that studies draw
   locales              # the tests check that a comma locale changes nothing
+  ffmpeg               # films: `aleph render -o film.mp4` starts it, and tests decode what it wrote
 )
 
 # For the comparison with Khronos' glTF-Validator. Debian's Node conflicts with other builds of it, so only where there is
@@ -32,7 +33,8 @@ if ! command -v dpkg-query >/dev/null 2>&1; then
   cat >&2 <<TEXT
 This is not a Debian system, so nothing was installed. Please install, with your own package manager:
   a C++20 compiler, CMake 3.25, Ninja, Embree 3.13, OpenEXR 3.1, OpenImageIO 2.4, OpenSubdiv 3.5, tinygltf 2.7, nlohmann-json 3.11,
-  valijson 1.0, pybind11 2.9 and Python 3.11 for the Python module, GLM .9.9.8, oneTBB 2021, CLI11 2.1, fmt 9, GoogleTest 1.12 and Google Benchmark 1.7,
+  valijson 1.0, GLM .9.9.8, oneTBB 2021, CLI11 2.1, fmt 9, GoogleTest 1.12, Google Benchmark 1.7, pybind11 2.9 and Python 3.11 for the
+  Python module, and ffmpeg,
 then configure by hand: cmake -S . -B build -G Ninja && ninja -C build
 TEXT
   if command -v cmake >/dev/null 2>&1 && command -v ninja >/dev/null 2>&1; then exit 0; fi

@@ -84,6 +84,16 @@ answers 1 "File name too long" aleph render first.json --frames 0 "${quick[@]}" 
 answers 1 "/proc/x.exr" aleph render first.json --frames 0 --size 4000x3000 -o /proc/x.exr
 answers 1 "/proc/s.json" aleph render first.json --frames 0 --size 4000x3000 -o x.exr --stats /proc/s.json
 
+# Films: a mistyped ending, and a system without ffmpeg. Nothing is rendered or left.
+answers 2 "the extension .mp5 is not known; possible are .exr, .png and .hdr" aleph render first.json --size 4000x3000 -o film.mp5
+answers 1 "the program ffmpeg, which is not in PATH: install it" env PATH=/nowhere "$program" render first.json --size 4000x3000 -o film.mp4
+answers 2 "a film has frames at one distance" aleph render first.json --frames 0,1,5 --size 4000x3000 -o film.mp4
+answers 2 "a preview is a film" aleph preview first.json -o film.mp5
+is [ -z "$(ls -A | grep film)" ]
+answers 0 "wrote film.mp4: 2 frames of 16x12, 30 a second" aleph render first.json --frames 0-1 "${quick[@]}" -o film.mp4
+silent aleph preview first.json --frames 0-9 -q -o preview.mp4
+is [ "$(ls -A | grep -e film -e preview | tr '\n' ' ')" = "film.mp4 preview.mp4 preview.png " ]
+
 # Statistics of finished frames outlive the program.
 killed_after killed.json aleph render first.json --size 64x48 --spp 4 -q -o killed/ --stats killed.json
 is [ "$(tail -1 killed.json)" = "}" ]

@@ -1,6 +1,7 @@
 #include "engine/base/files.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <system_error>
@@ -25,7 +26,24 @@ ReadFiles::~ReadFiles() {
     read_files = outer_;
 }
 
+void ReadFiles::add(const fs::path& path) {
+    paths_.push_back(path);
+    states_.push_back(file_state(path));
+}
+
+void note_read_file(const fs::path& path) {
+    if (read_files != nullptr) read_files->add(path);
+}
+
+FileState file_state(const fs::path& path) {
+    struct stat found {};
+    if (::stat(path.c_str(), &found) != 0) return {};
+    return {static_cast<std::int64_t>(found.st_dev), static_cast<std::int64_t>(found.st_ino), found.st_size,
+            found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
+}
+
 Bytes read_regular_file(const fs::path& path, const std::string& file, const std::string& place) {
+    note_read_file(path);
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     const std::string name = printable(path.filename().string());
@@ -44,7 +62,6 @@ Bytes read_regular_file(const fs::path& path, const std::string& file, const std
     stream.seekg(0);
     stream.read(reinterpret_cast<char*>(bytes.data()), end);
     if (stream.gcount() != end) throw InputError(file, place, fmt::format("cannot read {}", name));
-    if (read_files != nullptr) read_files->add(path);
     return bytes;
 }
 

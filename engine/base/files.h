@@ -1,6 +1,7 @@
 #pragma once
 // Whole files in memory.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -18,8 +19,15 @@ inline constexpr std::uint64_t max_file_bytes = 0x7fffffff;
 /// @throws InputError
 Bytes read_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place);
 
-/// The files that this thread reads with read_regular_file while the object exists, so that no output replaces them.
-/// Another such object within its lifetime records in its place.
+/// What changes with a file: device, number, size, and the time of its last change in s and ns. All 0: there is no
+/// file.
+using FileState = std::array<std::int64_t, 5>;
+
+/// Links are followed.
+FileState file_state(const std::filesystem::path& path);
+
+/// The files that this thread reads, or looks for in vain, with read_regular_file while the object exists: so that no
+/// output replaces them, and to see when they change. Another such object within its lifetime records in its place.
 class ReadFiles {
   public:
     ReadFiles();
@@ -28,12 +36,18 @@ class ReadFiles {
     ReadFiles& operator=(const ReadFiles&) = delete;
 
     const std::vector<std::filesystem::path>& paths() const { return paths_; }
-    void add(const std::filesystem::path& path) { paths_.push_back(path); }
+    /// Of each path, before it was read.
+    const std::vector<FileState>& states() const { return states_; }
+    void add(const std::filesystem::path& path);
 
   private:
     std::vector<std::filesystem::path> paths_;
+    std::vector<FileState> states_;
     ReadFiles* outer_;
 };
+
+/// Records a file that is read, or looked for, by other means.
+void note_read_file(const std::filesystem::path& path);
 
 /// The ending of a file's name in lower case: ".abc" of "Shot.ABC". Empty where there is none.
 std::string lower_extension(const std::filesystem::path& path);

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "engine/gltf/validate/validate.h"
 #include "engine/json/text.h"
 
@@ -65,6 +66,7 @@ void locate_image(const GltfSource& source, std::size_t i) {
         return;
     }
     const fs::path path = resolve_file_uri(uri, source.folder, source.file, place);
+    note_read_file(path);
     std::error_code error;
     if (!fs::is_regular_file(path, error)) {
         throw InputError(source.file, place, fmt::format("no such file: {}", printable(path.filename().string())));

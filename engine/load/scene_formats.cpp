@@ -79,6 +79,7 @@ const SceneFormat& require_format(const SceneFormats& formats, FormatUse use, co
 
 void check_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place) {
     namespace fs = std::filesystem;
+    note_read_file(path);
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status))

@@ -7,6 +7,7 @@ namespace aleph {
 
 void add_new_command(CLI::App& app, Command& command);
 void add_render_command(CLI::App& app, Command& command);
+void add_preview_command(CLI::App& app, Command& command);
 void add_maps_command(CLI::App& app, Command& command);
 void add_farm_command(CLI::App& app, Command& command);
 void add_explain_command(CLI::App& app, Command& command);

@@ -71,7 +71,9 @@ FrameClaims::~FrameClaims() {
 }
 
 bool FrameClaims::is_finished(int frame) const {
-    return output_.resume && read_picture_text(output_.file(frame), fingerprint_key) == output_.fingerprint(frame);
+    if (!output_.resume) return false;
+    return read_picture_text(output_.file(frame), fingerprint_key) == output_.fingerprint(frame) ||
+           (output_.is_used && output_.is_used());
 }
 
 Claim FrameClaims::claim(int frame) {

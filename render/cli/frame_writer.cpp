@@ -13,6 +13,7 @@
 #include "engine/base/errors.h"
 #include "render/cli/frame_file.h"
 #include "render/cli/output_path.h"
+#include "render/cli/watch.h"
 #include "render/guide/error_report.h"
 
 namespace aleph {
@@ -157,6 +158,7 @@ void FrameWriter::print_status(int frame, const char* stage, double fraction) co
 }
 
 void FrameWriter::stop_if_asked(const RenderSignals& signals) const {
+    if (options_.watch != nullptr && options_.watch->is_changed()) throw SceneChanged();
     if (signals.received() == 0) return;
     const bool again = options_.resume || options_.checkpoint > 0.0;
     throw Stopped(fmt::format("stopped by {}: {} of {} frames are finished; {}",
@@ -188,7 +190,10 @@ void FrameWriter::print_files() const {
         return printable(output_path(options_.output, job_.name, frame).string(), 400);
     };
     std::string text = fmt::format("aleph: wrote {}", file(job_.frames.front()));
-    if (job_.frames.size() > 1) text += fmt::format(" to {} ({} frames)", file(job_.frames.back()), job_.frames.size());
+    if (!options_.film.empty()) {
+        text = fmt::format("aleph: {} frames of {}", job_.frames.size(), printable(options_.film, 400));
+    } else if (job_.frames.size() > 1)
+        text += fmt::format(" to {} ({} frames)", file(job_.frames.back()), job_.frames.size());
     if (!kept_.empty()) text += fmt::format(", {} of them finished before or by other processes", kept_.size());
     if (!options_.stats.empty()) text += fmt::format(", statistics in {}", printable(options_.stats, 400));
     std::cerr << text << "\n";

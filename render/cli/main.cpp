@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     aleph::add_new_command(app, command);
     aleph::add_render_command(app, command);
+    aleph::add_preview_command(app, command);
     aleph::add_maps_command(app, command);
     aleph::add_explain_command(app, command);
     aleph::add_study_command(app, command);

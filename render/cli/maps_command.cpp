@@ -11,10 +11,11 @@
 #include "engine/image/image_file.h"
 #include "engine/scene/scene_hash.h"
 #include "render/cli/commands.h"
-#include "render/settings/frame_pattern.h"
+#include "render/cli/film.h"
 #include "render/cli/maps_help.h"
 #include "render/cli/output_path.h"
 #include "render/cli/scene_options.h"
+#include "render/settings/frame_pattern.h"
 #include "render/cli/write_frames.h"
 #include "render/images/image_sequence.h"
 #include "render/images/picture_frame.h"
@@ -270,6 +271,7 @@ void add_maps_command(CLI::App& app, Command& command) {
             if (options->exposure) options->common.settings["exposure"] = *options->exposure;
         }
         command = [options] {
+            const FilmFolder folder = choose_film(options->common, maps_request());
             if (!options->images.empty()) {
                 write_image_maps(*options);
             } else {

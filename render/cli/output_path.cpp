@@ -43,15 +43,24 @@ fs::path full_pattern(const std::string& pattern, const std::string& scene_name)
     if (is_folder(path)) return path / (scene_name + ".####.exr");
     find_number_field(path.filename().string(), "--output");  // its reasons come before the extension's
     if (find_format(path)) return path;
+    if (names_film(pattern))
+        refuse(pattern, "films are written by `aleph render`, `maps` and `preview`; name .exr, .png or .hdr files");
     const std::string extension = path.extension().string();
     refuse(pattern,
-           fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/', and for motion .flo",
+           fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/', for motion .flo, and "
+                       "films: .mp4, .mov, .webm and .gif",
                        extension.find_first_of("#%") == std::string::npos && !extension.empty()
                            ? fmt::format("the extension {} is not known", printable(extension))
                            : "the name has no extension"));
 }
 
 }  // namespace
+
+bool names_film(const std::string& path) {
+    const std::string extension = lower_extension(path);
+    return !is_folder(path) &&
+           (extension == ".mp4" || extension == ".mov" || extension == ".webm" || extension == ".gif");
+}
 
 OutputFormat output_format(const fs::path& path) {
     return find_format(path).value_or(OutputFormat::exr);

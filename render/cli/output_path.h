@@ -8,6 +8,9 @@
 
 namespace aleph {
 
+/// Returns whether a path names a film: .mp4, .mov, .webm or .gif in any case, and no folder.
+bool names_film(const std::string& path);
+
 enum class OutputFormat { exr, png, hdr, flow };
 
 /// The file of one frame. A pattern is a file name with one run of '#', or one %d or %0Nd, in the last part of the

@@ -4,7 +4,9 @@
 
 #include "render/cli/budget.h"
 #include "render/cli/commands.h"
+#include "render/cli/film.h"
 #include "render/cli/verify.h"
+#include "render/cli/watch.h"
 #include "render/cli/write_frames.h"
 
 namespace aleph {
@@ -32,6 +34,13 @@ constexpr const char* render_footer =
     "what it was made from, and one that is cut or of something else is made again. SIGTERM and SIGINT then exit with "
     "75, without --resume or --checkpoint with 143 and 130. SIGUSR1 prints a line and writes the picture so far "
     "(NAME.partial.EXT, until the frame is finished). The rows of --stats and the light of --cache are kept.\n"
+    "A film (-o film.mp4, .mov, .webm, .gif) is made by the program ffmpeg from PNG files in a hidden folder, "
+    ".film.mp4.frames, which is removed then; after a stop --resume goes on with them. The film has the scene's frame "
+    "rate, or half of it with every second frame (--frames 1-99x2). .mp4 and .mov hold H.264, .webm VP9, all of them "
+    "YCbCr 4:2:0 with the tags of BT.709, so that the last column or row of an odd size stands twice; .gif has one "
+    "palette.\n"
+    "--watch renders again whenever the scene or a file that it uses changes, also while frames are made, until "
+    "Ctrl-C.\n"
     "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"
     "Examples:\n"
     "  aleph render scenes/pool/scene.json --frames 20 -o frame.exr                  no visible error\n"
@@ -41,6 +50,8 @@ constexpr const char* render_footer =
     "  aleph render scenes/pool/scene.json --error 1 --verify 60 -o out/             and how much is really seen\n"
     "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
     "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json --resume   go on after a stop\n"
+    "  aleph render scenes/pool/scene.json -o pool.mp4 --resume                      a film\n"
+    "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png --watch  while the scene is edited\n"
     "  aleph render scenes/pool/scene.json --frames 20 --guide none --spp 16 -o unguided.exr  the baseline\n"
     "  aleph render scenes/pool/scene.json --frames 20 --accuracy 0 --gather 4096 --spp 1 -o dense.exr";
 
@@ -76,63 +87,69 @@ void render_within(const std::string& budget, const SceneOptions& options, const
     render_frames(std::move(prepared), options, request, cache, chosen, verify);
 }
 
+struct RenderOptions {
+    SceneOptions scene;
+    bool aovs = false, watch = false;
+    std::string cache;
+    std::optional<std::string> budget, verify;
+};
+
+void render_once(const RenderOptions& options) {
+    const FrameRequest request{.frame = true, .maps = options.aovs, .progress = {}};
+    const double check = options.verify ? parse_verify(*options.verify) : 0.0;
+    if (options.budget) return render_within(*options.budget, options.scene, request, options.cache, check);
+    PreparedScene prepared = prepare_scene(options.scene);
+    if (check > 0.0) refuse_traced(prepared.settings);
+    render_frames(std::move(prepared), options.scene, request, options.cache, std::nullopt, check);
+}
+
+int render(RenderOptions options) {
+    options.scene.keeps_to_error = !options.budget;
+    if (options.scene.resume) refuse_beside_resume(options.budget.has_value(), options.verify.has_value());
+    const FilmFolder folder = choose_film(options.scene, {.frame = true, .maps = options.aovs, .progress = {}});
+    run_maybe_watched(options.watch, options.scene, [&] { render_once(options); });
+    return exit_done;
+}
+
 }  // namespace
 
 void add_render_command(CLI::App& app, Command& command) {
-    CLI::App* render = app.add_subcommand("render", "render frames of a scene to EXR or PNG files");
-    const auto options = std::make_shared<SceneOptions>();
-    const auto aovs = std::make_shared<bool>(false);
-    const auto cache = std::make_shared<std::string>();
-    const auto budget = std::make_shared<std::optional<std::string>>();
-    const auto verify = std::make_shared<std::optional<std::string>>();
-    add_scene_options(*render, *options);
-    render->add_flag("--aovs", *aovs, "also write the channels of `aleph maps` (EXR only)");
-    render
+    CLI::App* render_app = app.add_subcommand("render", "render frames of a scene to EXR or PNG files, or as a film");
+    const auto options = std::make_shared<RenderOptions>();
+    add_scene_options(*render_app, options->scene);
+    render_app->add_flag("--aovs", options->aovs, "also write the channels of `aleph maps` (EXR only)");
+    add_watch_option(*render_app, options->watch);
+    render_app
         ->add_option_function<std::string>(
             "--checkpoint",
             [options](const std::string& text) {
-                options->checkpoint = parse_value<double>(text, "--checkpoint");
-                if (!(options->checkpoint > 0.0))
+                options->scene.checkpoint = parse_value<double>(text, "--checkpoint");
+                if (!(options->scene.checkpoint > 0.0))
                     throw CLI::ValidationError("--checkpoint", "expected seconds above 0");
             },
             "while a frame is made, keep its records and samples in a file every so many seconds, and when a signal "
             "stops it: --resume goes on from there")
         ->type_name("SECONDS");
-    render
-        ->add_option("--budget", *budget,
+    render_app
+        ->add_option("--budget", options->budget,
                      "seconds of a clock, with the threads given, that all the frames asked for may take, loading and "
                      "choosing included: picks the smallest error (--error, .1 to 10) that is predicted to fit")
         ->type_name("SECONDS");
-    render
-        ->add_option("--verify", *verify,
+    render_app
+        ->add_option("--verify", options->verify,
                      "afterwards check the frames for so many seconds of a clock (at least 4 blocks of pixels): blocks "
                      "of random frames are path traced, and the share of the pixels that are seen to differ is printed "
                      "with its interval at 95 %")
         ->type_name("SECONDS");
-    render
+    render_app
         ->add_option(
-            "--cache", *cache,
+            "--cache", options->cache,
             "keep the indirect light of lighting keyframes (--light-step) in this file, and use what it has; a file of "
             "another scene, other settings or another build is refused; a folder (FOLDER/) may be shared by processes "
             "and scenes")
         ->type_name("FILE");
-    render->footer(render_footer);
-    render->callback([options, aovs, cache, budget, verify, &command] {
-        command = [options, aovs, cache, budget, verify] {
-            const FrameRequest request{.frame = true, .maps = *aovs, .progress = {}};
-            options->keeps_to_error = !budget->has_value();
-            if (options->resume) refuse_beside_resume(budget->has_value(), verify->has_value());
-            const double check = verify->has_value() ? parse_verify(**verify) : 0.0;
-            if (budget->has_value()) {
-                render_within(**budget, *options, request, *cache, check);
-                return exit_done;
-            }
-            PreparedScene prepared = prepare_scene(*options);
-            if (check > 0.0) refuse_traced(prepared.settings);
-            render_frames(std::move(prepared), *options, request, *cache, std::nullopt, check);
-            return exit_done;
-        };
-    });
+    render_app->footer(render_footer);
+    render_app->callback([options, &command] { command = [options] { return render(*options); }; });
 }
 
 }  // namespace aleph

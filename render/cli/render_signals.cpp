@@ -6,6 +6,7 @@ namespace {
 
 constexpr std::array taken{SIGTERM, SIGINT, SIGUSR1};
 volatile std::sig_atomic_t received_signal = 0, status_requests = 0;
+int objects = 0;  // that exist
 
 extern "C" void note_signal(int signal) {
     if (signal == SIGUSR1) {
@@ -21,8 +22,10 @@ extern "C" void note_signal(int signal) {
 }  // namespace
 
 RenderSignals::RenderSignals() {
-    received_signal = 0;
-    status_requests = 0;
+    if (objects++ == 0) {
+        received_signal = 0;
+        status_requests = 0;
+    }
     struct sigaction action {};
     action.sa_handler = note_signal;
     action.sa_flags = SA_RESTART;
@@ -33,6 +36,7 @@ RenderSignals::RenderSignals() {
 }
 
 RenderSignals::~RenderSignals() {
+    --objects;
     for (std::size_t i = 0; i < taken.size(); ++i) ::sigaction(taken[i], &before_[i], nullptr);
 }
 

@@ -18,8 +18,8 @@ class Stopped : public std::runtime_error {
     int exit_code_;
 };
 
-/// Takes SIGTERM and SIGINT during its lifetime, one object at a time, unless they are ignored. A second SIGINT ends
-/// the program at once.
+/// Takes SIGTERM and SIGINT during its lifetime, unless they are ignored. A second SIGINT ends the program at once. An
+/// object within the lifetime of another has the same signals.
 class RenderSignals {
   public:
     RenderSignals();

@@ -14,6 +14,7 @@
 #include "engine/base/files.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
+#include "render/cli/watch.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
@@ -162,23 +163,30 @@ void add_setting_options(CLI::App& app, SettingMap& settings) {
     app.parse_complete_callback([&app, &settings] { settings = read_settings(app); });
 }
 
-void add_scene_options(CLI::App& app, SceneOptions& options) {
+void add_shot_options(CLI::App& app, SceneOptions& options, const std::string& output_help) {
     app.add_option("scene", options.scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
         ->required()
         ->type_name("SCENE");
     app.add_option("--frames", options.frames,
                    "frames, such as 1-10,20-40x2 (x2: every second); default: the scene's range")
         ->type_name("LIST");
-    app.add_option("--fps", options.fps, "frames per second, such as 30 or 30000/1001; default: the scene's")
-        ->type_name("N");
-    app.add_option(
-           "-o,--output", options.output,
-           "output files: name.####.exr, .png or .hdr (#### is the frame number), or a folder; missing folders are "
-           "made; HDR keeps 8 bits per channel beside the pixel's brightest; default: SCENE.####.exr, or "
-           "SCENE-maps.####.exr, in the current folder")
-        ->type_name("PATTERN");
+    app.add_option("-o,--output", options.output, output_help)->type_name("PATTERN");
     app.add_option("--camera", options.camera, "name of a camera or of its node; default: the scene's choice")
         ->type_name("NAME");
+    add_load_limits(app, options.limits);
+    add_value(app, "-t,--threads", options.threads,
+              "number of threads, 0 to 4096; 0: all processors, or those of a Slurm task (SLURM_CPUS_PER_TASK)");
+    app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");
+}
+
+void add_scene_options(CLI::App& app, SceneOptions& options) {
+    add_shot_options(app, options,
+                     "output files: name.####.exr, .png or .hdr (#### is the frame number), or a folder; missing "
+                     "folders are made; HDR keeps 8 bits per channel beside the pixel's brightest; name.mp4, .mov, "
+                     ".webm or .gif: a film, made by the program ffmpeg; default: SCENE.####.exr, or "
+                     "SCENE-maps.####.exr, in the current folder");
+    app.add_option("--fps", options.fps, "frames per second, such as 30 or 30000/1001; default: the scene's")
+        ->type_name("N");
     app.add_option(
            "--stats", options.stats,
            "write counts and times of every frame as JSON; while frames are made, the file has the finished ones")
@@ -186,10 +194,6 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_flag("--resume", options.resume,
                  "keep frames whose files are whole and have the fingerprint of this scene, these settings and this "
                  "program; several processes with the same command divide the frames (EXR, PNG, HDR)");
-    add_load_limits(app, options.limits);
-    add_value(app, "-t,--threads", options.threads,
-              "number of threads, 0 to 4096; 0: all processors, or those of a Slurm task (SLURM_CPUS_PER_TASK)");
-    app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");
     add_setting_options(app, options.settings);
 }
 
@@ -205,7 +209,17 @@ void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& ra
 }
 
 constexpr int max_threads = 4096;
-}
+
+/// Notes the files of a scene for --watch, also where loading fails.
+struct LoadedFiles {
+    const ReadFiles read{};
+    SceneWatch* const watch;
+    ~LoadedFiles() {
+        if (watch != nullptr) watch->note(read);
+    }
+};
+
+}  // namespace
 
 void check_threads(int threads) {
     if (threads >= 0 && threads <= max_threads) return;
@@ -225,9 +239,9 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     check_threads(options.threads);
     PreparedScene prepared;
     {
-        const ReadFiles read;
+        const LoadedFiles files{.watch = options.watch};
         prepared.scene = load_scene(options.scene, options.limits);
-        prepared.read = read.paths();
+        prepared.read = files.read.paths();
     }
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) scene.film.frame_rate = parse_fps(options.fps);

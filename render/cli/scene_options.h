@@ -12,8 +12,11 @@
 
 namespace aleph {
 
+class SceneWatch;
+
 struct SceneOptions {
     std::string scene, frames, fps, output, camera, stats;
+    std::string film;     ///< that the files of --output become (choose_film); empty: none
     SettingMap settings;  ///< from options and --set
     int threads = 0;
     LoadLimits limits;
@@ -22,13 +25,17 @@ struct SceneOptions {
     bool resume = false;          ///< frames that are finished are kept
     bool keeps_to_error = false;  ///< without a setting that chooses the work, an error of 1 is asked for
     bool importance = false;      ///< `maps` writes this picture in place of the maps
+    SceneWatch* watch = nullptr;  ///< of the files that the scene is loaded from; null: they may change
 };
 
 /// Adds --KEY for every setting of the table, --set, and --help-all, which shows settings that are rarely changed too.
 /// @param settings  filled once the command line has been read
 void add_setting_options(CLI::App& app, SettingMap& settings);
 
-/// Adds the scene argument and the options that `render` and `maps` share: one per setting, --set for any.
+/// Adds the scene argument and the options of all commands that make frames: --frames, --output, --camera and others.
+void add_shot_options(CLI::App& app, SceneOptions& options, const std::string& output_help);
+
+/// Adds these, and the options that `render` and `maps` share: one per setting, --set for any.
 void add_scene_options(CLI::App& app, SceneOptions& options);
 
 /// @throws InputError (--threads) for a number outside 0 to 4096

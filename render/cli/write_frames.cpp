@@ -8,6 +8,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/cli/budget.h"
+#include "render/cli/film.h"
 #include "render/cli/output_conflicts.h"
 #include "render/cli/output_path.h"
 #include "render/cli/verify.h"
@@ -16,6 +17,7 @@ namespace aleph {
 
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
                            const std::string& cache) {
+    if (!options.film.empty()) film_rate(options, prepared.frames, prepared.scene.film.frame_rate);
     const std::filesystem::path path = output_path(options.output, prepared.name, prepared.frames.front());
     const OutputFormat format = output_format(path);
     if (format == OutputFormat::flow && (request.frame || options.importance)) {
@@ -37,10 +39,12 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
     const bool keeps_file =
         !cache.empty() && std::filesystem::path(cache).has_filename() && !std::filesystem::is_directory(cache);
     if (keeps_file) outputs.push_back({cache, "--cache"});
+    if (!options.film.empty()) outputs.push_back({options.film, "--output"});
     for (const int frame : prepared.frames)
         outputs.push_back({output_path(options.output, prepared.name, frame), "--output"});
     refuse_overwriting(prepared.read, outputs);
     prepare_output(options.output, prepared.name, prepared.frames);
+    if (!options.film.empty()) try_output(options.film);
     if (!options.stats.empty()) try_output(options.stats);
     if (keeps_file) try_output(cache);
 }
@@ -49,7 +53,11 @@ FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& opti
     const auto file = [pattern = options.output, name = prepared.name](int frame) {
         return output_path(pattern, name, frame);
     };
-    return FrameClaims({prepared.frames, file, prints.of, prints.identity, options.resume});
+    if (options.film.empty()) return FrameClaims({prepared.frames, file, prints.of, prints.identity, options.resume});
+    // Processes that divide the frames of a film agree on all of them.
+    const std::string film = film_fingerprint(options, prepared.frames, prepared.scene.film.frame_rate, prints.of);
+    return FrameClaims({prepared.frames, file, prints.of, film, options.resume,
+                        [&options, film] { return is_film_finished(options, film); }});
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
@@ -63,6 +71,7 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
         writer.statistics().set_budget(*budget);
     }
     writer.finish();
+    if (!options.film.empty()) finish_film(job, options);
     if (!options.quiet && budget) std::cerr << describe_budget(*budget);
     if (!job.verify) return;
     const VerifiedStatistics verified = job.verify(writer.estimate());
@@ -77,7 +86,7 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
     const ThreadLimit limit(find_threads(options.threads));
     const FramePrints prints = fingerprint_frames(prepared, options, request);
     FrameClaims claims = claim_frames(prepared, options, prints);
-    if (options.resume && options.stats.empty() &&
+    if (options.resume && options.stats.empty() && options.film.empty() &&
         std::ranges::all_of(prepared.frames, [&](int frame) { return claims.is_finished(frame); })) {
         if (!options.quiet)
             std::cerr << fmt::format("aleph: all {} frames were finished before\n", prepared.frames.size());

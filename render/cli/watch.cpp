@@ -1,0 +1,86 @@
+#include "render/cli/watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <thread>
+
+#include "engine/base/errors.h"
+#include "render/cli/render_signals.h"
+
+namespace aleph {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds between_looks(200);
+
+/// Returns whether the message is about a file, not about an option: names of options stand in place of files too.
+bool is_of_file(const InputError& error) {
+    return !error.file().empty() && !error.file().starts_with("--");
+}
+
+void stop_if_asked(const RenderSignals& signals) {
+    if (signals.received() != 0) throw Stopped("stopped", 128 + signals.received());
+}
+
+void wait_for_change(SceneWatch& watch, const RenderSignals& signals) {
+    while (!watch.is_changed()) {
+        stop_if_asked(signals);
+        std::this_thread::sleep_for(between_looks);
+    }
+}
+
+}  // namespace
+
+void SceneWatch::note(const ReadFiles& read) {
+    const std::lock_guard lock(mutex_);
+    files_.clear();
+    // The first state of a file that is read twice: a change between the two is one.
+    for (std::size_t i = 0; i < read.paths().size(); ++i) files_.emplace(read.paths()[i], read.states()[i]);
+    files_.emplace(scene_, file_state(scene_));
+    changed_.clear();
+}
+
+bool SceneWatch::is_changed() {
+    const std::lock_guard lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    if (!changed_.empty() || now < next_) return !changed_.empty();
+    next_ = now + between_looks;
+    const auto found =
+        std::ranges::find_if(files_, [](const auto& file) { return file_state(file.first) != file.second; });
+    if (found != files_.end()) changed_ = found->first;
+    return !changed_.empty();
+}
+
+void add_watch_option(CLI::App& app, bool& watch) {
+    app.add_flag("--watch", watch, "start again whenever the scene file or a file that it uses changes, until Ctrl-C");
+}
+
+void run_maybe_watched(bool asked, SceneOptions& options, const std::function<void()>& run) {
+    if (!asked) return run();
+    SceneWatch watch(options.scene);
+    options.watch = &watch;
+    const RenderSignals signals;  // from here on, so that none is lost between two renders
+    for (;;) {
+        try {
+            run();
+        } catch (const SceneChanged&) {
+        } catch (const InputError& e) {
+            if (!is_of_file(e)) throw;
+            std::cerr << fmt::format("aleph: error: {}\n", printable(e.what(), 4000));
+        }
+        if (!watch.is_changed() && !options.quiet)
+            std::cerr << fmt::format("aleph: watching {} files; Ctrl-C ends\n", watch.size()) << std::flush;
+        wait_for_change(watch, signals);
+        if (!options.quiet)
+            std::cerr << fmt::format("aleph: {} has changed\n", printable(watch.changed().string(), 400));
+        // An editor may write a file in several steps, or remove it before the new one is there.
+        std::this_thread::sleep_for(between_looks);
+        stop_if_asked(signals);
+    }
+}
+
+}  // namespace aleph
