@@ -7,6 +7,7 @@ namespace aleph {
 
 SceneFormat scene_file_format();  ///< aleph's own
 SceneFormat gltf_format();
+SceneFormat glb_format();  ///< as gltf_format, in one binary file; is written too
 SceneFormat alembic_format();
 
 /// @throws InputError where the path leads to nothing, or to a folder or a device

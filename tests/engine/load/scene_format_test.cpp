@@ -26,9 +26,10 @@ FileTiming append_triangle(const AppendRequest& request, Scene& scene) {
     return timing;
 }
 
-void save_triangle(const Scene& scene, const fs::path& path) {
+std::vector<std::string> save_triangle(const Scene& scene, const fs::path& path) {
     std::ofstream file(path);
     for (const glm::vec3& p : scene.meshes.at(0).positions) file << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    return {};
 }
 
 void list_missing_pictures(const LoadRequest& request, std::vector<MissingFile>& missing) {
