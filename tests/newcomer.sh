@@ -137,6 +137,12 @@ answers 2 'name the node that has the "include"' aleph explain key.json
 printf '{"aleph": 1,\n "fps": 30\n "frames": [0, 1]}\n' >key.json
 answers 2 'line 2, column 11: not valid JSON: a comma is missing here' aleph explain key.json
 
+# Scenes for other programs.
+answers 2 'must end in .json or .glb' aleph export first.json -o first.obj
+answers 2 '--output' aleph export first.json -o first.json
+silent aleph export first.json -o first.glb
+answers 0 'frames    0 to 59 at 30 a second' aleph explain first.glb
+
 # What the scene holds, and which object a pixel shows.
 answers 0 '1 light (1 of area)' aleph explain first.json
 answers 0 'lamp: 2 triangles of' aleph explain first.json

@@ -1,7 +1,6 @@
 #include "engine/gltf/write/decompose.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/matrix.hpp>
 
@@ -44,8 +43,8 @@ void complete_axes(glm::dmat3& axes, const glm::dmat3& before) {
     }
 }
 
-/// Rotation and scale of a matrix whose columns are at right angles. Of the signs that the scales may have those are
-/// taken whose rotation is nearest to the one before; all the same in a tie.
+/// Rotation and scale of a matrix whose columns are at right angles. The scales keep the signs that they had before, so
+/// that a turn stays one; where the matrix begins or ends to mirror, the signs are those whose rotation is nearest.
 void split_scale(const glm::dmat3& m, const TransformParts& before, TransformParts& parts) {
     const glm::dmat3 last = glm::mat3_cast(before.rotation);
     glm::dmat3 axes;
@@ -55,23 +54,19 @@ void split_scale(const glm::dmat3& m, const TransformParts& before, TransformPar
         lengths[i] = glm::length(m[i]);
     }
     complete_axes(axes, last);
-    const bool mirrors = glm::determinant(axes) < 0.0;
-    // Bit i: scale i is negative. An even number of them turns, an odd one mirrors.
-    constexpr std::array even{0, 3, 5, 6}, odd{7, 1, 2, 4};
+    const double orientation = glm::determinant(axes);
     double nearest = -4.0;
-    for (const int signs : mirrors ? odd : even) {
-        glm::dmat3 rotation = axes;
-        glm::dvec3 scale = lengths;
-        for (int i = 0; i < 3; ++i) {
-            if ((signs >> i & 1) == 0) continue;
-            rotation[i] = -rotation[i];
-            scale[i] = -scale[i];
-        }
-        const double near = nearness(rotation, last);
+    for (int bits = 0; bits < 8; ++bits) {
+        const glm::dvec3 signs(bits & 1 ? -1.0 : 1.0, bits & 2 ? -1.0 : 1.0, bits & 4 ? -1.0 : 1.0);
+        if (orientation * signs.x * signs.y * signs.z < 0.0) continue;  // no rotation
+        bool keeps_signs = true;
+        for (int i = 0; i < 3; ++i) keeps_signs = keeps_signs && std::signbit(before.scale[i]) == (signs[i] < 0.0);
+        const glm::dmat3 rotation(axes[0] * signs.x, axes[1] * signs.y, axes[2] * signs.z);
+        const double near = keeps_signs ? 4.0 : nearness(rotation, last);
         if (near <= nearest + 1e-9) continue;
         nearest = near;
         parts.rotation = safe_normalize(glm::quat_cast(rotation));
-        parts.scale = scale;
+        parts.scale = lengths * signs;
     }
 }
 

@@ -6,7 +6,7 @@
 
 namespace aleph {
 
-/// M = translate(translation) * rotation * scale * inner. Where M mirrors, one or all scales are negative.
+/// M = translate(translation) * rotation * scale * inner. Where M mirrors, one scale is negative, or all are.
 struct TransformParts {
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
@@ -14,7 +14,7 @@ struct TransformParts {
     glm::dquat inner{1.0, 0.0, 0.0, 0.0};
 };
 
-/// Of the many ways to decompose a matrix the one nearest to `before`, so that keys of a motion can be interpolated.
+/// Of the ways to decompose a matrix the one that continues `before`, so that keys of a motion can be interpolated.
 /// Columns at right angles within 1e-7 count as such: the matrix is then off by so much of its size.
 /// @param matrix  affine
 /// @param before  the parts of the key before; of the first key: TransformParts{}

@@ -172,7 +172,7 @@ class NodeWriter {
             if (holder == inner) is_free = false;
             const int mesh = meshes_.write(group, node.name);
             writer_.node(holder)["mesh"] = mesh;
-            if (first.deformation.skin != no_index) writer_.node(holder)["skin"] = first.deformation.skin;
+            if (has_joints(first)) writer_.node(holder)["skin"] = first.deformation.skin;
             writer_.animate(holder, "weights", meshes_.weight_keys(group[0]));
         }
         if (node.light == no_index) return;

@@ -64,9 +64,11 @@ class AxisKeys {
             const double turn = std::abs(evaluate(turn_.angle, times[i].own) - evaluate(turn_.angle, times[i - 1].own));
             const double parts = std::ceil(turn / max_key_turn);
             if (!(parts > 1.0)) continue;
-            if (parts > most_per_key) {
+            if (parts > most_per_key) {  // too fast for anything between frames
                 writer_.add_frames(sampled, place_);
-                return sampled.make_key_times();
+                std::vector<KeyTime> frames = sampled.make_key_times();
+                for (KeyTime& key : frames) key.at = key.own;
+                return frames;
             }
             const double begin = times[i - 1].own, step = (times[i].own - begin) / parts;
             writer_.buffer.charge(static_cast<std::uint64_t>(parts) * 5 * sizeof(float), place_);
