@@ -90,9 +90,9 @@ TEST_F(SceneFormatRow, IsSavedAndReadAgain) {
 TEST_F(SceneFormatRow, IsNamedByMessagesAndHelpTexts) {
     EXPECT_EQ(list_endings(scene_formats(), FormatUse::load), ".json, .gltf, .glb or .abc");
     EXPECT_EQ(list_endings(scene_formats(), FormatUse::include), ".gltf, .glb or .abc");
-    EXPECT_EQ(list_endings(scene_formats(), FormatUse::save), ".json");
+    EXPECT_EQ(list_endings(scene_formats(), FormatUse::save), ".json or .glb");
     EXPECT_EQ(list_endings(formats_, FormatUse::load), ".json, .gltf, .glb, .abc or .tri");
-    EXPECT_EQ(list_endings(formats_, FormatUse::save), ".json or .tri");
+    EXPECT_EQ(list_endings(formats_, FormatUse::save), ".json, .glb or .tri");
     EXPECT_NE(refused(write("a.obj", "")).find("expected a .json, .gltf, .glb, .abc or .tri file"), std::string::npos);
     EXPECT_NE(refused(write_scene(R"("include": "a.obj")")).find("expected a .gltf, .glb, .abc or .tri file"),
               std::string::npos);
