@@ -7,6 +7,7 @@
 #include "engine/gltf/write/write.h"
 #include "engine/json/text.h"
 #include "engine/load/format_rows.h"
+#include "engine/load/validate_scene.h"
 
 namespace aleph {
 
@@ -54,7 +55,10 @@ SceneFormat gltf_format() {
 SceneFormat glb_format() {
     SceneFormat format = gltf_format();
     format.endings = {".glb"};
-    format.save = write_gltf;
+    format.save = [](const Scene& scene, const std::filesystem::path& path) {
+        validate(scene);
+        return write_gltf(scene, path);
+    };
     return format;
 }
 

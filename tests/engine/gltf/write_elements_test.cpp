@@ -229,6 +229,10 @@ TEST(GltfWriteElements, SaveSceneWritesGlbAndNoGltf) {
     EXPECT_TRUE(save_scene(scene, round_trip_folder / "saved.GLB").empty());
     EXPECT_EQ(load_scene(round_trip_folder / "saved.GLB").meshes[0].positions, scene.meshes[0].positions);
     EXPECT_THROW(save_scene(scene, round_trip_folder / "saved.gltf"), InputError);
+    Scene broken = scene;
+    broken.nodes[0].transform.translation = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_THROW(save_scene(broken, round_trip_folder / "broken.glb"), InputError);
+    EXPECT_FALSE(std::filesystem::exists(round_trip_folder / "broken.glb"));
 }
 
 }  // namespace
