@@ -176,6 +176,12 @@ answers 2 'there is no named value "hight"; did you mean "height"?' aleph explai
 scene key '"translation": {"named": "height"}' '"named": {"height": 1.5},'
 answers 2 '/nodes/0/translation: expected 3 numbers or an object with "keys" or "values", found 1.5; this value is defined at /named/height' aleph explain key.json
 
+# Scenes for other programs.
+answers 2 'must end in .json or .glb' aleph export first.json -o first.obj
+answers 2 '--output' aleph export first.json -o first.json
+silent aleph export first.json -o first.glb
+answers 0 'frames    0 to 59 at 30 a second' aleph explain first.glb
+
 # What the scene holds, and which object a pixel shows.
 answers 0 '1 light (1 of area)' aleph explain first.json
 answers 0 'lamp: 2 triangles of' aleph explain first.json

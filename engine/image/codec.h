@@ -3,6 +3,7 @@
 // since the libraries lose write errors; files and embedded textures pass the same checks.
 
 #include <cstdint>
+#include <glm/gtc/type_precision.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,5 +60,9 @@ std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed, const Pic
 
 /// @throws InputError (file empty)
 std::string encode_png(const Image<Rgb>& linear, const PictureTexts& texts = {});
+
+/// The bytes as they are, without alpha where all of it is 255.
+/// @throws InputError (file empty)
+std::string encode_png(const Image<glm::u8vec4>& bytes);
 
 }  // namespace aleph

@@ -92,4 +92,17 @@ std::string encode_png(const Image<Rgb>& linear, const PictureTexts& texts) {
     return encode("png", spec, encoded.pixels.data());
 }
 
+std::string encode_png(const Image<glm::u8vec4>& bytes) {
+    check_size(bytes.width, bytes.height, "");
+    const bool is_opaque = std::ranges::all_of(bytes.pixels, [](const glm::u8vec4& texel) { return texel.w == 255; });
+    const int channels = is_opaque ? 3 : 4;
+    std::vector<std::uint8_t> packed;
+    packed.reserve(bytes.size() * static_cast<std::size_t>(channels));
+    for (const glm::u8vec4& texel : bytes.pixels)
+        for (int c = 0; c < channels; ++c) packed.push_back(texel[c]);
+    OIIO::ImageSpec spec(bytes.width, bytes.height, channels, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);  // else colours are divided by alpha
+    return encode("png", spec, packed.data());
+}
+
 }  // namespace aleph

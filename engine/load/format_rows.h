@@ -9,6 +9,7 @@ namespace aleph {
 
 SceneFormat scene_file_format();  ///< aleph's own
 SceneFormat gltf_format();
+SceneFormat glb_format();  ///< as gltf_format, in one binary file; is written too
 SceneFormat alembic_format();
 
 /// A scene file's text, with the files that it names. @throws InputError

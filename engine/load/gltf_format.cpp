@@ -4,8 +4,10 @@
 #include "engine/base/files.h"
 #include "engine/gltf/files.h"
 #include "engine/gltf/gltf.h"
+#include "engine/gltf/write/write.h"
 #include "engine/json/text.h"
 #include "engine/load/format_rows.h"
+#include "engine/load/validate_scene.h"
 
 namespace aleph {
 
@@ -41,12 +43,22 @@ void list_missing_of_gltf(const LoadRequest& request, std::vector<MissingFile>& 
 
 SceneFormat gltf_format() {
     SceneFormat format;
-    format.endings = {".gltf", ".glb"};
+    format.endings = {".gltf"};
     format.description = "a glTF file";
     format.append = append_gltf_file;
     format.list_missing = list_missing_of_gltf;
     format.has_animation_names = true;
     format.warns_of_points = true;
+    return format;
+}
+
+SceneFormat glb_format() {
+    SceneFormat format = gltf_format();
+    format.endings = {".glb"};
+    format.save = [](const Scene& scene, const std::filesystem::path& path) {
+        validate(scene);
+        return write_gltf(scene, path);
+    };
     return format;
 }
 

@@ -68,8 +68,9 @@ Scene load_scene_text(std::string_view text, const std::filesystem::path& folder
     return scene;
 }
 
-void save_scene(const Scene& scene, const std::filesystem::path& path, const SceneFormats& formats) {
-    require_format(formats, FormatUse::save, path, path.string(), "").save(scene, path);
+std::vector<std::string> save_scene(const Scene& scene, const std::filesystem::path& path,
+                                    const SceneFormats& formats) {
+    return require_format(formats, FormatUse::save, path, path.string(), "").save(scene, path);
 }
 
 }  // namespace aleph

@@ -2,7 +2,9 @@
 // Loads and saves scenes. The ending of the file's name picks the format; every format's reader fills the same Scene.
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/json/load_limits.h"
 #include "engine/load/scene_format.h"
@@ -24,10 +26,13 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits = {
 /// @throws InputError with place and reason
 Scene load_scene_text(std::string_view text, const std::filesystem::path& folder, const LoadLimits& limits = {});
 
-/// Writes a scene file (.json). load_scene then returns an equal scene, apart from `file` and `warnings`: a camera or a
-/// light that was added is written like the rest. Includes stay includes. In another folder than that of
-/// SceneSource::file the paths of includes and images change accordingly. The file is written completely or not at all.
+/// Writes a scene file (.json) or binary glTF (.glb), completely or not at all.
+/// load_scene returns a scene equal to that of a .json, apart from `file` and `warnings`: a camera or a light that was
+/// added is written like the rest. Includes stay includes. In another folder than that of SceneSource::file the paths
+/// of includes and images change accordingly. A .glb holds what includes brought, and motion as engine/gltf/write says.
+/// @return what the file does not say and the scene does, one sentence for each kind: of a .glb only
 /// @throws InputError where the file format has no words for what the scene holds, OutputError if writing fails
-void save_scene(const Scene& scene, const std::filesystem::path& path, const SceneFormats& formats = scene_formats());
+std::vector<std::string> save_scene(const Scene& scene, const std::filesystem::path& path,
+                                    const SceneFormats& formats = scene_formats());
 
 }  // namespace aleph

@@ -130,7 +130,7 @@ fs::path folder_of(const fs::path& file) {
     return error ? fs::absolute(file).parent_path() : folder;
 }
 
-void save_scene_file(const Scene& scene, const fs::path& path) {
+std::vector<std::string> save_scene_file(const Scene& scene, const fs::path& path) {
     const std::string file = path.string();
     Scene own = without_includes(scene, file);
     if (!scene.source.file.empty()) {  // paths are relative to the file they stand in
@@ -141,6 +141,7 @@ void save_scene_file(const Scene& scene, const fs::path& path) {
         }
     }
     write_file(path, write_scene_text(own, file));
+    return {};
 }
 
 bool is_there(const fs::path& path) {

@@ -48,8 +48,9 @@ struct SceneFormat {
     /// Appends the content to a scene, which stays as it was where an error is thrown; returns the times that the file
     /// states. Null: such files cannot be included. @throws InputError
     FileTiming (*append)(const AppendRequest&, Scene&) = nullptr;
-    /// Writes a scene, completely or not at all. Null: such files are not written. @throws InputError, OutputError
-    void (*save)(const Scene&, const std::filesystem::path&) = nullptr;
+    /// Writes a scene, completely or not at all; returns what the file does not say, a sentence each. Null: such files
+    /// are not written. @throws InputError, OutputError
+    std::vector<std::string> (*save)(const Scene&, const std::filesystem::path&) = nullptr;
     /// Adds the files that the file names and that are not there. Null: it names none. @throws InputError
     void (*list_missing)(const LoadRequest&, std::vector<MissingFile>&) = nullptr;
 

@@ -37,7 +37,7 @@ SceneFormat alembic_format() {
 }
 
 const SceneFormats& scene_formats() {
-    static const SceneFormats formats = {scene_file_format(), gltf_format(), alembic_format()};
+    static const SceneFormats formats = {scene_file_format(), gltf_format(), glb_format(), alembic_format()};
     return formats;
 }
 

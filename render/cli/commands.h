@@ -11,6 +11,7 @@ void add_preview_command(CLI::App& app, Command& command);
 void add_maps_command(CLI::App& app, Command& command);
 void add_farm_command(CLI::App& app, Command& command);
 void add_explain_command(CLI::App& app, Command& command);
+void add_export_command(CLI::App& app, Command& command);
 void add_study_command(CLI::App& app, Command& command);
 void add_compare_command(CLI::App& app, Command& command);
 

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     aleph::add_preview_command(app, command);
     aleph::add_maps_command(app, command);
     aleph::add_explain_command(app, command);
+    aleph::add_export_command(app, command);
     aleph::add_study_command(app, command);
     aleph::add_compare_command(app, command);
     aleph::add_farm_command(app, command);

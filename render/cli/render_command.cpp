@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "engine/base/errors.h"
 #include "render/cli/budget.h"
 #include "render/cli/commands.h"
 #include "render/cli/film.h"

@@ -23,7 +23,7 @@ const std::vector<Layer>& layers() {
         const std::vector<std::string> model = {"engine/base", "engine/scene", "engine/surface"};
         const std::vector<std::string> text = {"engine/base", "engine/json", "engine/scene", "engine/surface"};
         std::vector<std::string> engine = model;
-        for (const char* folder : {"pose", "rays", "image", "json", "scene_file", "gltf", "alembic"})
+        for (const char* folder : {"pose", "rays", "image", "json", "scene_file", "gltf", "gltf/write", "alembic"})
             engine.push_back(std::string("engine/") + folder);
         const std::vector<std::string> below_load = engine;
         engine.push_back("engine/load");
@@ -53,6 +53,7 @@ const std::vector<Layer>& layers() {
             {"engine/scene_file", with(text, {"engine/pose"})},
             {"engine/gltf/validate", {"engine/base", "engine/json"}},
             {"engine/gltf", with(text, {"engine/image", "engine/gltf/validate"})},
+            {"engine/gltf/write", with(model, {"engine/pose", "engine/image"})},
             {"engine/alembic", with(model, {"engine/json"})},
             {"engine/load", below_load},
             {"motion", engine},

@@ -179,7 +179,7 @@ TEST_F(LoadScene, SaveIsAllOrNothing) {
     EXPECT_EQ(load_scene(folder_ / "s.json").source.name, "first");
     scene.film.exposure.reset();
     EXPECT_THROW(save_scene(scene, folder_ / "no/such/folder/s.json"), OutputError);
-    EXPECT_THROW(save_scene(scene, folder_ / "s.glb"), InputError);
+    EXPECT_THROW(save_scene(scene, folder_ / "s.abc"), InputError);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2);  // lib and s.json: nothing left over
 }
 

@@ -26,9 +26,10 @@ FileTiming append_triangle(const AppendRequest& request, Scene& scene) {
     return timing;
 }
 
-void save_triangle(const Scene& scene, const fs::path& path) {
+std::vector<std::string> save_triangle(const Scene& scene, const fs::path& path) {
     std::ofstream file(path);
     for (const glm::vec3& p : scene.meshes.at(0).positions) file << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    return {};
 }
 
 void list_missing_pictures(const LoadRequest& request, std::vector<MissingFile>& missing) {
@@ -89,9 +90,9 @@ TEST_F(SceneFormatRow, IsSavedAndReadAgain) {
 TEST_F(SceneFormatRow, IsNamedByMessagesAndHelpTexts) {
     EXPECT_EQ(list_endings(scene_formats(), FormatUse::load), ".json, .gltf, .glb or .abc");
     EXPECT_EQ(list_endings(scene_formats(), FormatUse::include), ".gltf, .glb or .abc");
-    EXPECT_EQ(list_endings(scene_formats(), FormatUse::save), ".json");
+    EXPECT_EQ(list_endings(scene_formats(), FormatUse::save), ".json or .glb");
     EXPECT_EQ(list_endings(formats_, FormatUse::load), ".json, .gltf, .glb, .abc or .tri");
-    EXPECT_EQ(list_endings(formats_, FormatUse::save), ".json or .tri");
+    EXPECT_EQ(list_endings(formats_, FormatUse::save), ".json, .glb or .tri");
     EXPECT_NE(refused(write("a.obj", "")).find("expected a .json, .gltf, .glb, .abc or .tri file"), std::string::npos);
     EXPECT_NE(refused(write_scene(R"("include": "a.obj")")).find("expected a .gltf, .glb, .abc or .tri file"),
               std::string::npos);

@@ -1,0 +1,240 @@
+// glTF writer: the transforms of nodes. Tracks go as they are; operations, sheared matrices and nodes that leave their
+// parent's transform are sampled.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/gltf/write/decompose.h"
+#include "engine/gltf/write/writer.h"
+#include "engine/pose/parts.h"
+#include "engine/scene/operations.h"
+#include "engine/scene/transforms.h"
+
+namespace aleph {
+
+namespace {
+
+std::string place_of_node(const Scene& scene, int node) {
+    return "node \"" + scene.nodes[node].name + "\"";
+}
+
+/// Fills a rotation from turns about an axis. More keys than the frames need come from turns below half a circle only.
+class AxisKeys {
+  public:
+    AxisKeys(GltfWriter& writer, const AxisRotation& turn, const std::string& place)
+        : writer_(writer), turn_(turn), place_(place), axis_(safe_normalize(turn.axis)) {}
+
+    glm::dquat at(double seconds) const {
+        const double half = 0.5 * evaluate(turn_.angle, seconds);
+        return safe_normalize(glm::dquat(std::cos(half), axis_ * std::sin(half)));
+    }
+
+    WrittenKeys make() const {
+        const Track<double>& angle = turn_.angle;
+        if (angle.interpolation == Interpolation::step || angle.interpolation == Interpolation::nearest) {
+            Track<glm::dquat> turns;
+            turns.sampling = angle.sampling;
+            turns.interpolation = angle.interpolation;
+            turns.values.clear();
+            for (std::size_t i = 0; i < angle.key_count(); ++i)
+                turns.values.push_back(at(sample_time(angle.sampling, i)));
+            return make_keys(turns);
+        }
+        SampledTimes sampled;
+        sampled.add(angle);
+        const bool is_linear = angle.interpolation == Interpolation::linear;
+        if (!is_linear) writer_.add_frames(sampled, place_);
+        const std::vector<KeyTime> times = split(sampled);
+        const std::vector<glm::dquat> values = sample_keys(times, [&](double t) { return at(t); });
+        WrittenKeys keys;
+        keys.row = 4;
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            const glm::dquat& q = values[i];
+            keys.append(times[i].time, std::array{q.x, q.y, q.z, q.w});
+        }
+        return keys;
+    }
+
+  private:
+    /// Times between which the angle changes by at most max_key_turn, if they are few enough.
+    std::vector<KeyTime> split(SampledTimes& sampled) const {
+        constexpr double most_per_key = 1e4;
+        const std::vector<KeyTime> times = sampled.make_key_times();
+        for (std::size_t i = 1; i < times.size(); ++i) {
+            const double turn = std::abs(evaluate(turn_.angle, times[i].own) - evaluate(turn_.angle, times[i - 1].own));
+            const double parts = std::ceil(turn / max_key_turn);
+            if (!(parts > 1.0)) continue;
+            if (parts > most_per_key) {  // too fast for anything between frames
+                writer_.add_frames(sampled, place_);
+                std::vector<KeyTime> frames = sampled.make_key_times();
+                for (KeyTime& key : frames) key.at = key.own;
+                return frames;
+            }
+            const double begin = times[i - 1].own, step = (times[i].own - begin) / parts;
+            writer_.buffer.charge(static_cast<std::uint64_t>(parts) * 5 * sizeof(float), place_);
+            for (double k = 1.0; k < parts; ++k) sampled.smooth.push_back(begin + k * step);
+        }
+        return sampled.make_key_times();
+    }
+
+    GltfWriter& writer_;
+    const AxisRotation& turn_;
+    std::string place_;
+    glm::dvec3 axis_;
+};
+
+void write_tracks(GltfWriter& writer, const LocalTransform& local, const std::string& place,
+                  WrittenTransform& written) {
+    written.translation = key_value(local.translation, 0);
+    written.scale = key_value(local.scale, 0);
+    if (is_animated(local.translation)) written.translation_keys = writer.keys_of(local.translation, place);
+    if (is_animated(local.scale)) written.scale_keys = writer.keys_of(local.scale, place);
+    if (!local.axis_rotation) {
+        written.rotation = safe_normalize(key_value(local.rotation, 0));
+        if (is_animated(local.rotation)) written.rotation_keys = writer.keys_of(local.rotation, place);
+        return;
+    }
+    const AxisKeys turns(writer, *local.axis_rotation, place);
+    const Track<double>& angle = local.axis_rotation->angle;
+    written.rotation = turns.at(sample_time(angle.sampling, 0));
+    if (is_animated(angle)) written.rotation_keys = turns.make();
+}
+
+void set_parts(const TransformParts& parts, WrittenTransform& written) {
+    written.translation = parts.translation;
+    written.rotation = parts.rotation;
+    written.scale = parts.scale;
+    written.inner = parts.inner;
+}
+
+/// @param matrices  one per key time
+void write_matrices(const std::vector<KeyTime>& times, const std::vector<glm::dmat4>& matrices,
+                    WrittenTransform& written) {
+    TransformParts parts;
+    written.translation_keys.row = written.scale_keys.row = 3;
+    written.rotation_keys.row = written.inner_keys.row = 4;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        parts = decompose(matrices[i], parts);
+        if (i == 0) set_parts(parts, written);
+        const auto& [t, r, s, inner] = parts;
+        written.translation_keys.append(times[i].time, std::array{t.x, t.y, t.z});
+        written.rotation_keys.append(times[i].time, std::array{r.x, r.y, r.z, r.w});
+        written.scale_keys.append(times[i].time, std::array{s.x, s.y, s.z});
+        written.inner_keys.append(times[i].time, std::array{inner.x, inner.y, inner.z, inner.w});
+    }
+    for (WrittenKeys* keys :
+         {&written.translation_keys, &written.rotation_keys, &written.scale_keys, &written.inner_keys})
+        if (keys->is_constant()) *keys = {};
+}
+
+/// Adds times between those where the matrix turns by more than max_key_turn.
+template <class Function>
+void split_matrix_turns(const Function& matrix, SampledTimes& sampled) {
+    TransformParts last;
+    const std::vector<KeyTime> times = sampled.make_key_times();
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const TransformParts parts = decompose(matrix(times[i].own), last);
+        const bool turns = i > 0 && turn_between(last.rotation, parts.rotation) > max_key_turn;
+        if (turns && times[i].own - times[i - 1].own > 1e-4)  // else it jumps
+            sampled.smooth.push_back(times[i - 1].own + 0.5 * (times[i].own - times[i - 1].own));
+        last = parts;
+    }
+}
+
+template <class Function>
+void write_sampled(const Function& matrix, SampledTimes& sampled, WrittenTransform& written) {
+    split_matrix_turns(matrix, sampled);
+    const std::vector<KeyTime> times = sampled.make_key_times();
+    write_matrices(times, sample_keys(times, matrix), written);
+}
+
+/// True where a keyed matrix is linear in glTF's sense between its keys: it does not shear, flatten or change between
+/// mirrored and not.
+bool is_linear_in_parts(const Track<glm::dmat4>& matrix) {
+    if (matrix.interpolation != Interpolation::linear) return false;
+    const double sign = orientation_sign(matrix.values[0]);
+    for (const glm::dmat4& m : matrix.values) {
+        if (!has_full_rank(m) || orientation_sign(m) != sign) return false;
+        if (decompose(m, {}).inner != glm::dquat(1.0, 0.0, 0.0, 0.0)) return false;
+    }
+    return true;
+}
+
+void write_matrix_track(GltfWriter& writer, const Track<glm::dmat4>& matrix, const std::string& place,
+                        WrittenTransform& written) {
+    const auto at = [&](double t) { return evaluate(matrix, t); };
+    if (!is_animated(matrix)) return set_parts(decompose(at(0.0), {}), written);
+    SampledTimes sampled;
+    sampled.add(matrix);
+    if (sampled.steps.empty() && !is_linear_in_parts(matrix)) writer.add_frames(sampled, place);
+    write_sampled(at, sampled, written);
+}
+
+void write_operations(GltfWriter& writer, const OperationStack& stack, const std::string& place,
+                      WrittenTransform& written) {
+    const auto at = [&](double t) { return evaluate(stack, t); };
+    if (!is_animated(stack)) return set_parts(decompose(at(0.0), {}), written);
+    SampledTimes sampled;
+    sampled.add(stack.sampling, sample_count(stack));
+    writer.add_frames(sampled, place);
+    write_sampled(at, sampled, written);
+}
+
+/// The world transform of a node, which becomes a root.
+void write_world(GltfWriter& writer, int node, const std::string& place, WrittenTransform& written) {
+    std::vector<int> chain;  // from the root
+    for (int n = node; n != no_index; n = writer.scene.nodes[n].parent) chain.push_back(n);
+    std::reverse(chain.begin(), chain.end());
+    SampledTimes sampled;
+    for (const int n : chain) {
+        const Node& each = writer.scene.nodes[n];
+        sampled.add(each.inherits);
+        const LocalTransform& local = each.transform;
+        if (local.operations) {
+            sampled.add(local.operations->sampling, sample_count(*local.operations));
+        } else if (local.matrix) {
+            sampled.add(*local.matrix);
+        } else {
+            sampled.add(local.translation);
+            sampled.add(local.scale);
+            if (local.axis_rotation)
+                sampled.add(local.axis_rotation->angle);
+            else
+                sampled.add(local.rotation);
+        }
+    }
+    writer.add_frames(sampled, place);
+    const auto at = [&](double t) {
+        for (const int n : chain) place_node(writer.scene, n, t, writer.placed);
+        return writer.placed.world[node];
+    };
+    if (sampled.count() == 0) return set_parts(decompose(at(0.0), {}), written);
+    write_sampled(at, sampled, written);
+}
+
+}  // namespace
+
+bool is_detached(const Node& node) {
+    if (node.parent == no_index) return false;
+    for (std::size_t i = 0; i < node.inherits.key_count(); ++i)
+        if (key_value(node.inherits, i) == 0.0) return true;
+    return false;
+}
+
+WrittenTransform write_transform(GltfWriter& writer, int index) {
+    const Node& node = writer.scene.nodes[index];
+    const std::string place = place_of_node(writer.scene, index);
+    WrittenTransform written;
+    if (is_detached(node) && is_animated(node.inherits)) {
+        write_world(writer, index, place, written);
+    } else if (node.transform.operations) {
+        write_operations(writer, *node.transform.operations, place, written);
+    } else if (node.transform.matrix) {
+        write_matrix_track(writer, *node.transform.matrix, place, written);
+    } else {
+        write_tracks(writer, node.transform, place, written);
+    }
+    return written;
+}
+
+}  // namespace aleph

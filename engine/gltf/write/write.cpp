@@ -1,0 +1,121 @@
+#include "engine/gltf/write/write.h"
+
+#include "engine/base/atomic_file.h"
+#include "engine/gltf/write/writer.h"
+
+namespace aleph {
+
+namespace {
+
+const char* accessor_type(const WrittenKeys& keys) {
+    return keys.row == 1 ? "SCALAR" : keys.row == 3 ? "VEC3" : "VEC4";
+}
+
+const char* interpolation_word(Interpolation interpolation) {
+    return interpolation == Interpolation::step    ? "STEP"
+           : interpolation == Interpolation::cubic ? "CUBICSPLINE"
+                                                   : "LINEAR";
+}
+
+std::array<double, 1> to_row(double value) {
+    return {value};
+}
+std::array<double, 3> to_row(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+std::array<double, 4> to_row(const glm::dquat& q) {
+    return {q.x, q.y, q.z, q.w};
+}
+
+OrderedJson list_names(const std::set<std::string>& names) {
+    OrderedJson list = OrderedJson::array();
+    for (const std::string& name : names) list.push_back(name);
+    return list;
+}
+
+}  // namespace
+
+void GltfWriter::add_frames(SampledTimes& times, const std::string& place) {
+    const FrameRate& rate = scene.film.frame_rate;
+    const FrameRange frames = times.find_frames(rate, range);
+    if (frames.last < frames.first) return;
+    const auto count = static_cast<std::uint64_t>(frames.last - frames.first) + 1;
+    // Twice as many keys as the scene itself has are no matter.
+    constexpr std::uint64_t bytes_per_key = 12 * sizeof(float);
+    if (count > 2 * times.count()) buffer.charge(std::min(count, max_made_bytes) * bytes_per_key, place);
+    for (std::int64_t frame = frames.first; frame <= frames.last; ++frame)
+        times.smooth.push_back(rate.seconds_of(frame));
+}
+
+template <class T>
+WrittenKeys GltfWriter::keys_of(const Track<T>& track, const std::string& place) {
+    if (has_exact_keys(track)) return make_keys(track);
+    SampledTimes sampled;
+    sampled.add(track);
+    add_frames(sampled, place);
+    const std::vector<KeyTime> times = sampled.make_key_times();
+    const std::vector<T> values = sample_keys(times, [&](double t) { return evaluate(track, t); });
+    WrittenKeys keys;
+    keys.row = to_row(track.values[0]).size();
+    for (std::size_t i = 0; i < times.size(); ++i) keys.append(times[i].time, to_row(values[i]));
+    return keys;
+}
+template WrittenKeys GltfWriter::keys_of(const Track<double>&, const std::string&);
+template WrittenKeys GltfWriter::keys_of(const Track<glm::dvec3>&, const std::string&);
+template WrittenKeys GltfWriter::keys_of(const Track<glm::dquat>&, const std::string&);
+
+int GltfWriter::add_sampler(const WrittenKeys& keys, int output) {
+    samplers.push_back({{"input", buffer.add_times(keys.times)},
+                        {"interpolation", interpolation_word(keys.interpolation)},
+                        {"output", output}});
+    return static_cast<int>(samplers.size()) - 1;
+}
+
+void GltfWriter::add_channel(const std::string& pointer, int sampler) {
+    extensions.insert("KHR_animation_pointer");
+    const OrderedJson target = {{"path", "pointer"},
+                                {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+    channels.push_back({{"sampler", sampler}, {"target", target}});
+}
+
+void GltfWriter::animate(int node, const char* path, const WrittenKeys& keys) {
+    if (keys.times.empty() || keys.is_constant()) return;
+    const bool is_weights = std::string_view(path) == "weights";
+    const int output = buffer.add_floats(keys.values, is_weights ? "SCALAR" : accessor_type(keys));
+    const int sampler = add_sampler(keys, output);
+    channels.push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
+}
+
+void GltfWriter::animate(const std::string& pointer, const WrittenKeys& keys) {
+    if (keys.times.empty() || keys.is_constant()) return;
+    add_channel(pointer, add_sampler(keys, buffer.add_floats(keys.values, accessor_type(keys))));
+}
+
+void GltfWriter::animate_visibility(int node, const WrittenKeys& keys) {
+    if (keys.times.empty() || keys.is_constant()) return;
+    const std::vector<std::uint8_t> values(keys.values.begin(), keys.values.end());
+    add_channel("/nodes/" + std::to_string(node) + "/extensions/KHR_node_visibility/visible",
+                add_sampler(keys, buffer.add_bytes(values, "SCALAR")));
+}
+
+std::vector<std::string> write_gltf(const Scene& scene, const std::filesystem::path& path) {
+    GltfWriter writer(scene, path.string());
+    writer.document["asset"] = {{"version", "2.0"}, {"generator", "aleph"}};
+    write_materials(writer);
+    write_cameras_and_lights(writer);
+    write_nodes(writer);
+    write_skins(writer);
+    if (!writer.channels.empty()) {
+        OrderedJson animation;
+        if (!scene.source.name.empty()) animation["name"] = scene.source.name;
+        animation["samplers"] = std::move(writer.samplers);
+        animation["channels"] = std::move(writer.channels);
+        writer.add("animations", std::move(animation));
+    }
+    if (!writer.extensions.empty()) writer.document["extensionsUsed"] = list_names(writer.extensions);
+    warn_of_losses(writer);
+    write_file(path, writer.buffer.take_file(std::move(writer.document)));
+    return writer.warnings;
+}
+
+}  // namespace aleph
