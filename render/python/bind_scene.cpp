@@ -143,8 +143,10 @@ degrees, linear Rec.709.)")
         .def("world", &world_matrix, py::arg("node"), py::arg("frame"),
              "From the space of a node, by name, to the world at a frame: (4, 4) for column vectors.")
         .def(
-            "save", [](const Scene& s, const py::object& path) { save_scene(s, to_path(path)); }, py::arg("path"),
-            "Writes a scene file; the ending of its name says which.")
+            "save", [](const Scene& s, const py::object& path) { return save_scene(s, to_path(path)); },
+            py::arg("path"),
+            "Writes a scene file (.json) or binary glTF (.glb). Returns what the file has no words for, a list of "
+            "sentences.")
         .def(
             "to_dict", [](const Scene& s) { return from_json(write_scene_text(without_includes(s, ""), "")); },
             "The scene as the dict of a scene file, without what its includes hold.")
