@@ -211,6 +211,7 @@ answers 2 'did you mean "gather"' aleph study first.json "${study[@]}" --sweep g
 answers 2 'variants of a study have one size' aleph study first.json "${study[@]}" --sweep size=16x12,32x24
 answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 --repeats -1
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
+answers 2 'no file' aleph study first.json "${study[@]}" --sweep spp=1 --pictures other=none.####.exr
 is [ "$(wc -l <swept/study.csv)" = 3 ]
 is grep -q '"share_beyond"' swept/study.json
 is grep -q '"file": "runs/' swept/study.json

@@ -66,7 +66,8 @@ FrameWriter::FrameWriter(const FrameJob& job, const SceneOptions& options, const
 
 void FrameWriter::make_all() {
     RenderSignals signals;
-    Progress progress(request_.frame ? "render" : "maps", static_cast<double>(job_.frames.size()),
+    const char* const title = request_.frame ? "render" : "maps";
+    Progress progress(job_.title != nullptr ? job_.title : title, static_cast<double>(job_.frames.size()),
                       progress_look(options_.quiet));
     std::vector<std::size_t> left(job_.frames.size());
     std::iota(left.begin(), left.end(), 0);

@@ -41,6 +41,7 @@ struct FrameJob {
     /// known
     std::function<VerifiedStatistics(std::optional<double> estimated)> verify = {};
     std::function<void()> keep_light = {};  ///< called before a frame's file is written
+    const char* title = nullptr;            ///< of the progress; null: the picture's or that of maps
 };
 
 /// Share of the pixels of all frames that are estimated to err by more than was asked for, as far as frames tell.

@@ -63,16 +63,19 @@ py::dict list_settings(const Scene& scene) {
     return settings;
 }
 
-py::array_t<double> world_matrix(const Scene& scene, const std::string& name, double frame) {
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].name != name) continue;
-        const ScenePose posed = pose(scene, frame * static_cast<double>(scene.film.frame_rate.denominator) /
-                                                static_cast<double>(scene.film.frame_rate.numerator));
-        double numbers[16];
-        track_parts::put(posed.world[i], numbers);
-        return py::array_t<double>({py::ssize_t{4}, py::ssize_t{4}}, numbers);
-    }
-    throw py::key_error(fmt::format("there is no node '{}'", name));
+/// (nodes, 4, 4)
+py::array_t<double> world_matrices(const Scene& scene, double frame) {
+    const FrameRate& rate = scene.film.frame_rate;
+    const ScenePose posed =
+        pose(scene, frame * static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator));
+    py::array_t<double> out({static_cast<py::ssize_t>(posed.world.size()), py::ssize_t{4}, py::ssize_t{4}});
+    for (std::size_t i = 0; i < posed.world.size(); ++i) track_parts::put(posed.world[i], out.mutable_data() + 16 * i);
+    return out;
+}
+
+py::object world_matrix(const std::shared_ptr<Scene>& scene, const std::string& name, double frame) {
+    const std::size_t index = find_element(Elements<Node>{scene, &Scene::nodes, "node"}, name);
+    return world_matrices(*scene, frame)[py::int_(index)];
 }
 
 template <class E>
@@ -142,6 +145,7 @@ degrees, linear Rec.709.)")
             py::arg("frames"), "Seconds of a frame number or an array of them.")
         .def("world", &world_matrix, py::arg("node"), py::arg("frame"),
              "From the space of a node, by name, to the world at a frame: (4, 4) for column vectors.")
+        .def("worlds", &world_matrices, py::arg("frame"), "The same of all nodes, (nodes, 4, 4).")
         .def(
             "save", [](const Scene& s, const py::object& path) { return save_scene(s, to_path(path)); },
             py::arg("path"),

@@ -30,3 +30,14 @@ golden same "$quick" || { cat "$work/same.log"; exit 1; }
 grep -q 'tests="2" failures="0"' "$work/same/results.xml"
 ! golden other "--size;32x24;--spp;1;--seed;9" || { echo "noise was not seen"; exit 1; }
 grep -q '<failure message="' "$work/other/results.xml"
+
+# The same with pytest.
+python=python3
+"$python" -c "import pytest" 2>/dev/null || python=/usr/bin/python3
+pytest() {
+  ALEPH=$aleph SCENE=$scene GOLDEN=$work/golden SETTINGS=$1 "$python" -m pytest -q -p no:cacheprovider "$here/golden/test_golden.py" \
+    >"$work/pytest.log" 2>&1
+}
+pytest "${quick//;/ }" || { cat "$work/pytest.log"; exit 1; }
+! pytest "--size 32x24 --spp 1 --seed 9" || { echo "noise was not seen by pytest"; exit 1; }
+grep -q "2 failed" "$work/pytest.log"

@@ -31,6 +31,7 @@ def test_tracks_are_read_and_written(ball):
     assert np.array_equal(track.values, [[0, 0, 0], [1, 0, 0]]) and not track.values.flags.writeable
     node.translation = aleph.Track(ball.seconds([0, 4, 8]), [[0, 0, 0], [0, 1, 0], [0, 0, 0]], "step")
     assert np.array_equal(ball.world("ball", 5)[:3, 3], [0, 1, 0])
+    assert np.array_equal(ball.worlds(5), [ball.world(node.name, 5) for node in ball.nodes])
     node.translation = [1, 2, 3]
     assert np.array_equal(node.translation, [1, 2, 3])
 

@@ -1,4 +1,4 @@
-// glTF writer: what the scene says and glTF has no words for.
+// glTF writer: warnings of what the scene says and glTF cannot hold.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,16 +32,16 @@ void warn_of_losses(GltfWriter& writer) {
     const Scene& scene = writer.scene;
     const auto warn = [&](bool is_lost, const char* what) {
         if (is_lost)
-            writer.warnings.push_back(fmt::format("{}: glTF has no words for it, and it is not written", what));
+            writer.warnings.push_back(fmt::format("not written, because glTF cannot hold it: {}", what));
     };
     warn(scene.environment.radiance && !is_black(*scene.environment.radiance), "the environment's light");
     warn(scene.film.exposure.has_value(), "the exposure");
-    warn(!scene.film.cuts.empty(), "which frames are cuts");
+    warn(!scene.film.cuts.empty(), "cuts");
     warn(!scene.film.camera_keys.empty(), "the change of cameras over time");
-    warn(scene.film.camera_keys.empty() && chooses_camera(scene), "which camera looks");
+    warn(scene.film.camera_keys.empty() && chooses_camera(scene), "the choice of the camera");
     warn(std::ranges::any_of(scene.cameras, has_lens), "the lens (aperture, focus, shift) and shutter of cameras");
     warn(scene.film.viewing != ViewingConditions{}, "the display and the viewer's distance");
-    warn(!scene.source.settings.empty(), "what settings the scene is rendered with");
+    warn(!scene.source.settings.empty(), "render settings");
 }
 
 }  // namespace aleph

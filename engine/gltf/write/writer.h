@@ -71,7 +71,7 @@ void write_materials(GltfWriter& writer);
 void write_cameras_and_lights(GltfWriter& writer);
 void write_nodes(GltfWriter& writer);
 void write_skins(GltfWriter& writer);
-/// What the scene says and glTF has no words for.
+/// Adds a warning for each kind of thing that the scene says and glTF cannot hold.
 void warn_of_losses(GltfWriter& writer);
 
 /// The glTF material of a mesh; of one without a material the scene's default, which differs from glTF's.
