@@ -56,6 +56,7 @@ answers 2 "is there already" aleph new begin.json
 answers 2 "ends in .json" aleph new begin.glb
 answers 0 "frames    0 to 47 at 24 a second" aleph explain begin.json
 silent aleph render begin.json "${quick[@]}" --frames 24 -q -o begin.png
+rm begin.*
 
 cat >first.json <<'JSON'
 {"aleph": 1, "fps": 30, "frames": [0, 59],
@@ -179,7 +180,7 @@ answers 2 '/nodes/0/translation: expected 3 numbers or an object with "keys" or 
 # Scenes for other programs.
 answers 2 'must end in .json or .glb' aleph export first.json -o first.obj
 answers 2 '--output' aleph export first.json -o first.json
-silent aleph export first.json -o first.glb
+silent aleph export first.json --bake -o first.glb
 answers 0 'frames    0 to 59 at 30 a second' aleph explain first.glb
 
 # What the scene holds, and which object a pixel shows.

@@ -9,6 +9,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/load/load_scene.h"
+#include "engine/pose/frame_keys.h"
 #include "render/cli/commands.h"
 #include "render/cli/output_conflicts.h"
 #include "render/cli/scene_options.h"
@@ -20,7 +21,7 @@ namespace {
 struct ExportOptions {
     std::string scene, output;
     LoadLimits limits;
-    bool quiet = false;
+    bool bake = false, quiet = false;
 };
 
 void print_warnings(const std::vector<std::string>& warnings) {
@@ -30,10 +31,11 @@ void print_warnings(const std::vector<std::string>& warnings) {
 int export_scene(const ExportOptions& options) {
     require_format(scene_formats(), FormatUse::save, options.output, options.output, "--output");
     const ReadFiles read;
-    const Scene scene = load_scene(options.scene, options.limits);
+    Scene scene = load_scene(options.scene, options.limits);
     refuse_overwriting(read.paths(), {{options.output, "--output"}});
     try_output(options.output);
     if (!options.quiet) print_warnings(scene.source.warnings);
+    if (options.bake) key_frames(scene);
     const std::vector<std::string> losses = save_scene(scene, options.output);
     if (!options.quiet) print_warnings(losses);
     return exit_done;
@@ -54,9 +56,10 @@ constexpr const char* footer =
     "left out. Textures are PNG of 8 bits a channel. Keys are 32-bit floats: see engine/gltf/write/README.md.\n"
     "A .json is aleph's own format; files that the scene includes stay included.\n\n"
     "Examples:\n"
-    "  aleph export scenes/pool/scene.json -o pool.glb   for other programs\n"
-    "  aleph export shot.abc -o shot.glb                 Alembic as glTF\n"
-    "  aleph export model.glb -o model.json              a scene file that includes the model, to add to";
+    "  aleph export scenes/pool/scene.json -o pool.glb          for other programs\n"
+    "  aleph export scenes/pool/scene.json --bake -o pool.glb   for Blender\n"
+    "  aleph export shot.abc -o shot.glb                        Alembic as glTF\n"
+    "  aleph export model.glb -o model.json                     a scene file that includes the model, to add to";
 
 }  // namespace
 
@@ -69,6 +72,9 @@ void add_export_command(CLI::App& app, Command& command) {
     sub->add_option("-o,--output", options->output, "file to write: " + list_endings(scene_formats(), FormatUse::save))
         ->required()
         ->type_name("FILE");
+    sub->add_flag("--bake", options->bake,
+                  "give turns and cubic motion a key at every frame, for programs that interpolate otherwise than glTF "
+                  "says, as Blender does: at frames they then show what aleph shows");
     sub->add_flag("-q,--quiet", options->quiet, "print no warnings");
     add_load_limits(*sub, options->limits);
     sub->footer(footer);

@@ -15,10 +15,10 @@
 #include "render/cli/film_encoder.h"
 #include "render/cli/film_program.h"
 #include "render/cli/frame_locks.h"
-#include "render/settings/frame_pattern.h"
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
 #include "render/cli/watch.h"
+#include "render/settings/frame_pattern.h"
 
 namespace aleph {
 

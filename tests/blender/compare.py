@@ -11,6 +11,7 @@ import numpy as np
 import aleph
 
 TIMES = 50
+np.bool = bool  # the importer of Blender 3.4 names it; newer numpy has it no more
 
 scene_file, exported = sys.argv[sys.argv.index("--") + 1:]
 scene = aleph.load(scene_file)
