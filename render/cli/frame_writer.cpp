@@ -146,6 +146,7 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
     statistics_.note(output.statistics, fingerprint);
     changed_ += write_frame(file, job_, output, request_.maps, options_.importance, fingerprint);
     remove_unfinished(file);
+    if (options_.watch != nullptr && options_.film.empty()) options_.watch->show(file);
     statistics_.add(place, output.statistics, fingerprint);
     if (made_.empty() && !options_.quiet) warn_of_units(output.statistics);
     estimate_.add(output.statistics);

@@ -41,7 +41,8 @@ constexpr const char* preview_footer =
 
 struct PreviewOptions {
     SceneOptions scene;
-    bool motion = false, watch = false;
+    bool motion = false;
+    WatchOptions watch;
 };
 
 /// The same shape, with sides of at most longest_side pixels.
@@ -194,6 +195,7 @@ void preview_once(const PreviewOptions& given) {
     const PreviewFrames frames = options.film.empty() ? make_sheet_alone(prepared, options, given.motion)
                                                       : make_film(prepared, options, given.motion);
     frames.write(files.sheet);
+    if (options.watch != nullptr) options.watch->show(files.sheet);
     if (!options.quiet) std::cerr << fmt::format("aleph: wrote {}\n", printable(files.sheet.string(), 400));
 }
 
@@ -209,7 +211,7 @@ void add_preview_command(CLI::App& app, Command& command) {
                       fmt::format("draw lines of motion: from points of the picture, marked red, to where they are "
                                   "{} frames later at their present speed",
                                   motion_line_frames));
-    add_watch_option(*preview, options->watch);
+    add_watch_options(*preview, options->watch);
     preview->footer(preview_footer);
     preview->callback([options, &command] {
         command = [options] {

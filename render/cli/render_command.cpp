@@ -90,7 +90,8 @@ void render_within(const std::string& budget, const SceneOptions& options, const
 
 struct RenderOptions {
     SceneOptions scene;
-    bool aovs = false, watch = false;
+    bool aovs = false;
+    WatchOptions watch;
     std::string cache;
     std::optional<std::string> budget, verify;
 };
@@ -119,7 +120,7 @@ void add_render_command(CLI::App& app, Command& command) {
     const auto options = std::make_shared<RenderOptions>();
     add_scene_options(*render_app, options->scene);
     render_app->add_flag("--aovs", options->aovs, "also write the channels of `aleph maps` (EXR only)");
-    add_watch_option(*render_app, options->watch);
+    add_watch_options(*render_app, options->watch);
     render_app
         ->add_option_function<std::string>(
             "--checkpoint",

@@ -55,13 +55,21 @@ bool SceneWatch::is_changed() {
     return !changed_.empty();
 }
 
-void add_watch_option(CLI::App& app, bool& watch) {
-    app.add_flag("--watch", watch, "start again whenever the scene file or a file that it uses changes, until Ctrl-C");
+void add_watch_options(CLI::App& app, WatchOptions& options) {
+    app.add_flag("--watch", options.watch,
+                 "start again whenever the scene file or a file that it uses changes, until Ctrl-C");
+    app.add_option(
+           "--viewer", options.viewer,
+           "with --watch: a viewer on this machine that shows every file once it is written, tev or another one "
+           "with its protocol, if it runs")
+        ->type_name("HOST:PORT")
+        ->capture_default_str()
+        ->needs("--watch");
 }
 
-void run_maybe_watched(bool asked, SceneOptions& options, const std::function<void()>& run) {
-    if (!asked) return run();
-    SceneWatch watch(options.scene);
+void run_maybe_watched(const WatchOptions& asked, SceneOptions& options, const std::function<void()>& run) {
+    if (!asked.watch) return run();
+    SceneWatch watch(options.scene, asked.viewer);
     options.watch = &watch;
     const RenderSignals signals;  // from here on, so that none is lost between two renders
     for (;;) {

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "engine/base/files.h"
+#include "render/cli/image_viewer.h"
 #include "render/cli/scene_options.h"
 
 namespace aleph {
@@ -19,8 +20,13 @@ class SceneChanged : public std::exception {};
 /// The files that a scene was loaded from, as they were then.
 class SceneWatch {
   public:
-    /// @param scene  watched also where nothing of it could be read
-    explicit SceneWatch(const std::filesystem::path& scene) : scene_(scene) {}
+    /// @param scene   watched also where nothing of it could be read
+    /// @param viewer  "HOST:PORT" of a viewer that shows what is made
+    /// @throws InputError (--viewer)
+    SceneWatch(const std::filesystem::path& scene, const std::string& viewer) : scene_(scene), viewer_(viewer) {}
+
+    /// Has the viewer show a file.
+    void show(const std::filesystem::path& file) { viewer_.show(file); }
 
     /// Takes the files of the scene that is loaded now in place of those before.
     void note(const ReadFiles& read);
@@ -39,16 +45,22 @@ class SceneWatch {
     std::mutex mutex_;
     std::chrono::steady_clock::time_point next_{};
     std::filesystem::path changed_;
+    ImageViewer viewer_;
 };
 
-/// Adds --watch.
-void add_watch_option(CLI::App& app, bool& watch);
+struct WatchOptions {
+    bool watch = false;
+    std::string viewer = "127.0.0.1:14158";  ///< where tev listens
+};
+
+/// Adds --watch and --viewer.
+void add_watch_options(CLI::App& app, WatchOptions& options);
 
 /// Runs a command once, or with --watch until SIGINT or SIGTERM arrives: at once, and after every change of the scene's
 /// files. A command that throws SceneChanged is run again. Errors of the scene's files are printed, and the next change
 /// is waited for.
 /// @param options  whose `watch` is set meanwhile
 /// @throws Stopped after a signal; InputError of an option; any other error
-void run_maybe_watched(bool watch, SceneOptions& options, const std::function<void()>& run);
+void run_maybe_watched(const WatchOptions& asked, SceneOptions& options, const std::function<void()>& run);
 
 }  // namespace aleph

@@ -1,5 +1,10 @@
 // --watch: renders again when a file of the scene changes, and outlives broken files.
 
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
 #include "engine/image/image_file.h"
 #include "tests/support/started_program.h"
 
@@ -39,6 +44,45 @@ class LogLines {
   private:
     const fs::path file_;
     const int events_;
+};
+
+/// Takes what is sent to a viewer.
+class FakeViewer {
+  public:
+    FakeViewer() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = ::htonl(INADDR_LOOPBACK);
+        auto* const any = reinterpret_cast<sockaddr*>(&address);
+        socklen_t size = sizeof address;
+        EXPECT_EQ(::bind(socket_, any, size), 0);
+        EXPECT_EQ(::listen(socket_, 8), 0);
+        EXPECT_EQ(::getsockname(socket_, any, &size), 0);
+        port_ = ::ntohs(address.sin_port);
+    }
+    ~FakeViewer() { ::close(socket_); }
+    FakeViewer(const FakeViewer&) = delete;
+    FakeViewer& operator=(const FakeViewer&) = delete;
+
+    std::string address() const { return fmt::format("127.0.0.1:{}", port_); }
+
+    /// Waits for a connection. @return all that came through it; empty if the program ended before
+    std::string receive(const StartedProgram& program) const {
+        pollfd ready[2] = {{socket_, POLLIN, 0}, {program.alive(), POLLIN, 0}};
+        ::poll(ready, 2, -1);
+        if ((ready[0].revents & POLLIN) == 0) return "";
+        const int connection = ::accept(socket_, nullptr, nullptr);
+        std::string received;
+        char buffer[4096];
+        for (ssize_t count; (count = ::read(connection, buffer, sizeof buffer)) > 0;)
+            received.append(buffer, static_cast<std::size_t>(count));
+        ::close(connection);
+        return received;
+    }
+
+  private:
+    const int socket_;
+    int port_ = 0;
 };
 
 class Watch : public testing::Test {
@@ -108,6 +152,30 @@ TEST_F(Watch, RendersAgainWhenAFileOfTheSceneChanges) {
     EXPECT_EQ(program.wait().code, 130);
 }
 
+TEST_F(Watch, AViewerShowsTheFileAndReadsItAgain) {
+    put_lamp("lamp.gltf", "[1, 1, 1]");
+    put_paint(Rgb(0.8f));
+    put_scene("lamp.gltf");
+    const FakeViewer viewer;
+    const LogLines log(folder_ / "log");
+    StartedProgram program({"render", folder_ / "scene.json", "--frames", "0", "--size", "16x12", "--spp", "1",
+                            "--gather", "4", "-o", folder_ / "out.png", "--watch", "--viewer", viewer.address()},
+                           folder_ / "log");
+    const std::string path = fs::absolute(folder_ / "out.png").string();
+    const auto packet = [&](char operation, char to_front) {
+        const std::string body = std::string{operation, to_front} + path + '\0';
+        return std::string{static_cast<char>(body.size() + 4), '\0', '\0', '\0'} + body;
+    };
+    ASSERT_LT(path.size(), 100u);
+    EXPECT_EQ(viewer.receive(program), packet(0, 1));
+    ASSERT_TRUE(log.wait(watching, 1, program));
+    put_paint(Rgb(0.1f));
+    EXPECT_EQ(viewer.receive(program), packet(1, 0));
+    ASSERT_TRUE(log.wait(watching, 2, program));
+    program.send(SIGINT);
+    EXPECT_EQ(program.wait().code, 130);
+}
+
 TEST_F(Watch, AChangeEndsTheRenderThatIsUnderWay) {
     write_sliding_box(folder_ / "scene.json");
     fs::create_directory(folder_ / "out");
@@ -134,7 +202,8 @@ TEST_F(Watch, WrongOptionsEndItAtOnce) {
     put_lamp("lamp.gltf", "[1, 1, 1]");
     put_paint(Rgb(0.8f));
     put_scene("lamp.gltf");
-    for (const Words& wrong : {Words{"--frames", "never"}, Words{"-o", folder_ / "x.jpg"}, Words{"--fps", "x"}}) {
+    for (const Words& wrong : {Words{"--frames", "never"}, Words{"-o", folder_ / "x.jpg"}, Words{"--fps", "x"},
+                               Words{"--viewer", "14158"}, Words{"--viewer", "here:14158x"}}) {
         Words words{"render", folder_ / "scene.json", "--watch"};
         words.insert(words.end(), wrong.begin(), wrong.end());
         EXPECT_EQ(StartedProgram(words, folder_ / "log").wait().code, 2) << wrong[0];
