@@ -19,7 +19,7 @@ inline constexpr std::uint64_t max_file_bytes = 0x7fffffff;
 /// @throws InputError
 Bytes read_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place);
 
-/// What changes with a file: device, number, size, and the time of its last change in s and ns. All 0: there is no
+/// The state of a file: device, number, size, and the time of its last change in s and ns. All 0: there is no
 /// file.
 using FileState = std::array<std::int64_t, 5>;
 
@@ -36,7 +36,7 @@ class ReadFiles {
     ReadFiles& operator=(const ReadFiles&) = delete;
 
     const std::vector<std::filesystem::path>& paths() const { return paths_; }
-    /// Of each path, before it was read.
+    /// The state of each path, before it was read.
     const std::vector<FileState>& states() const { return states_; }
     void add(const std::filesystem::path& path);
 

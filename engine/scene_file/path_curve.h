@@ -13,7 +13,7 @@ class PathCurve {
     /// @param closed  the curve goes on from the last point to the first
     PathCurve(const std::vector<glm::dvec3>& points, bool closed);
 
-    /// Of the whole curve, m; 0 where all points coincide.
+    /// Length of the whole curve, m; 0 where all points coincide.
     double length() const { return distances_.empty() ? 0.0 : distances_.back(); }
     /// Points without repetitions.
     std::size_t point_count() const { return points_.size(); }

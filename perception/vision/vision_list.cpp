@@ -19,7 +19,7 @@ std::vector<const VisionModel*>& all_models() {
     return models;
 }
 
-constexpr std::size_t own_models = std::to_array<VisionFunction*>({ALEPH_VISION_MODELS}).size();
+constexpr std::size_t listed_models = std::to_array<VisionFunction*>({ALEPH_VISION_MODELS}).size();
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void add_to_vision_list(const VisionModel& model) {
     const auto found = std::ranges::find(models, model.name(), &VisionModel::name);
     if (found == models.end()) {
         models.push_back(&model);
-    } else if (static_cast<std::size_t>(found - models.begin()) < own_models) {
+    } else if (static_cast<std::size_t>(found - models.begin()) < listed_models) {
         throw InputError("", "vision", model.name() + " is a model of aleph's own");
     } else {
         *found = &model;

@@ -21,8 +21,9 @@ const std::vector<const VisionModel*>& vision_list();
 /// The model of that name; null if the list has none.
 const VisionModel* find_vision(std::string_view name);
 
-/// Adds a model of a program's own (add_vision of render/settings/setting_table.h lets settings name it too), or puts it in the place of one of that name that was added before. It has to last as
-/// long as the program. Not while anything renders.
+/// Adds a model of a program's own, or puts it in the place of one of that name that was added before; add_vision
+/// (render/settings/setting_table.h) lets settings name it too. The model has to last as long as the program. Not to be
+/// called while anything renders.
 /// @throws InputError if one of aleph's own models has its name
 void add_to_vision_list(const VisionModel& model);
 

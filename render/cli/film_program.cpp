@@ -85,7 +85,7 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     return id;
 }
 
-/// What is yet to be sent. A program that has closed its input gets no more.
+/// The bytes that are yet to be sent. A program that has closed its input gets no more.
 class Feed {
   public:
     Feed(FileDescriptor input, const std::function<Bytes()>& next) : input_(std::move(input)), next_(next) {}

@@ -22,8 +22,8 @@ struct ClaimedOutput {
     std::function<std::string(int frame)> fingerprint;  ///< of a frame's file (frame_fingerprint)
     std::string identity;                               ///< what all of them have in common
     bool resume = false;                                ///< finished frames are kept
-    std::function<bool()> is_used =
-        {};  ///< whether what the frames are for is made: they are finished then. May be empty
+    /// Returns whether the film of the frames is made: they are finished then. May be empty.
+    std::function<bool()> is_used = {};
 };
 
 enum class Claim {

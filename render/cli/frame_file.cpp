@@ -40,16 +40,6 @@ std::filesystem::path partial_file(const std::filesystem::path& file) {
     return file.parent_path() / fmt::format("{}.partial{}", file.stem().string(), file.extension().string());
 }
 
-ChannelImage color_image(const Image<Rgb>& color) {
-    ChannelImage image;
-    for (int c = 0; c < 3; ++c) {
-        Image<float> channel(color.width, color.height);
-        for (std::size_t i = 0; i < color.size(); ++i) channel.pixels[i] = color.pixels[i][c];
-        image.channels.push_back({std::string(1, "RGB"[c]), std::move(channel)});
-    }
-    return image;
-}
-
 }  // namespace
 
 std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
@@ -103,7 +93,7 @@ void write_partial(const std::filesystem::path& file, const Image<Rgb>& color) {
             write_hdr(partial, color);
             return;
         case OutputFormat::exr:
-            return write_exr(partial, color_image(color));
+            return write_exr(partial, make_color_image(color));
         case OutputFormat::flow:
             return;
     }

@@ -5,11 +5,10 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <memory>
+#include <string_view>
 
 #include "engine/base/errors.h"
-#include "render/cli/options.h"
 
 namespace aleph {
 

@@ -7,7 +7,7 @@
 
 namespace aleph {
 
-/// A viewer on this machine. Its protocol (tev, src/Ipc.h): over TCP, the length of the packet in bytes, 32 bits little
+/// A viewer on this machine. tev's protocol: over TCP, the length of the packet in bytes, 32 bits little
 /// endian, these four included; a byte for the operation, 0 to open a file and 1 to read it again; a byte, 1 to bring
 /// it to the front; the file's path, ended by 0.
 class ImageViewer {

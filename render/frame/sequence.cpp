@@ -129,6 +129,9 @@ void Sequence::load_light(const std::filesystem::path& path) {
             "a cache file needs lighting keyframes: the integrator cache, an accuracy and a light_step above 0 (beside "
             "error, set light_step too)");
     }
+    if (s.shot.settings.guide.own_adapter != nullptr)
+        throw InputError(path.string(), "",
+                         "light cannot be kept with an adapter of a program's own: no file tells it");
     s.shot_light->use({path, make_cache_fingerprint(s.shot.scene, s.shot.settings, s.shot.shots)});
 }
 

@@ -97,7 +97,8 @@ class Sequence {
     /// several processes share, and takes from it what it has. Frames have the same bytes with and without it. To be
     /// called before the first frame.
     /// @throws InputError naming the file, if it is not a complete cache file of this scene, these settings and this
-    /// program, or if these settings have no lighting keyframes; OutputError if the folder cannot be made
+    /// program, or if these settings have no lighting keyframes or an adapter of a program's own; OutputError if the
+    /// folder cannot be made
     void load_light(const std::filesystem::path& path);
 
     /// Writes the file with the light of all lighting keyframes that were loaded, and of those that were computed

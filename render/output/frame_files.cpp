@@ -158,6 +158,12 @@ Image<float> make_importance(const Image<float>& aleph) {
     return importance;
 }
 
+ChannelImage make_color_image(const Image<Rgb>& color) {
+    ChannelImage file;
+    add_color(file, "", color);
+    return file;
+}
+
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure) {
     ChannelImage file;

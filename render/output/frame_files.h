@@ -29,6 +29,9 @@ struct BudgetStatistics {
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure);
 
+/// The channels R, G and B alone.
+ChannelImage make_color_image(const Image<Rgb>& color);
+
 /// {"frames": [...], "settings": {...}, ...} as text. Times, host and number of threads are only here, so that EXR
 /// files do not depend on them.
 std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,

@@ -24,12 +24,11 @@ void check_size(const py::array& array, py::ssize_t axes, const std::string& wha
     if (!fits) refuse_shape(what, expected, array);
 }
 
-using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
-
-template <class Pixel>
-Image<Pixel> copy_pixels(const Floats& floats) {
-    Image<Pixel> image(static_cast<int>(floats.shape(1)), static_cast<int>(floats.shape(0)));
-    const auto* const data = reinterpret_cast<const Pixel*>(floats.data());
+template <class Number, class Pixel>
+Image<Pixel> copy_pixels(const py::array& array) {
+    const py::array_t<Number, py::array::c_style | py::array::forcecast> numbers(array);
+    Image<Pixel> image(static_cast<int>(numbers.shape(1)), static_cast<int>(numbers.shape(0)));
+    const auto* const data = reinterpret_cast<const Pixel*>(numbers.data());
     image.pixels.assign(data, data + image.size());
     return image;
 }
@@ -52,7 +51,7 @@ Image<Rgb> take_color(const py::object& object, const std::string& what) {
     check_size(array, 3, what, expected);
     const bool bytes = array.dtype().kind() == 'u' && array.itemsize() == 1;
     if (array.shape(2) != 3 || !(bytes || array.dtype().kind() == 'f')) refuse_shape(what, expected, array);
-    Image<Rgb> image = copy_pixels<Rgb>(Floats(array));
+    Image<Rgb> image = copy_pixels<float, Rgb>(array);
     if (!bytes) return image;
     for (Rgb& pixel : image.pixels) {
         for (int c = 0; c < 3; ++c) pixel[c] = srgb_to_linear(pixel[c] / 255.0f);
@@ -63,7 +62,15 @@ Image<Rgb> take_color(const py::object& object, const std::string& what) {
 Image<float> take_numbers(const py::object& object, const std::string& what) {
     const py::array array = to_array(object, what);
     check_size(array, 2, what, "(height, width)");
-    return copy_pixels<float>(Floats(array));
+    return copy_pixels<float, float>(array);
+}
+
+Image<glm::dvec2> take_vectors(const py::object& object, const std::string& what) {
+    constexpr const char* expected = "(height, width, 2)";
+    const py::array array = to_array(object, what);
+    check_size(array, 3, what, expected);
+    if (array.shape(2) != 2) refuse_shape(what, expected, array);
+    return copy_pixels<double, glm::dvec2>(array);
 }
 
 }  // namespace aleph::python

@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,10 @@ Image<Rgb> take_color(const py::object& array, const std::string& what);
 /// Numbers of an array (height, width).
 /// @throws InputError naming `what` for another shape
 Image<float> take_numbers(const py::object& array, const std::string& what);
+
+/// Pairs of numbers of an array (height, width, 2).
+/// @throws InputError naming `what` for another shape
+Image<glm::dvec2> take_vectors(const py::object& array, const std::string& what);
 
 /// An array of one dimension.
 template <class Number>

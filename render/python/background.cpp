@@ -38,8 +38,8 @@ class Workers {
   public:
     void start(std::function<void()> job) {
         const std::lock_guard lock(mutex_);
+        if (jobs_.size() >= idle_) std::thread([this] { work(); }).detach();
         jobs_.push_back(std::move(job));
-        if (jobs_.size() > idle_) std::thread([this] { work(); }).detach();
         wake_.notify_one();
     }
 
@@ -64,7 +64,7 @@ class Workers {
     std::size_t idle_ = 0;
 };
 
-/// Those of this process: a child that was forked has none of its parent's threads.
+/// The threads of this process: a child that was forked has none of its parent's threads.
 Workers& find_workers() {
     static Workers* workers = nullptr;
     static pid_t process = 0;
@@ -100,7 +100,7 @@ class Background {
         return report;
     }
 
-    /// What the work threw; null if it did not.
+    /// The exception that ended the work; null if it did not.
     std::exception_ptr failure() const { return std::exchange(state_->failure, nullptr); }
 
   private:

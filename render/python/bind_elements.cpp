@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "render/python/arrays.h"
+#include "render/python/bindings.h"
 #include "render/python/elements.h"
 
 namespace aleph::python {
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-py::object share_floats(const std::vector<glm::vec3>& values) {
+py::object copy_points(const std::vector<glm::vec3>& values) {
     return py::array_t<float>({static_cast<py::ssize_t>(values.size()), py::ssize_t{3}},
                               reinterpret_cast<const float*>(values.data()));
 }
@@ -133,7 +134,7 @@ void bind_lights_and_cameras(py::module_& module) {
 void bind_nodes_and_meshes(py::module_& module) {
     auto mesh = bind_elements<Mesh>(module, "Mesh", "Meshes", "Triangles of one material.");
     mesh.def_property(
-            "positions", [](const Element<Mesh>& e) { return share_floats(e.get().positions); }, &set_positions,
+            "positions", [](const Element<Mesh>& e) { return copy_points(e.get().positions); }, &set_positions,
             "A copy of the points, (points, 3), metres in the space of its node. Those of a mesh that neither "
             "deforms nor is made from a shape may be assigned.")
         .def_property_readonly(

@@ -8,10 +8,11 @@
 #include "engine/base/errors.h"
 #include "render/compare/compare_sequence.h"
 #include "render/images/image_sequence.h"
+#include "render/output/frame_files.h"
 #include "render/python/arrays.h"
 #include "render/python/background.h"
+#include "render/python/bindings.h"
 #include "render/python/frame_object.h"
-#include "render/python/pictures.h"
 #include "render/python/scene_object.h"
 #include "render/python/settings_object.h"
 
@@ -21,17 +22,13 @@ namespace {
 
 /// Displacements in pixels, y down; NaN: no counterpart.
 MotionField take_motion(const py::object& object, const std::string& what) {
-    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object);
-    if (!array || array.ndim() != 3 || array.shape(2) != 2 || array.size() == 0) {
-        PyErr_Clear();
-        throw InputError("", what, "expected an array (height, width, 2) of pixels, y down");
-    }
-    const auto width = static_cast<int>(array.shape(1)), height = static_cast<int>(array.shape(0));
+    const Image<glm::dvec2> steps = take_vectors(object, what);
+    const int width = steps.width, height = steps.height;
     MotionField motion{Image<glm::dvec2>(width, height), Image<double>(width, height),
                        Image<MotionValidity>(width, height, MotionValidity::valid)};
     const double diagonal = std::hypot(width, height);
     for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
-        const glm::dvec2 step(array.data()[2 * i], array.data()[2 * i + 1]);
+        const glm::dvec2 step = steps.pixels[i];
         const double length = glm::length(step);
         if (!std::isfinite(length) || length > diagonal) {
             motion.validity.pixels[i] = MotionValidity::no_counterpart;
@@ -76,22 +73,12 @@ std::vector<std::shared_ptr<Frame>> make_maps(const py::sequence& images, const 
     return frames;
 }
 
-ChannelImage color_channels(const Image<Rgb>& color) {
-    ChannelImage image;
-    for (int c = 0; c < 3; ++c) {
-        Channel& channel =
-            image.channels.emplace_back(std::string(1, "RGB"[c]), Image<float>(color.width, color.height));
-        for (std::size_t i = 0; i < color.size(); ++i) channel.values.pixels[i] = color.pixels[i][c];
-    }
-    return image;
-}
-
 /// A picture: an array, or a frame.
 ChannelImage take_picture(const py::object& object, const std::string& what) {
-    if (!py::isinstance<Frame>(object)) return color_channels(take_color(object, what));
+    if (!py::isinstance<Frame>(object)) return make_color_image(take_color(object, what));
     const Image<Rgb>& color = object.cast<const Frame&>().output.shaded.color;
     if (color.empty()) throw InputError("", what, "the frame has maps only, and no picture");
-    return color_channels(color);
+    return make_color_image(color);
 }
 
 py::object maybe(const std::optional<double>& value) {

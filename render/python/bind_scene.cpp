@@ -9,7 +9,7 @@
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "engine/scene_file/scene_text.h"
-#include "render/python/arrays.h"
+#include "render/python/bindings.h"
 #include "render/python/elements.h"
 #include "render/python/scene_object.h"
 
@@ -27,8 +27,6 @@ std::string to_json(const py::object& object) {
     return py::module_::import("json").attr("dumps")(object).cast<std::string>();
 }
 
-namespace {
-
 std::shared_ptr<Scene> load(const py::object& source, const py::object& folder) {
     if (py::isinstance<py::dict>(source)) {
         const std::string text = to_json(source);
@@ -41,16 +39,21 @@ std::shared_ptr<Scene> load(const py::object& source, const py::object& folder) 
     return std::make_shared<Scene>(load_scene(path));
 }
 
+namespace {
+
 double frames_per_second(const FrameRate& rate) {
     return static_cast<double>(rate.numerator) / static_cast<double>(rate.denominator);
 }
 
 /// A number, "30000/1001" or a Fraction.
 void set_frame_rate(Scene& scene, const py::object& value) {
-    const py::object fraction =
-        py::module_::import("fractions").attr("Fraction")(value).attr("limit_denominator")(1000000);
-    const FrameRate rate{fraction.attr("numerator").cast<std::int64_t>(),
-                         fraction.attr("denominator").cast<std::int64_t>()};
+    FrameRate rate{0, 1};
+    try {
+        const py::object fraction =
+            py::module_::import("fractions").attr("Fraction")(value).attr("limit_denominator")(1000000);
+        rate = {fraction.attr("numerator").cast<std::int64_t>(), fraction.attr("denominator").cast<std::int64_t>()};
+    } catch (const std::exception&) {  // no number: refused below
+    }
     if (!(rate.numerator > 0 && rate.numerator <= 1000000))
         throw InputError("", "fps", "expected frames per second, such as 30 or '30000/1001'");
     scene.film.frame_rate = rate;
@@ -86,9 +89,6 @@ auto elements(ElementList<E> list, const char* kind) {
 }  // namespace
 
 void bind_scene(py::module_& module) {
-    bind_materials(module);
-    bind_lights_and_cameras(module);
-    bind_nodes_and_meshes(module);
     py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene", R"(An animated scene (aleph.load).
 
 Elements are read and changed in place: scene.nodes["ball"].translation = aleph.Track(scene.seconds([0, 30]),
@@ -149,7 +149,7 @@ degrees, linear Rec.709.)")
         .def(
             "save", [](const Scene& s, const py::object& path) { return save_scene(s, to_path(path)); },
             py::arg("path"),
-            "Writes a scene file (.json) or binary glTF (.glb). Returns what the file has no words for, a list of "
+            "Writes a scene file (.json) or binary glTF (.glb). Returns what the file cannot hold, a list of "
             "sentences.")
         .def(
             "to_dict", [](const Scene& s) { return from_json(write_scene_text(without_includes(s, ""), "")); },

@@ -2,9 +2,12 @@
 
 #include <pybind11/stl.h>
 
+#include <mutex>
+
 #include "engine/pose/pose.h"
 #include "render/frame/sequence.h"
 #include "render/python/background.h"
+#include "render/python/bindings.h"
 #include "render/python/frame_object.h"
 #include "render/python/scene_object.h"
 #include "render/python/settings_object.h"
@@ -17,9 +20,7 @@ class PythonSequence {
   public:
     PythonSequence(const py::object& source, const std::string& camera, int threads, const py::dict& arguments)
         : threads_(threads) {
-        Scene scene = py::isinstance<Scene>(source)
-                          ? source.cast<const Scene&>()
-                          : py::module_::import("aleph._aleph").attr("load")(source).cast<const Scene&>();
+        Scene scene = py::isinstance<Scene>(source) ? source.cast<const Scene&>() : *load(source, py::str("."));
         given_ = read_settings(scene, arguments, true);
         run_in_background(threads_, py::none(), [&](const FrameProgress&) {
             sequence_ = std::make_unique<Sequence>(std::move(scene), given_.settings, camera);
@@ -29,18 +30,24 @@ class PythonSequence {
     std::shared_ptr<Frame> render(std::int64_t number, bool maps, bool picture, const py::object& on_progress) {
         auto frame = std::make_shared<Frame>();
         run_in_background(threads_, on_progress, [&](const FrameProgress& progress) {
+            const std::lock_guard lock(mutex_);
             FrameRequest request;
             request.frame = picture;
             request.maps = maps;
             request.progress = progress;
             frame->output = sequence_->render(number, request);
+            if (!origin_) origin_ = describe_origin(sequence_->scene(), given_.settings, sequence_->exposure());
+            frame->origin = origin_;
         });
-        if (!origin_) origin_ = describe_origin(sequence_->scene(), given_.settings, sequence_->exposure());
-        frame->origin = origin_;
         return frame;
     }
 
     void edit(const py::function& change) {
+        std::unique_lock lock(mutex_, std::defer_lock);
+        {
+            const py::gil_scoped_release release;  // the frame that is made may need it
+            lock.lock();
+        }
         sequence_->edit([&](Scene& scene) {
             const auto edited = std::make_shared<Scene>(std::move(scene));
             try {
@@ -61,6 +68,7 @@ class PythonSequence {
     double exposure() const { return sequence_->exposure(); }
 
   private:
+    std::mutex mutex_;  ///< Python threads may share this: one at a time
     int threads_;
     GivenSettings given_;
     std::unique_ptr<Sequence> sequence_;  ///< after what its settings point to

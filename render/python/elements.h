@@ -113,8 +113,4 @@ void add_field(py::class_<Element<E>>& element, const char* name, const char* do
         [=](const Element<E>& e, const Value& value) { field(e.get()) = value; }, doc);
 }
 
-void bind_materials(py::module_& module);
-void bind_lights_and_cameras(py::module_& module);
-void bind_nodes_and_meshes(py::module_& module);
-
 }  // namespace aleph::python

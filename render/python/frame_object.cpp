@@ -6,6 +6,7 @@
 #include "engine/image/image_file.h"
 #include "render/output/frame_files.h"
 #include "render/python/arrays.h"
+#include "render/python/bindings.h"
 #include "render/python/scene_object.h"
 
 namespace aleph::python {

@@ -13,7 +13,7 @@ namespace aleph::python {
 
 namespace py = pybind11;
 
-/// What the file of a frame says of its scene: film, names and materials of objects.
+/// The parts of a scene that the file of its frame names: film, names and materials of objects.
 struct FrameOrigin {
     Scene scene;  ///< without geometry
     RenderSettings settings;
@@ -30,8 +30,5 @@ struct Frame {
 
 /// The channels of the frame's file with all of its maps.
 ChannelImage frame_channels(const Frame& frame);
-
-void bind_frames(py::module_& module);
-void bind_sequences(py::module_& module);
 
 }  // namespace aleph::python

@@ -17,14 +17,13 @@ using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 /// A function's result, with one value for each pixel; a single value stands for all.
 /// @throws InputError
 Floats to_row(const py::object& result, py::ssize_t count, const char* what) {
-    const auto numpy = py::module_::import("numpy");
     const Floats values = Floats::ensure(result);
     if (!values || (values.ndim() != 0 && values.size() != count)) {
         PyErr_Clear();
         throw InputError("", what, fmt::format("expected {} numbers, one for each that it was given", count));
     }
     if (values.ndim() != 0) return values;
-    return Floats(numpy.attr("full")(count, values, "float32"));
+    return Floats(py::module_::import("numpy").attr("full")(count, values, "float32"));
 }
 
 class PythonVision;

@@ -3,12 +3,8 @@
 #include <pybind11/pybind11.h>
 
 #include "engine/base/errors.h"
-#include "render/python/frame_object.h"
+#include "render/python/bindings.h"
 #include "render/python/hooks.h"
-#include "render/python/pictures.h"
-#include "render/python/scene_object.h"
-#include "render/python/study_object.h"
-#include "render/python/track_values.h"
 #include "render/settings/setting_table.h"
 
 namespace aleph::python {
@@ -52,6 +48,9 @@ PYBIND11_MODULE(_aleph, module) {
     module.attr("__version__") = ALEPH_VERSION;
     bind_errors(module);
     bind_tracks(module);
+    bind_materials(module);
+    bind_lights_and_cameras(module);
+    bind_nodes_and_meshes(module);
     bind_scene(module);
     bind_frames(module);
     bind_sequences(module);

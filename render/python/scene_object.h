@@ -21,6 +21,8 @@ py::object from_json(const std::string& text);
 /// json.dumps of the object.
 std::string to_json(const py::object& object);
 
-void bind_scene(py::module_& module);
+/// aleph.load
+/// @param folder  of the files that a dict names
+std::shared_ptr<Scene> load(const py::object& source, const py::object& folder);
 
 }  // namespace aleph::python

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "render/python/bindings.h"
+
 namespace aleph::python {
 
 namespace {

@@ -22,8 +22,6 @@ struct KeyedTrack {
     py::array_t<double> values;
 };
 
-void bind_tracks(py::module_& module);
-
 namespace track_parts {
 
 /// Axes of a value.

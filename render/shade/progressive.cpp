@@ -26,7 +26,7 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
     return ranges;
 }
 
-/// Whether the plan's rule lets each pixel of a stage go on.
+/// Asks the plan's rule which pixels of a stage go on: 1 for each that does.
 std::vector<std::uint8_t> ask_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
                                    const std::vector<PixelRange>& stage) {
     std::vector<std::uint8_t> goes_on(stage.size());
@@ -44,7 +44,7 @@ std::vector<std::uint8_t> ask_rule(const SamplingPlan& plan, const Image<PixelSa
     return goes_on;
 }
 
-/// Whether a rule of a program's own lets each pixel of a stage go on.
+/// The same of a rule of a program's own.
 std::vector<std::uint8_t> ask_own_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
                                        const std::vector<PixelRange>& stage) {
     StagePixels asked;

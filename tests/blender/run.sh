@@ -12,7 +12,8 @@ failures=0
 for scene in "$root"/scenes/*/scene.json "$root"/scenes/hard/*.json "$root"/scenes/effects/*.json; do
   [ "$(basename "$scene")" != ten_hours.json ] || continue  # float seconds of glTF do not tell its frames apart
   printf '%-40s ' "${scene#"$root"/scenes/}"
-  "$build/aleph" export "$scene" --bake -q -o "$work/scene.glb" 2>"$work/log" || { tail -1 "$work/log"; continue; }
+  "$build/aleph" export "$scene" --bake -q -o "$work/scene.glb" 2>"$work/log" ||
+    { tail -1 "$work/log"; failures=$((failures + 1)); continue; }
   PYTHONPATH=$build/python blender -b --factory-startup --python-use-system-env --python-exit-code 1 \
     --python "$here/compare.py" -- "$scene" "$work/scene.glb" >"$work/log" 2>&1 || failures=$((failures + 1))
   grep '^compared' "$work/log" || tail -3 "$work/log"

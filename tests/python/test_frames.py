@@ -126,6 +126,22 @@ def test_several_python_threads_render_at_once(ball):
     assert len(results) == 4 and all(np.array_equal(color, expected) for color in results)
 
 
+def test_python_threads_share_a_sequence(ball):
+    sequence = aleph.Sequence(ball, **QUICK)
+    expected = [sequence.render(number).color for number in range(6)]
+    results = {}
+
+    def render(number):
+        results[number] = sequence.render(number, on_progress=lambda share, stage: None).color
+
+    threads = [threading.Thread(target=render, args=(number,)) for number in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(results[number], expected[number]) for number in range(6))
+
+
 def test_memory_does_not_grow(ball):
     def render(times):
         for _ in range(times):

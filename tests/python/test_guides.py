@@ -135,6 +135,16 @@ def test_study_gives_columns(cornell, tmp_path):
     assert [again[name] for name in kept] == [table[name] for name in kept]
 
 
+def test_a_study_takes_no_arguments_of_a_scene(cornell):
+    study = {"scenes": [{"scene": str(cornell), "frames": "1"}], "size": "8x6", "sweep": {"spp": [1]},
+             "reference": {"passes": 2, "spp": 1}}
+    assert aleph.study(study)["variant"] == ["spp=1"]
+    with pytest.raises(TypeError):
+        aleph.study(study, frames=[2])
+    with pytest.raises(TypeError):
+        aleph.study(cornell, frames=[2])
+
+
 def test_study_of_an_added_vision(cornell):
     aleph.add_vision("blind", lambda *stimulus: 250)
     table = aleph.study(

@@ -14,7 +14,7 @@ struct TransformParts {
     glm::dquat inner{1.0, 0.0, 0.0, 0.0};
 };
 
-/// Of the ways to decompose a matrix the one that continues `before`, so that keys of a motion can be interpolated.
+/// Decomposes a matrix, of the possible ways in the one that continues `before`, so that keys of a motion can be interpolated.
 /// Columns at right angles within 1e-7 count as such: the matrix is then off by so much of its size.
 /// @param matrix  affine
 /// @param before  the parts of the key before; of the first key: TransformParts{}

@@ -58,22 +58,21 @@ def study(scene, frames="", sweep=None, *, variants=None, pictures=None, size=(3
     folder: keeps the pictures and finished runs; None: they are thrown away.
     Returns a Table with one row for each variant and frame.
     """
-    if isinstance(scene, dict):
-        asked = scene
-    elif sweep is None and variants is None and pictures is None:
-        asked = _os.fspath(scene)
+    one = isinstance(scene, dict) or not (sweep or variants or pictures)
+    if one and (frames or settings or reference or metrics or viewers or seeds != 1):
+        raise TypeError("a study says these itself; beside a scene file give sweep, variants or pictures")
+    if one:
+        asked = scene if isinstance(scene, dict) else _os.fspath(scene)
     else:
-        one = {"scene": _os.path.abspath(_os.fspath(scene))}
+        asked = {"scenes": [{"scene": _os.path.abspath(_os.fspath(scene))}],
+                 "size": size if isinstance(size, str) else "{}x{}".format(*size), "seeds": list(range(seeds))}
         if frames:
-            one["frames"] = frames if isinstance(frames, str) else ",".join(str(int(f)) for f in frames)
-        asked = {"scenes": [one], "size": size if isinstance(size, str) else "{}x{}".format(*size)}
-        given = {
-            "sweep": sweep, "settings": settings, "reference": reference, "metrics": metrics, "viewers": viewers,
-            "variants": [
-                *({"name": name, "settings": chosen} for name, chosen in (variants or {}).items()),
-                *({"name": name, "pictures": _os.path.abspath(files)} for name, files in (pictures or {}).items())],
-            "seeds": list(range(seeds))}
-        asked.update({key: value for key, value in given.items() if value is not None})
+            asked["scenes"][0]["frames"] = frames if isinstance(frames, str) else ",".join(str(int(f)) for f in frames)
+        asked["variants"] = [
+            *({"name": name, "settings": chosen} for name, chosen in (variants or {}).items()),
+            *({"name": name, "pictures": _os.path.abspath(files)} for name, files in (pictures or {}).items())]
+        given = {"sweep": sweep, "settings": settings, "reference": reference, "metrics": metrics, "viewers": viewers}
+        asked.update({key: value for key, value in given.items() if value})
     with _tempfile.TemporaryDirectory() as temporary:
         text, results = _run_study(asked, folder or temporary, threads=threads, on_progress=on_progress)
     rows = list(_csv.reader(_io.StringIO(text)))
