@@ -10,6 +10,7 @@
 #include "engine/base/pyramid.h"
 #include "perception/visible_bands.h"
 #include "perception/vision/castle.h"
+#include "perception/vision/castle_constants.h"
 #include "perception/vision/display_hold.h"
 #include "perception/vision/luminance_curve.h"
 
@@ -82,19 +83,66 @@ std::size_t band_of(double frequency, const std::vector<BandShape>& shapes) {
     return band;
 }
 
+/// The parts of the channels' responses to a frequency over time that are the same for every luminance.
+struct TemporalResponse {
+    double sustained = 0.0;  ///< castle_sustained_response
+    double power = 0.0;      ///< of the frequency, as castle_transient_response has it
+
+    TemporalResponse() = default;
+    explicit TemporalResponse(double omega)
+        : sustained(castle_sustained_response(omega)), power(std::pow(omega, castle_transient_power)) {}
+};
+
 /// Sensitivities to a frequency at a luminance.
 struct Sensitivities {
-    double rho = 0.0, sustained = 0.0, transient = 0.0, luminance = 0.0;  ///< rho: cycles per degree
+    double sustained = 0.0, transient = 0.0, peak_power = 0.0;
 
-    Sensitivities(double frequency, double adapted) : rho(frequency), luminance(adapted) {
+    /// @param rho  cycles per degree
+    Sensitivities(double rho, double luminance)
+        : peak_power(std::pow(castle_transient_peak(luminance), castle_transient_power)) {
         const double radius = 1.5 / rho, area = std::numbers::pi * radius * radius;
         sustained = castle_sustained(rho, luminance, area);
         transient = castle_transient(rho, luminance, area);
     }
-    /// To what changes at omega Hz on the retina.
-    double at(double omega) const {
-        return castle_sustained_response(omega) * sustained + castle_transient_response(omega, luminance) * transient;
+    /// To what changes so on the retina.
+    double at(const TemporalResponse& response) const {
+        const double away = response.power - peak_power;
+        return response.sustained * sustained + std::exp(-away * away / castle_transient_scale) * transient;
     }
+};
+
+/// The responses to a frequency over space at each velocity on the retina, which shifts the frequencies of the noise up
+/// and down.
+class ShiftedResponses {
+  public:
+    ShiftedResponses(double rho, const FrameRate& frame_rate, NoiseOverTime over_time)
+        : times_(over_time == NoiseOverTime::fresh ? time_nodes : 1) {
+        for (int r = 0; r < velocity_nodes; ++r) {
+            const double shift = rho * node_velocity(r);
+            for (int t = 0; t < times_; ++t) {
+                const double omega = times_ == 1 ? 0.0 : 0.5 * frame_rate.per_second() * (t + 0.5) / times_;
+                for (const double shifted : {omega + shift, std::abs(omega - shift)})
+                    responses_[r].emplace_back(shifted);
+            }
+        }
+    }
+    /// Mean square over time.
+    double square(int velocity, const Sensitivities& sensitivities) const {
+        double sum = 0.0;
+        for (const TemporalResponse& response : responses_[velocity])
+            sum += 0.5 * std::pow(sensitivities.at(response), 2.0) / times_;
+        return sum;
+    }
+
+  private:
+    int times_;
+    std::array<std::vector<TemporalResponse>, velocity_nodes> responses_;
+};
+
+/// What a display that holds its frames leaves of each annulus and band, for each velocity of what is tracked.
+struct HeldShares {
+    std::array<double, frequency_nodes> squares{};
+    std::array<double, noise_bands> bands{};
 };
 
 /// Contrasts of the picture's finest bands at each pixel, amplitudes over the luminance that the eye is adapted to.
@@ -117,39 +165,40 @@ NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRa
     : sensitivity_(static_cast<std::size_t>(luminance_nodes * velocity_nodes * velocity_nodes)) {
     const std::array<Annulus, frequency_nodes> space = annuli();
     const std::vector<BandShape> shapes = visible_bands(256, 256);  // the finest are those of any size
-    const int times = over_time == NoiseOverTime::fresh ? time_nodes : 1;
+    std::array<double, frequency_nodes> rho{};                      // cycles per degree
+    std::vector<ShiftedResponses> noise;
+    for (int i = 0; i < frequency_nodes; ++i) {
+        rho[i] = space[i].frequency * viewing.pixels_per_degree;
+        noise.emplace_back(rho[i], frame_rate, over_time);
+    }
+    std::array<double, noise_bands> pattern_rho{};
+    for (std::size_t b = 0; b < noise_bands; ++b) pattern_rho[b] = shapes[b].frequency * viewing.pixels_per_degree;
+    std::array<HeldShares, velocity_nodes> held{};
+    for (int f = 0; f < velocity_nodes; ++f) {
+        const auto at = [&](double of) { return hold_transfer(of, node_velocity(f), viewing.persistence, frame_rate); };
+        for (int i = 0; i < frequency_nodes; ++i) held[f].squares[i] = std::pow(at(rho[i]), 2.0);
+        for (std::size_t b = 0; b < noise_bands; ++b) held[f].bands[b] = at(pattern_rho[b]);
+    }
     parallel_for(luminance_nodes, 1, [&](std::size_t l, std::size_t) {
         const double luminance = node_luminance(static_cast<int>(l));
+        std::vector<Sensitivities> of_noise, of_bands;
+        for (const double frequency : rho) of_noise.emplace_back(frequency, luminance);
+        for (const double frequency : pattern_rho) of_bands.emplace_back(frequency, luminance);
         for (int r = 0; r < velocity_nodes; ++r) {
-            std::array<double, frequency_nodes> squares{}, rho{};  // sensitivity over time; cycles per degree
-            for (int i = 0; i < frequency_nodes; ++i) {
-                rho[i] = space[i].frequency * viewing.pixels_per_degree;
-                const Sensitivities sensitivities(rho[i], luminance);
-                const double shift = rho[i] * node_velocity(r);
-                for (int t = 0; t < times; ++t) {
-                    const double omega = times == 1 ? 0.0 : 0.5 * frame_rate.per_second() * (t + 0.5) / times;
-                    for (const double shifted : {omega + shift, std::abs(omega - shift)})
-                        squares[i] += 0.5 * std::pow(sensitivities.at(shifted), 2.0) / times;
-                }
-            }
-            std::array<double, noise_bands> pattern{}, pattern_rho{};
-            for (std::size_t b = 0; b < noise_bands; ++b) {
-                pattern_rho[b] = shapes[b].frequency * viewing.pixels_per_degree;
-                pattern[b] = Sensitivities(pattern_rho[b], luminance).at(pattern_rho[b] * node_velocity(r));
-            }
+            std::array<double, frequency_nodes> squares{};  // sensitivity over time
+            for (int i = 0; i < frequency_nodes; ++i) squares[i] = noise[i].square(r, of_noise[i]);
+            std::array<double, noise_bands> pattern{};
+            for (std::size_t b = 0; b < noise_bands; ++b)
+                pattern[b] = of_bands[b].at(TemporalResponse(pattern_rho[b] * node_velocity(r)));
             for (int f = 0; f < velocity_nodes; ++f) {
-                const auto held = [&](double at) {
-                    return hold_transfer(at, node_velocity(f), viewing.persistence, frame_rate);
-                };
                 std::array<double, noise_bands> energy{};
                 for (int i = 0; i < frequency_nodes; ++i)
-                    energy[band_of(space[i].frequency, shapes)] +=
-                        space[i].energy * squares[i] * std::pow(held(rho[i]), 2.0);
+                    energy[band_of(space[i].frequency, shapes)] += space[i].energy * squares[i] * held[f].squares[i];
                 const std::size_t at = (l * velocity_nodes + static_cast<std::size_t>(r)) * velocity_nodes;
                 Bands& bands = sensitivity_[at + static_cast<std::size_t>(f)];
                 for (std::size_t b = 0; b < noise_bands; ++b)
                     bands[b] = {static_cast<float>(std::sqrt(2.0 * energy[b])),
-                                static_cast<float>(pattern[b] * held(pattern_rho[b]))};
+                                static_cast<float>(pattern[b] * held[f].bands[b])};
             }
         }
     });

@@ -13,6 +13,7 @@
 #include "engine/base/errors.h"
 #include "render/cli/frame_file.h"
 #include "render/cli/output_path.h"
+#include "render/cli/progress.h"
 #include "render/cli/watch.h"
 #include "render/guide/error_report.h"
 
@@ -45,12 +46,12 @@ void print_error(const FrameStatistics& frame) {
     std::string causes;
     for (std::size_t i = 0; i < cause_count; ++i) {
         if (shares.by_cause[i] < 1e-5) continue;
-        causes += fmt::format("{}{} {:.2g} %", causes.empty() ? "; alone: " : ", ", cause_names()[i],
-                              100.0 * shares.by_cause[i]);
+        causes += fmt::format("{}{} {} %", causes.empty() ? "; alone: " : ", ", cause_names()[i],
+                              format_percent(shares.by_cause[i]));
     }
-    std::cerr << fmt::format(
-        "aleph: frame {}: about {:.2g} % of the pixels err by more than {:g} visible threshold{}{}\n", frame.frame,
-        100.0 * shares.beyond, shares.asked, shares.asked == 1.0 ? "" : "s", causes);
+    std::cerr << fmt::format("aleph: frame {}: about {} % of the pixels err by more than {:g} visible threshold{}{}\n",
+                             frame.frame, format_percent(shares.beyond), shares.asked, shares.asked == 1.0 ? "" : "s",
+                             causes);
 }
 
 }  // namespace

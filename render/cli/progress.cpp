@@ -44,6 +44,10 @@ void write(const std::string& text, std::FILE* out) {
 
 }  // namespace
 
+std::string format_percent(double share) {
+    return share < 0.0995 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
+}
+
 std::string format_duration(double seconds) {
     if (!(seconds >= 0.0)) return "?";
     if (seconds < 59.95) return fmt::format("{:.1f}s", seconds);

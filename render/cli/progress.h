@@ -27,6 +27,9 @@ ProgressLook progress_look(bool quiet);
 /// "3.2s", "1m05s", "2h03m".
 std::string format_duration(double seconds);
 
+/// A share as a percentage of two digits: "0.59", "12", "100".
+std::string format_percent(double share);
+
 /// Shows progress until it is destroyed. Can be called from any thread.
 class Progress {
   public:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/errors.h"
+#include "render/cli/progress.h"
 #include "render/settings/measure.h"
 #include "render/verify/probe.h"
 
@@ -12,10 +13,6 @@ namespace {
 
 constexpr std::size_t kept_pictures = std::size_t{1} << 30;  // bytes
 constexpr std::size_t least_probes = 4;
-
-std::string percent(double share) {
-    return share < 0.095 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
-}
 
 std::string number(std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -67,16 +64,16 @@ std::string describe_verified(const VerifiedStatistics& verified) {
                                    ? "are seen to differ"
                                    : fmt::format("differ by more than {:g} visible differences", verified.error);
     std::string text = fmt::format("aleph: verified: {} % of the pixels {} (95 %: {} to {} %, {} in {})",
-                                   percent(verified.beyond.share), differ, percent(verified.beyond.low),
-                                   percent(verified.beyond.high), number(verified.blocks, "block"),
+                                   format_percent(verified.beyond.share), differ, format_percent(verified.beyond.low),
+                                   format_percent(verified.beyond.high), number(verified.blocks, "block"),
                                    number(verified.frames, "frame"));
-    if (verified.estimated) text += fmt::format(", estimated: {} %", percent(*verified.estimated));
+    if (verified.estimated) text += fmt::format(", estimated: {} %", format_percent(*verified.estimated));
     text += "\naleph: verified: ";
     if (verified.error != 1.0)
-        text += fmt::format("{} % are seen to differ (95 %: {} to {} %), ", percent(verified.seen.share),
-                            percent(verified.seen.low), percent(verified.seen.high));
-    text += fmt::format("{} % flicker, {} % last; by paths of 16 bounces or more, over {}\n", percent(verified.flicker.share),
-                        percent(verified.lasting.share), number(verified.window, "frame"));
+        text += fmt::format("{} % are seen to differ (95 %: {} to {} %), ", format_percent(verified.seen.share),
+                            format_percent(verified.seen.low), format_percent(verified.seen.high));
+    text += fmt::format("{} % flicker, {} % last; by paths of 16 bounces or more, over {}\n", format_percent(verified.flicker.share),
+                        format_percent(verified.lasting.share), number(verified.window, "frame"));
     if (verified.unsettled > 0) {
         text += fmt::format("aleph: verified: in {} noise of the paths was left, so that their shares are less certain\n",
                             number(verified.unsettled, "block"));

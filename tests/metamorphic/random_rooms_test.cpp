@@ -116,7 +116,7 @@ TEST_P(RandomRooms, ErrorSinksWithTheAccuracy) {
     }));
 }
 
-INSTANTIATE_TEST_SUITE_P(Bounces, RandomRooms, testing::Values(Case{1, 20}, Case{2, 10}, Case{3, 6}));
+INSTANTIATE_TEST_SUITE_P(Bounces, RandomRooms, testing::Values(Case{1, 20}, Case{2, 10}, Case{3, 10}));
 
 }  // namespace
 }  // namespace aleph

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 class Budgets : public RenderCommand {
   protected:
     /// @return the exit code
-    int run(const std::vector<std::string>& more) { return RenderCommand::run({"--size", "24x18", "-t", "1"}, more); }
+    int run(const std::vector<std::string>& more) { return RenderCommand::run({"--size", "8x6", "-t", "1"}, more); }
 };
 
 TEST_F(Budgets, WrongOnesAreRefused) {

@@ -16,7 +16,7 @@ class VerifyCommand : public RenderCommand {
   protected:
     /// @return the exit code
     int run(const std::vector<std::string>& more) {
-        return RenderCommand::run({"--size", "16x12", "--fps", "8", "--frames", "20", "-o", file("a.exr")}, more);
+        return RenderCommand::run({"--size", "8x6", "--fps", "8", "--frames", "20", "-o", file("a.exr")}, more);
     }
 };
 
@@ -32,11 +32,11 @@ TEST_F(VerifyCommand, WrongOnesAreRefused) {
 }
 
 TEST_F(VerifyCommand, PrintsAndKeepsWhatItFound) {
-    ASSERT_EQ(run({"--error", "2", "--verify", "0.01", "--stats", file("a.json")}), exit_done) << errors;
+    ASSERT_EQ(run({"--error", "8", "--verify", "0.01", "--stats", file("a.json")}), exit_done) << errors;
     EXPECT_NE(out.find("aleph: verified: "), std::string::npos) << out;
     EXPECT_NE(out.find("4 blocks in 1 frame"), std::string::npos) << out;
     const auto verified = nlohmann::json::parse(read_bytes(file("a.json"))).at("verified");
-    EXPECT_EQ(verified.at("error"), 2.0);
+    EXPECT_EQ(verified.at("error"), 8.0);
     EXPECT_EQ(verified.at("blocks"), 4);
     EXPECT_EQ(verified.at("window"), 3);
     EXPECT_LE(verified.at("beyond").at("share"), verified.at("seen").at("share"));
