@@ -20,9 +20,9 @@ case $kind in
     filter='-HostileSceneFile.*:DamagedSceneFile.*:SceneJsonWrite.KF24*:SceneJsonWrite.ManyNames*:SceneJsonWrite.DT09*'
     filter+=':SceneJsonWrite.LoadOfSaveIsTheSameScene:Gltf.S13_5_KF24*:ImageMotion.EqualsTheSlowReadingOfTheModel'
     # Pyramids, cache, sampling and materials. Left out: what checks statistics, memory or a growth of work in millions.
-    rows=(test_perception test_render test_materials test_paths test_lighting_keyframes)
+    rows=(test_perception test_records test_materials test_paths test_lighting_keyframes)
     row_filter='SmallPictures.*:TextureControl.Nothing*:TextureControl.Corrected*:*.DT07*:*.PY*:*.IC*:*.MC*'
-    row_filter+='-FlatPicture.*:StoppingRule.*:*.IC11_TheIndexFinds*:*.IC15*'
+    row_filter+='-FlatPicture.*:Optimization.*:*.IC11_TheIndexFinds*:*.IC15*'
     row_filter+=':PathValues.MC13*:Accumulation.*:FurnaceScenes.*:Path.MC14*:Path.MC19*:PathLights.MC23*'
     # Pictures that are compared by what they show, and two processes with one cache file.
     row_filter+=':*.IC14_*Between*:*.IC14_LightOf*:*.IC22_TwoProcesses*:*.IC23_*:MotionBlur.MC27_IndirectLight*'

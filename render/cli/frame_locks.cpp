@@ -33,7 +33,7 @@ int set_lock(int fd, off_t byte, short kind, bool wait = false) {
     return 0;
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file, const char* what, int error) {
+[[noreturn]] void fail_lock(const std::filesystem::path& file, const char* what, int error) {
     throw OutputError(printable(file.string(), 4096),
                       fmt::format("{}: {}", what, std::generic_category().message(error)));
 }
@@ -54,7 +54,7 @@ bool write_all(int fd, const std::string& text) {
 bool FrameLocks::open() {
     for (;;) {
         lock_ = FileDescriptor(::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-        if (lock_.get() < 0) fail(file_, "cannot create a file in this folder", errno);
+        if (lock_.get() < 0) fail_lock(file_, "cannot create a file in this folder", errno);
         if (set_lock(lock_.get(), gate_byte, F_WRLCK, true) != 0) return false;
         // Another process may have removed the file before the lock was given.
         struct stat opened {
@@ -76,7 +76,7 @@ FrameLocks::FrameLocks(std::filesystem::path file, const std::string& identity) 
         if (!write_all(lock_.get(), identity)) {
             const int error = errno;
             ::unlink(file_.c_str());
-            fail(file_, "cannot write", error);
+            fail_lock(file_, "cannot write", error);
         }
     } else if (read_all(lock_.get()) != identity) {
         const std::string folder = file_.has_parent_path() ? file_.parent_path().string() : ".";
