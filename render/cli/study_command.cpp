@@ -17,6 +17,7 @@
 #include "render/cli/study_output.h"
 #include "render/settings/frame_pattern.h"
 #include "render/settings/setting_table.h"
+#include "render/study/effects_ledger.h"
 #include "render/study/pages/error_sheet.h"
 #include "render/study/prepared_study.h"
 #include "render/study/search_study.h"
@@ -30,7 +31,7 @@ struct StudyCommandOptions {
     std::string file, frames, size, output, part;
     std::vector<std::string> sweeps, sets, viewers, judges, pictures;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0, candidates = 0;
-    bool search = false, quiet = false, markdown = false;
+    bool effects = false, search = false, quiet = false, markdown = false;
     StudyExtras extras;
 };
 
@@ -104,15 +105,16 @@ Study make_study(const StudyCommandOptions& options) {
         study.sweep.push_back(std::move(axis));
     }
     for (const std::string& text : options.pictures) study.variants.push_back(parse_pictures(text));
+    study.effects = study.effects || options.effects;
     if (options.search && !study.search) study.search = default_search();
     if (options.candidates > 0) {
         if (!study.search) throw InputError("", "--candidates", "nothing is searched: add --search");
         study.search->candidates = options.candidates;
     }
-    if (study.sweep.empty() && study.variants.empty() && !study.search) {
+    if (study.sweep.empty() && study.variants.empty() && !study.search && !study.effects) {
         throw InputError(options.file, "--sweep",
                          "nothing to compare: name the settings, such as --sweep error=.5,1,2,4 --sweep "
-                         "guide=none,saliency");
+                         "guide=none,saliency, or --effects");
     }
     return study;
 }
@@ -195,13 +197,14 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
         print_search(prepared, results, options.markdown, std::cout);
     else
         print_study(prepared, results, options.markdown, std::cout);
+    if (prepared.study.effects) print_ledger(make_ledger(prepared, results), options.markdown, std::cout);
     const StudyContext context{command_line, study_date(), thread_count(), folder};
     write_study(prepared, results, context, options.extras, options.quiet);
     return exit_done;
 }
 
 void add_options(CLI::App& study, StudyCommandOptions& options) {
-    study.add_option("study", options.file, "study file (.json), or a scene with --sweep or --search")
+    study.add_option("study", options.file, "study file (.json), or a scene with --sweep, --effects or --search")
         ->required()
         ->type_name("FILE|SCENE");
     study
@@ -209,6 +212,9 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
                     "a setting and its values; every combination of several sweeps is a variant")
         ->type_name("KEY=A,B,...")
         ->allow_extra_args(false);
+    study.add_flag("--effects", options.effects,
+                   "also render without each effect that the scene calls for, in turn, and tell what each costs and in "
+                   "how many pixels a viewer would miss it; errors.jpg shows where");
     study.add_flag("--search", options.search,
                    "also search, for each scene, the fixed settings that cost least for what a viewer sees, and tell "
                    "what they take to show as little as each variant");
@@ -288,6 +294,7 @@ void add_study_command(CLI::App& app, Command& command) {
         "  aleph study scenes/pool/scene.json --frames 20 --sweep error=.5,1,2,4 --sweep guide=none,saliency\n"
         "  aleph study scenes/cornell/scene.json --sweep accuracy=.05,.15,.5 --repeats 3\n"
         "  aleph study scenes/pool/scene.json --frames 20-29 --sweep error=1,2 --seeds 2\n"
+        "  aleph study scenes/pool/scene.json --frames 20 --set error=1 --effects\n"
         "  aleph study scenes/pool/scene.json --frames 18-23 --sweep error=.5,1,2 --search\n"
         "  aleph study scenes/studies/pool.json -o out/pool");
     study->callback([options, &command] { command = [options] { return run(*options, study_command_line()); }; });

@@ -38,12 +38,15 @@ std::string head_of(const Metric& metric) {
     return head;
 }
 
+std::string cell(const MeasuredValue& value) {
+    std::string text = fmt::format("{:.3g}", value.value);
+    if (value.error) text += fmt::format(" +- {:.1g}", *value.error);
+    return text;
+}
+
 std::string cell(const VariantResult& variant, const Metric& metric) {
     const auto found = variant.metrics.find(metric.name);
-    if (found == variant.metrics.end()) return "-";
-    std::string text = fmt::format("{:.3g}", found->second.value);
-    if (found->second.error) text += fmt::format(" +- {:.1g}", *found->second.error);
-    return text;
+    return found == variant.metrics.end() ? "-" : cell(found->second);
 }
 
 using Row = std::vector<std::string>;
@@ -57,6 +60,21 @@ void print_row(const Row& row, const std::vector<std::size_t>& widths, bool mark
         if (markdown) text += " |";
     }
     out << text << "\n";
+}
+
+void print_rows(const std::vector<Row>& rows, bool markdown, std::ostream& out) {
+    std::vector<std::size_t> widths(rows.front().size(), 0);
+    for (const Row& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        print_row(rows[i], widths, markdown, out);
+        if (i > 0 || !markdown) continue;
+        Row rule;
+        for (std::size_t c = 0; c < widths.size(); ++c)
+            rule.push_back(std::string(widths[c] - 1, '-') + (c == 0 ? "-" : ":"));
+        print_row(rule, widths, true, out);
+    }
 }
 
 }  // namespace
@@ -98,18 +116,7 @@ void print_table(const PreparedStudy& prepared, const std::vector<VariantResult>
             if (is_shown(metric, prepared.study)) row.push_back(cell(variant, metric));
         }
     }
-    std::vector<std::size_t> widths(rows.front().size(), 0);
-    for (const Row& row : rows) {
-        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    }
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        print_row(rows[i], widths, markdown, out);
-        if (i > 0 || !markdown) continue;
-        Row rule;
-        for (std::size_t c = 0; c < widths.size(); ++c)
-            rule.push_back(std::string(widths[c] - 1, '-') + (c == 0 ? "-" : ":"));
-        print_row(rule, widths, true, out);
-    }
+    print_rows(rows, markdown, out);
 }
 
 void print_head(const PreparedStudy& prepared, const StudyResults& results, std::ostream& out) {
@@ -122,6 +129,22 @@ void print_study(const PreparedStudy& prepared, const StudyResults& results, boo
     fmt::print(out, "Means over {} frame{}; * no other variant is faster and better.\n\n", results.frames.size(),
                results.frames.size() == 1 ? "" : "s");
     print_table(prepared, results.variants, markdown, out);
+}
+
+void print_ledger(const std::vector<SceneLedger>& ledgers, bool markdown, std::ostream& out) {
+    for (const SceneLedger& ledger : ledgers) {
+        fmt::print(out, "\n{}: {} seconds a frame with all effects, {} % seen to err. Without each:\n\n",
+                   printable(ledger.scene), cell(ledger.seconds), cell(ledger.seen));
+        std::vector<Row> rows{{"effect", "plan", "seconds saved", "seen %", "left out at most"}};
+        for (const LedgerEntry& entry : ledger.entries) {
+            rows.push_back({entry.effect, entry.decision, entry.seconds ? cell(*entry.seconds) : "-",
+                            entry.seen ? cell(*entry.seen) : "-",
+                            std::isfinite(entry.bound)
+                                ? entry.bound == 0.0 ? "0" : fmt::format("{:.2g} thresholds", entry.bound)
+                                : "not known"});
+        }
+        print_rows(rows, markdown, out);
+    }
 }
 
 void write_study(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context,
@@ -140,8 +163,12 @@ void write_study(const PreparedStudy& prepared, const StudyResults& results, con
         write_file(folder / "viewer-test.html", make_viewer_test(viewer_template(), prepared, results, context));
         files += ", viewer-test.html";
     }
-    if (!extras.errors.empty()) {
-        write_error_sheet(folder / "errors.jpg", prepared, results, extras.errors);
+    std::vector<std::string> errors = extras.errors;
+    if (errors.empty() && prepared.study.effects) {
+        for (const StudyVariant& variant : prepared.variants) errors.push_back(variant.name);
+    }
+    if (!errors.empty()) {
+        write_error_sheet(folder / "errors.jpg", prepared, results, errors);
         files += ", errors.jpg";
     }
     if (quiet) return;

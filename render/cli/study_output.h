@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/cli/output_conflicts.h"
+#include "render/study/effects_ledger.h"
 #include "render/study/run_study.h"
 #include "render/study/study_files.h"
 
@@ -31,10 +32,13 @@ void print_table(const PreparedStudy& prepared, const std::vector<VariantResult>
 /// The head, and a row per variant with the means over its frames.
 void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out);
 
+/// What each effect costs and what a viewer misses without it, scene by scene.
+void print_ledger(const std::vector<SceneLedger>& ledgers, bool markdown, std::ostream& out);
+
 /// Files that write_study writes beside the usual ones.
 struct StudyExtras {
     bool viewer_test = false;         ///< viewer-test.html
-    std::vector<std::string> errors;  ///< names of variants, for errors.jpg; may be empty
+    std::vector<std::string> errors;  ///< names of variants, for errors.jpg; empty: those of a ledger, if there is one
 };
 
 /// Writes study.json, study.csv and report.html (where the page was built) into the folder of the context, and says

@@ -10,6 +10,7 @@
 #include "engine/scene/scene_hash.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/scene_numbers.h"
+#include "render/study/effects_ledger.h"
 #include "render/study/search_candidates.h"
 
 namespace aleph {
@@ -98,6 +99,10 @@ PreparedStudy prepare_study(Study study) {
         const std::string& name = prepared.scenes.back().name;
         if (std::ranges::count(prepared.scenes, name, &PreparedStudyScene::name) > 1)
             throw InputError(scene.file.string(), "scenes", fmt::format("two scenes are called {}", printable(name)));
+    }
+    if (study.effects) {
+        for (StudyVariant& variant : list_ledger_variants(prepared.scenes, study))
+            prepared.variants.push_back(std::move(variant));
     }
     prepared.metrics = list_metrics(study);
     if (std::ranges::none_of(prepared.scenes, has_consecutive_frames))

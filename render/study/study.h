@@ -74,6 +74,7 @@ struct Study {
     StudyReference reference;
     std::vector<StudyAxis> sweep;        ///< every combination is a variant
     std::vector<StudyVariant> variants;  ///< and these are
+    bool effects = false;                ///< adds a ledger of effects (effects_ledger.h)
     std::optional<StudySearch> search;   ///< adds the best fixed settings
     std::vector<std::string> metrics;    ///< metric_table.h; empty: the usual ones
     std::vector<StudyViewer> viewers;    ///< at least one; the first judges where one threshold is meant
@@ -83,7 +84,7 @@ struct Study {
 
 /// The variants of the sweep, each named by its settings ("error=1,guide=none"), then the named ones. The last axis
 /// changes fastest.
-/// @throws InputError for more than 10,000, two variants of one name, or none at all unless there is a search
+/// @throws InputError for more than 10,000, two variants of one name, or none at all unless there is a search or a ledger
 std::vector<StudyVariant> list_variants(const Study& study);
 
 /// "error=1,guide=none"

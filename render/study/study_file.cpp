@@ -155,6 +155,7 @@ Study parse_study(std::string_view text, const std::filesystem::path& path) {
     const auto order = json.key_order.find("sweep");
     study.sweep = read_sweep(root, order == json.key_order.end() ? std::vector<std::string>() : order->second);
     read_lists(root, path.parent_path(), study);
+    study.effects = root.has("effects") && root.require("effects").boolean();
     study.search = read_search(root);
     study.metrics = read_texts(root, "metrics");
     if (study.viewers.empty()) study.viewers.push_back(default_viewer());

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/settings/program_build.h"
+#include "render/study/effects_ledger.h"
 #include "render/study/study_files.h"
 
 namespace aleph {
@@ -172,6 +173,7 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
         json["search"] = search_json(prepared, results);
         json["search"]["axes"] = axes_json(study.search->settings);
     }
+    if (study.effects) json["ledger"] = to_json(make_ledger(prepared, results));
     json["metrics"] = Json::array();
     for (const Metric& metric : prepared.metrics) json["metrics"].push_back(metric_json(metric));
     json["variants"] = Json::array();

@@ -5,6 +5,7 @@ import { showEffort } from './effort.js';
 import { showFrameControls } from './frame_controls.js';
 import { showHead } from './head.js';
 import { reference, showPanes } from './panes.js';
+import { showLedger } from './ledger.js';
 import { showPlan } from './plan.js';
 import { prefetchPictures } from './prefetch.js';
 import { firstSelection } from './selection.js';
@@ -48,6 +49,7 @@ async function start() {
   byId('pictures').hidden = byId('pixel').hidden = !hasPictures;
   byId('effort').hidden = !has('stages') && !has('rays');
   byId('plan').hidden = !has('plan');
+  byId('ledger').hidden = study.ledger.length === 0;
   if (study.metrics.length > 0) showTable(study, store);
   await firstPaint();
   if (study.metrics.length > 0) await showChart(study, store);
@@ -59,6 +61,7 @@ async function start() {
     showWalk(study, store);
     prefetchPictures(study, store);
   }
+  showLedger(study);
   if (has('plan')) showPlan(study, store);
   if (has('stages') || has('rays')) await showEffort(study, store);
   document.documentElement.dataset.ready = 'true';

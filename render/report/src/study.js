@@ -10,7 +10,7 @@ export function readStudy(text) {
   if (!text) throw new Error('This page is a template without data. `aleph study` writes pages with data.');
   const study = JSON.parse(text);
   if (study.schema_version !== 1) throw new Error(`The data are of version ${study.schema_version}; this page reads version 1.`);
-  for (const name of ['axes', 'metrics', 'variants', 'pictures', 'maps', 'walk', 'judges', 'frames']) study[name] ??= [];
+  for (const name of ['axes', 'metrics', 'variants', 'pictures', 'maps', 'walk', 'judges', 'frames', 'ledger']) study[name] ??= [];
   const varied = study.axes.filter(axis => axis.values.length > 1);
   for (const variant of study.variants) {
     variant.settings ??= {};

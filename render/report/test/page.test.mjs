@@ -59,7 +59,7 @@ describe('the page', () => {
     const bare = { schema_version: 1, title: 'bare', width: 8, height: 8, frames: [1], axes: [], metrics: study.metrics,
       variants: [{ id: 'only', settings: {}, metrics: { processor_seconds: { value: 1 }, share_beyond: null }, frames: [{ frame: 1, metrics: {} }] }] };
     const page = await openPage({}, { study: bare, layers: [] });
-    for (const part of ['pictures', 'pixel', 'effort', 'plan']) assert.equal(await page.$eval(`#${part}`, node => node.hidden), true, part);
+    for (const part of ['pictures', 'pixel', 'effort', 'plan', 'ledger']) assert.equal(await page.$eval(`#${part}`, node => node.hidden), true, part);
     assert.deepEqual(await selectedRows(page), ['only']);
     assert.match(await page.$eval('#facts', node => node.textContent), /frame 1, 8 × 8 pixels/);
   });

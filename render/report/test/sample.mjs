@@ -173,6 +173,10 @@ export function makeStudy(size) {
       { name: 'judge.colorvideovdp', title: 'ColorVideoVDP', unit: 'JOD', scale: 'linear' },
     ],
     walk,
+    ledger: [{ scene: 'sample', seconds: { value: 1.5, error: 0.1 }, seen: { value: 0.7 }, effects: [
+      { effect: 'area_shadows', decision: 'simulate', bound: 0, seconds: { value: 0.25, error: 0.02 }, seen: { value: 41 } },
+      { effect: 'refraction', decision: 'skip', bound: null, seconds: null, seen: null },
+    ] }],
     judges: [{ name: 'colorvideovdp', map: 'judge.colorvideovdp', limit: 1 }],
   };
   return { study, layers: writer.texts };

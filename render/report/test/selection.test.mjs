@@ -109,6 +109,14 @@ describe('other parts', () => {
     assert.match(await page.$eval('[data-effect="depth_of_field"]', node => node.textContent), /left out.*<b>/);
   });
 
+  it('show what each effect costs', async () => {
+    const page = await openPage();
+    const row = name => page.$eval(`[data-ledger="${name}"]`, node => [...node.children].map(cell => cell.textContent));
+    assert.deepEqual(await row('area_shadows'), ['area shadows', 'simulate', '0.25 ± 0.02', '41', '0']);
+    assert.deepEqual(await row('refraction'), ['refraction', 'skip', '–', '–', 'not known']);
+    assert.match(await page.$eval('#ledger caption', node => node.textContent), /^sample: 1.5 ± 0.1 s/);
+  });
+
   it('change the axes, and the front with them', async () => {
     const page = await openPage();
     await choose(page, '#chart-controls', 'Vertical axis', 'relative_mse');

@@ -1,0 +1,137 @@
+#include "render/study/effects_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/errors.h"
+#include "render/frame/sequence.h"
+
+namespace aleph {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* complete = "all effects";
+
+std::string variant_without(const char* effect) {
+    return std::string("without ") + effect;
+}
+
+/// The mean of a metric over the frames of a scene, if all of them have it.
+std::optional<MeasuredValue> scene_mean(const VariantResult& variant, const std::string& scene, const char* metric) {
+    double sum = 0.0, squares = 0.0, count = 0.0;
+    bool uncertain = true;
+    for (const FrameResult& frame : variant.frames) {
+        if (frame.scene != scene) continue;
+        const auto found = frame.metrics.find(metric);
+        if (found == frame.metrics.end()) return std::nullopt;
+        sum += found->second.value;
+        squares += std::pow(found->second.error.value_or(0.0), 2.0);
+        uncertain = uncertain && found->second.error.has_value();
+        count += 1.0;
+    }
+    if (count == 0.0) return std::nullopt;
+    MeasuredValue mean{sum / count, std::nullopt};
+    if (uncertain) mean.error = std::sqrt(squares) / count;
+    return mean;
+}
+
+/// The decision of a scene's frames about an effect, and their largest bound.
+void add_decision(const VariantResult& all, const std::string& scene, std::size_t effect, LedgerEntry& entry) {
+    for (const FrameResult& frame : all.frames) {
+        if (frame.scene != scene) continue;
+        const Json plan = Json::parse(frame.plan);
+        if (effect >= plan.size()) continue;
+        const std::string decision = plan[effect].at("decision");
+        entry.decision = entry.decision.empty() || entry.decision == decision ? decision : "mixed";
+        const Json& bound = plan[effect].at("bound");
+        const bool known = !bound.is_null() && bound.at("thresholds").is_number();
+        // std::fmax would drop what is not known.
+        const double thresholds = known ? bound.at("thresholds").get<double>() : std::nan("");
+        if (!(entry.bound >= thresholds)) entry.bound = thresholds;
+    }
+}
+
+Json to_json(const MeasuredValue& value) {
+    Json json{{"value", value.value}};
+    if (value.error) json["error"] = *value.error;
+    return json;
+}
+
+Json to_json(const std::optional<MeasuredValue>& value) {
+    return value ? to_json(*value) : Json();
+}
+
+}  // namespace
+
+std::vector<StudyVariant> list_ledger_variants(const std::vector<PreparedStudyScene>& scenes, const Study& study) {
+    EffectSet simulated;
+    for (const PreparedStudyScene& scene : scenes) {
+        const SceneWithSettings own = with_settings_of(scene, study, {});
+        Sequence sequence(own.scene, own.settings);
+        for (const int frame : scene.frames) {
+            const EffectsPlan plan = sequence.plan(frame);
+            for (const EffectName& effect : effect_list) {
+                if (!plan.skips(effect.id)) simulated.add(effect.id);
+            }
+        }
+    }
+    std::vector<StudyVariant> variants{{complete, {}}};
+    for (const EffectName& effect : effect_list) {
+        if (simulated.contains(effect.id))
+            variants.push_back({variant_without(effect.name), {{"forbid", std::string(effect.name)}}});
+    }
+    return variants;
+}
+
+std::vector<SceneLedger> make_ledger(const PreparedStudy& prepared, const StudyResults& results) {
+    const auto find = [&](const std::string& name) {
+        return std::ranges::find(results.variants, name, &VariantResult::name);
+    };
+    const auto all = find(complete);
+    if (all == results.variants.end()) throw InputError("", "effects", "the study has no variant with all effects");
+    std::vector<SceneLedger> ledgers;
+    for (const PreparedStudyScene& scene : prepared.scenes) {
+        SceneLedger& ledger = ledgers.emplace_back();
+        ledger.scene = scene.name;
+        ledger.seconds = scene_mean(*all, scene.name, "processor_seconds").value_or(MeasuredValue());
+        ledger.seen = scene_mean(*all, scene.name, "share_seen").value_or(MeasuredValue());
+        for (std::size_t i = 0; i < effect_count; ++i) {
+            LedgerEntry& entry = ledger.entries.emplace_back();
+            entry.effect = effect_list[i].name;
+            add_decision(*all, scene.name, i, entry);
+            const auto without = find(variant_without(effect_list[i].name));
+            if (without == results.variants.end() || entry.decision == "skip") continue;
+            entry.seen = scene_mean(*without, scene.name, "share_seen");
+            entry.seconds = scene_mean(*without, scene.name, "processor_seconds");
+            if (!entry.seconds) continue;
+            entry.seconds->value = ledger.seconds.value - entry.seconds->value;
+            if (entry.seconds->error)
+                entry.seconds->error = std::hypot(*entry.seconds->error, ledger.seconds.error.value_or(0.0));
+        }
+    }
+    return ledgers;
+}
+
+Json to_json(const std::vector<SceneLedger>& ledgers) {
+    Json json = Json::array();
+    for (const SceneLedger& ledger : ledgers) {
+        Json effects = Json::array();
+        for (const LedgerEntry& entry : ledger.entries) {
+            effects.push_back({{"effect", entry.effect},
+                               {"decision", entry.decision},
+                               {"bound", std::isfinite(entry.bound) ? Json(entry.bound) : Json()},
+                               {"seconds", to_json(entry.seconds)},
+                               {"seen", to_json(entry.seen)}});
+        }
+        json.push_back({{"scene", ledger.scene},
+                        {"seconds", to_json(ledger.seconds)},
+                        {"seen", to_json(ledger.seen)},
+                        {"effects", effects}});
+    }
+    return json;
+}
+
+}  // namespace aleph
