@@ -82,7 +82,8 @@ Image<std::uint8_t> make_flow_picture(const Image<Rgb>& frame) {
     const Image<float> channel = compute_opponent(frame, OpponentChannel::a, false);
     Image<std::uint8_t> picture(frame.width, frame.height);
     std::transform(channel.pixels.begin(), channel.pixels.end(), picture.pixels.begin(), [](float value) {
-        return static_cast<std::uint8_t>(255.0f * std::sqrt(std::min(value, 1.0f)) + 0.5f);
+        const float root = std::sqrt(value), shown = root <= 1.0f ? 0.85f * root : 1.0f - 0.15f / root;
+        return static_cast<std::uint8_t>(255.0f * shown + 0.5f);
     });
     return picture;
 }

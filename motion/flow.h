@@ -10,8 +10,8 @@
 
 namespace aleph {
 
-/// A picture as the flow compares it: the square root of channel A (opponent_color.h), which is about how bright it
-/// looks; 0 to 1 as 0 to 255.
+/// A picture as the flow compares it: the root of channel A (opponent_color.h), which is about how bright it looks, up
+/// to white at 85 % of 255. Above it the root's inverse, so that what is brighter than white keeps its texture.
 Image<std::uint8_t> make_flow_picture(const Image<Rgb>& frame);
 
 /// Displacements between two pictures, pixels, x right, y down.

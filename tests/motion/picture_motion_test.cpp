@@ -134,6 +134,14 @@ TEST(PictureMotion, FlowFindsFractionsOfAPixel) {
     EXPECT_LT(sum / count, 0.15);
 }
 
+TEST(PictureMotion, FlowFindsWhatIsBrighterThanWhite) {
+    if (!has_flow()) GTEST_SKIP() << "built without OpenCV";
+    const MovedSquare before{.brightness = 8.0}, after{.square = {6.0, -4.0}, .brightness = 8.0};
+    const MotionField field = find_motion(before.draw(), after.draw(), PictureSearch::flow).there;
+    EXPECT_NEAR(field.displacement(80, 60).x, 6.0, 0.5);
+    EXPECT_NEAR(field.displacement(80, 60).y, -4.0, 0.5);
+}
+
 TEST(PictureMotion, FlowTakesPicturesOfEverySizeAndValue) {
     if (!has_flow()) GTEST_SKIP() << "built without OpenCV";
     for (const int w : {1, 2, 3, 7, 8, 9, 12, 16, 31, 32, 33, 400}) {

@@ -110,8 +110,9 @@ TEST(MapsImages, MotionToTheFrameBeforeIsThatOfThisFrame) {
         EXPECT_NEAR(median_of(*frames.maps(frame).find("backward.v")), 8.0, 0.1) << frame;
         EXPECT_EQ(median_of(*frames.maps(frame).find("backward.valid")), 1.0f) << frame;
     }
-    for (const float v : frames.maps(3).find("backward.u")->pixels) EXPECT_EQ(v, 0.0f) << "behind a cut";
-    for (const float v : frames.maps(3).find("backward.valid")->pixels) EXPECT_EQ(v, -3.0f);
+    const ChannelImage cut = frames.maps(3);
+    for (const float v : cut.find("backward.u")->pixels) EXPECT_EQ(v, 0.0f) << "behind a cut";
+    for (const float v : cut.find("backward.valid")->pixels) EXPECT_EQ(v, -3.0f);
 }
 
 TEST(MapsImages, ASingleFrameStandsStill) {
