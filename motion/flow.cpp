@@ -26,11 +26,11 @@ constexpr int shortest_side = 32;  // pixels; smaller pictures are continued bey
 
 #if defined(ALEPH_OPENCV)
 
-/// While it lives, OpenCV computes the same on every processor: its switches hold for the whole program.
+/// While it lives, OpenCV may choose nothing by processor or threads. Its switches hold for the whole program.
 class PlainOpenCv {
   public:
     PlainOpenCv() : lock_(mutex()), threads_(cv::getNumThreads()), optimized_(cv::useOptimized()) {
-        cv::setNumThreads(1);  // dense inverse search divides the picture by the number of threads
+        cv::setNumThreads(1);
         cv::setUseOptimized(false);
     }
     ~PlainOpenCv() {
