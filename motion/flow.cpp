@@ -18,13 +18,13 @@ namespace aleph {
 
 namespace {
 
-constexpr int shortest_side = 32;  // pixels; smaller pictures are continued beyond their border
-
 [[noreturn]] void refuse_flow(const std::string& reason) {
     throw InputError("", "optical flow", reason);
 }
 
 #if defined(ALEPH_OPENCV)
+
+constexpr int least_side = 32;  // pixels; smaller pictures are continued beyond their border
 
 /// While it lives, OpenCV may choose nothing by processor or threads. Its switches hold for the whole program.
 class PlainOpenCv {
@@ -51,7 +51,7 @@ class PlainOpenCv {
 };
 
 cv::Mat make_matrix(const Image<std::uint8_t>& picture) {
-    cv::Mat matrix(std::max(picture.height, shortest_side), std::max(picture.width, shortest_side), CV_8UC1);
+    cv::Mat matrix(std::max(picture.height, least_side), std::max(picture.width, least_side), CV_8UC1);
     for (int y = 0; y < matrix.rows; ++y) {
         const std::uint8_t* const from = picture.row(std::min(y, picture.height - 1));
         std::uint8_t* const to = matrix.ptr(y);
