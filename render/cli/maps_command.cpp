@@ -15,12 +15,13 @@
 #include "render/cli/maps_help.h"
 #include "render/cli/output_path.h"
 #include "render/cli/scene_options.h"
-#include "render/settings/frame_pattern.h"
 #include "render/cli/write_frames.h"
 #include "render/images/image_sequence.h"
 #include "render/images/picture_frame.h"
 #include "render/settings/fingerprint.h"
 #include "render/settings/frame_list.h"
+#include "render/settings/frame_pattern.h"
+#include "render/settings/motion_source.h"
 #include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
 
@@ -56,8 +57,8 @@ void refuse_what_needs_a_scene(const MapsOptions& options) {
     for (const auto& [key, value] : options.common.settings) {
         if (needs_scene(key)) throw InputError("", key, "this setting needs a scene");
         const auto* text = std::get_if<std::string>(&value);
-        if (key == "motion" && text != nullptr && *text == "model") {
-            throw InputError("", key, "model-based motion needs a scene");
+        if (key == "motion" && text != nullptr && (*text == "model" || *text == "raster")) {
+            throw InputError("", key, fmt::format("\"{}\" needs a scene; choose flow, image or census", *text));
         }
     }
 }
@@ -117,7 +118,8 @@ PreparedImages prepare_images(const MapsOptions& options) {
         throw InputError("", "--exposure", "expected a number above 0");
     }
     apply_settings(prepared.settings, given, "");
-    prepared.settings.guide.motion = MotionSource::image;
+    MotionSource& source = prepared.settings.guide.motion;
+    if (!picture_search(source)) source = best_picture_source();
     if (!first.channels.empty()) {
         prepared.settings.picture.width = first.channels.front().values.width;
         prepared.settings.picture.height = first.channels.front().values.height;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "motion/image_motion.h"
+#include "motion/raster.h"
+#include "motion/raster_motion.h"
 #include "motion/still_motion.h"
 #include "perception/sanitize.h"
 #include "render/frame/prepared_frame.h"
@@ -71,55 +72,72 @@ void FrameMotion::compute(const FrameWork& work, const FrameScene& here, Estimat
     FrameOutput& out = frame.out;
     const bool has_other = work.other != OtherFrame::none;
     RayCounts& counts = out.statistics.counts.rays;
+    if (shot_.settings.guide.motion == MotionSource::raster) items_ = rasterize(shot_.scene, here.posed());
     if (has_other && plan.skips(Effect::motion)) {
         out.motion = make_still_motion(out.view, centers.hits);
         return;
     }
-    if (shot_.settings.guide.motion == MotionSource::model) {
-        if (!model_) model_.emplace(shot_.scene, shot_.pose_plan);
-        out.motion = model_->compute(here.posed(), has_other ? other_view() : here.posed(), centers.hits, work.other);
-        if (!has_other || !work.maps) return;
-        FrameScene& other = other_scene(here);
-        other.update_rays();
-        counts.primary += mark_hidden(out.motion, shot_.scene, other.posed(), centers.hits, other.rays());
+    const std::optional<PictureSearch> search = picture_search(shot_.settings.guide.motion);
+    if (search) {
+        out.motion = has_other ? search_other(work, here, light, *search, clock, frame)
+                               : make_unknown_motion(out.view.width, out.view.height);
         return;
     }
-    Image<Rgb> other_estimate;
-    if (has_other) {
-        FrameScene& other = other_scene(here);
-        other.prepare();
-        const SampleHits other_centers = cast_centers(other.rays(), other.posed().view, &counts.primary);
-        std::optional<EstimateNodes> nodes;
-        if (shot_.estimates_indirect_light(plan.settings.light.bounces)) {
-            nodes = light.gather_nodes(other_frame_number(work.frame, work.other), other, other_centers, counts);
-        }
-        other_estimate = estimate_scene(shot_, other, other_centers, nodes ? &*nodes : nullptr, counts);
-        sanitize_estimate(other_estimate);
-    }
+    out.motion = compute_from_scene(here.posed(), has_other ? other_view() : here.posed(), centers.hits, work.other);
+    if (!has_other || !work.maps) return;
+    FrameScene& other = other_scene(here);
+    other.update_rays();
+    counts.primary += mark_hidden(out.motion, shot_.scene, other.posed(), points(centers.hits), other.rays());
+}
+
+const Image<Hit>& FrameMotion::points(const Image<Hit>& hits) const {
+    return shot_.settings.guide.motion == MotionSource::raster ? items_ : hits;
+}
+
+MotionField FrameMotion::compute_from_scene(const PosedView& here, const PosedView& other, const Image<Hit>& hits,
+                                            OtherFrame which) {
+    if (!model_) model_.emplace(shot_.scene, shot_.pose_plan);
+    return shot_.settings.guide.motion == MotionSource::raster
+               ? compute_raster_motion(*model_, shot_.scene, here, other, items_, which)
+               : model_->compute(here, other, hits, which);
+}
+
+MotionField FrameMotion::search_other(const FrameWork& work, const FrameScene& here, EstimateLight& light,
+                                      PictureSearch search, StageClock& clock, PreparedFrame& frame) {
+    FrameOutput& out = frame.out;
+    RayCounts& counts = out.statistics.counts.rays;
+    FrameScene& other = other_scene(here);
+    other.prepare();
+    const SampleHits centers = cast_centers(other.rays(), other.posed().view, &counts.primary);
+    std::optional<EstimateNodes> nodes;
+    if (shot_.estimates_indirect_light(frame.plan.settings.light.bounces))
+        nodes = light.gather_nodes(other_frame_number(work.frame, work.other), other, centers, counts);
+    Image<Rgb> estimate = estimate_scene(shot_, other, centers, nodes ? &*nodes : nullptr, counts);
+    sanitize_estimate(estimate);
     clock.add_to(out.statistics.seconds.estimate);
-    out.motion = compute_image_motion(out.estimate, other_estimate, work.other);
+    MotionField found =
+        compute_picture_motion(prepare_picture(out.estimate, search), prepare_picture(estimate, search), search).there;
+    if (work.other == OtherFrame::previous) turn_round(found);
+    return found;
 }
 
 void FrameMotion::compute_backward(const FrameWork& work, const FrameScene& here, PreparedFrame& frame) {
     FrameOutput& out = frame.out;
-    if (work.edited || shot_.settings.guide.motion != MotionSource::model) return;
-    const auto turn_round = [](MotionField& field) {
-        for (glm::dvec2& displacement : field.displacement.pixels) displacement = glm::dvec2(0.0) - displacement;
-    };
+    if (work.edited || picture_search(shot_.settings.guide.motion)) return;
     const OtherFrame other = shot_.backward_frame(work.frame);
     if (other == OtherFrame::next) {
         out.backward = out.motion;
         return turn_round(out.backward);
     }
-    if (!model_) model_.emplace(shot_.scene, shot_.pose_plan);
     const Image<Hit>& hits = frame.centers.hits;
     if (other == OtherFrame::previous) other_.pose(work.frame - 1);
     const PosedView& before = other == OtherFrame::previous ? other_.posed() : here.posed();
-    out.backward = model_->compute(here.posed(), before, hits, other);
+    out.backward = compute_from_scene(here.posed(), before, hits, other);
     if (other == OtherFrame::none) return;
     turn_round(out.backward);
     other_.update_rays();
-    out.statistics.counts.rays.primary += mark_hidden(out.backward, shot_.scene, other_.posed(), hits, other_.rays());
+    out.statistics.counts.rays.primary +=
+        mark_hidden(out.backward, shot_.scene, other_.posed(), points(hits), other_.rays());
 }
 
 }  // namespace aleph

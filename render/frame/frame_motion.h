@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "motion/model_motion.h"
+#include "motion/picture_motion.h"
 #include "render/frame/frame_estimate.h"
 #include "render/settings/measure.h"
+#include "render/settings/motion_source.h"
 
 namespace aleph {
 
@@ -37,7 +39,7 @@ class FrameMotion {
                  PreparedFrame& frame);
 
     /// Motion to the frame before, with the hidden pixels. The first frame's is its motion to the next one, turned
-    /// round; behind a cut there is none. Nothing after an edit, and where motion comes from pictures. After compute.
+    /// round; behind a cut there is none. Nothing after an edit, and where quick estimates are compared. After compute.
     void compute_backward(const FrameWork& work, const FrameScene& here, PreparedFrame& frame);
 
     /// The scene at other frames, for others to pose: it is needed from pose_other to compute_backward only.
@@ -47,10 +49,18 @@ class FrameMotion {
   private:
     const PosedView& other_view() const { return from_edit_ ? *before_edit_ : other_.posed(); }
     FrameScene& other_scene(const FrameScene& here);
+    /// The points of each pixel that motion is of: the hits, or the items.
+    const Image<Hit>& points(const Image<Hit>& hits) const;
+    MotionField compute_from_scene(const PosedView& here, const PosedView& other, const Image<Hit>& hits,
+                                   OtherFrame which);
+    /// Compares the frame's quick estimate with that of the other frame, which is made here.
+    MotionField search_other(const FrameWork& work, const FrameScene& here, EstimateLight& light, PictureSearch search,
+                             StageClock& clock, PreparedFrame& frame);
 
     const Shot& shot_;
     FrameScene other_;
     std::optional<ModelMotion> model_;
+    Image<Hit> items_;  ///< of the frame in work, where motion is from rasterized maps
     std::optional<PosedView> before_edit_;
     PosePlan all_;                        ///< an edit may have moved what the scene's own tracks leave at rest
     bool from_edit_ = false;              ///< motion leads from before_edit_

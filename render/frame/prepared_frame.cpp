@@ -3,6 +3,7 @@
 #include "perception/sanitize.h"
 #include "render/frame/frame_vision.h"
 #include "render/settings/measure.h"
+#include "render/settings/motion_source.h"
 
 namespace aleph {
 
@@ -50,7 +51,7 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
     clock.add_to(stats.seconds.pose);
     if (work.perceive && !work.motion_only && shot.estimates_indirect_light(frame.plan.settings.light.bounces)) {
         kept.estimate_light.gather_around(work.frame, work.frame, counts);
-        if (work.other != OtherFrame::none && shot.settings.guide.motion == MotionSource::image)
+        if (work.other != OtherFrame::none && picture_search(shot.settings.guide.motion))
             kept.estimate_light.gather_around(other_frame_number(work.frame, work.other), work.frame, counts);
         here.pose(work.frame);  // gathering moved it if lighting keyframes are prepared in it
     }

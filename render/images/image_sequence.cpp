@@ -6,10 +6,10 @@
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
-#include "motion/image_motion.h"
 #include "perception/sanitize.h"
 #include "render/frame/frame_vision.h"
 #include "render/settings/measure.h"
+#include "render/settings/motion_source.h"
 
 namespace aleph {
 
@@ -23,8 +23,8 @@ std::string display_name(const std::filesystem::path& path) {
 struct LoadedFrame {
     Image<Rgb> estimate;
     SanitizeCounts sanitized;
-    CensusPyramid census;               ///< empty if motion is known
-    std::optional<MotionField> motion;  ///< of the file
+    SearchedPicture searched;                     ///< empty if motion is known
+    std::optional<MotionField> motion, backward;  ///< of the file
     Image<float> depth;
 };
 
@@ -66,7 +66,9 @@ struct ImageSequence::State {
     FrameFiles files;
     RenderSettings settings;
     std::function<PictureFrame(std::int64_t)> read;
-    std::map<std::int64_t, LoadedFrame> loaded;  ///< at most the two frames used last
+    PictureSearch search;
+    std::map<std::int64_t, LoadedFrame> loaded;   ///< the frame used last and its neighbours
+    std::map<std::int64_t, PictureMotion> pairs;  ///< by the first of two frames: those with the frame used last
     int width = 0, height = 0;
     std::string first_read;
     bool motion_in_files = false;
@@ -96,22 +98,44 @@ struct ImageSequence::State {
                 fmt::format("this frame has no motion, {} has; --motion-layer none compares pictures instead",
                             first_read));
         }
-        if (motion_in_files) made.motion = std::move(picture.motion);
+        if (motion_in_files) {
+            made.motion = std::move(picture.motion);
+            made.backward = std::move(picture.backward);
+        }
         const auto exposure = static_cast<float>(shot.film.exposure.value_or(1.0));
         for (Rgb& pixel : made.estimate.pixels) pixel *= exposure;
         made.sanitized = sanitize_estimate(made.estimate);
-        if (!motion_in_files) made.census = make_census_pyramid(made.estimate);
+        if (!motion_in_files) made.searched = prepare_picture(made.estimate, search);
         return loaded.emplace(frame, std::move(made)).first->second;
     }
 
+    /// The motion between a frame and the next one, both ways.
+    const PictureMotion& compare(std::int64_t first) {
+        const auto found = pairs.find(first);
+        if (found != pairs.end()) return found->second;
+        const LoadedFrame &from = load(first), &to = load(first + 1);
+        return pairs.emplace(first, compute_picture_motion(from.searched, to.searched, search)).first->second;
+    }
+
     MotionField find_motion(std::int64_t frame, const LoadedFrame& now) {
-        if (now.motion && !is_cut(shot.film.cuts, frame + 1)) return *now.motion;
-        if (now.motion) return compute_image_motion(make_census_pyramid(now.estimate), {}, OtherFrame::none);
-        const OtherFrame which = find_other_frame(files, shot.film.cuts, frame);
-        const std::int64_t other_number = other_frame_number(frame, which);
-        std::erase_if(loaded, [&](const auto& entry) { return entry.first != frame && entry.first != other_number; });
-        const LoadedFrame* const other = which == OtherFrame::none ? nullptr : &load(other_number);
-        return compute_image_motion(now.census, other != nullptr ? other->census : CensusPyramid(), which);
+        const OtherFrame which = now.motion ? is_cut(shot.film.cuts, frame + 1) ? OtherFrame::none : OtherFrame::next
+                                            : find_other_frame(files, shot.film.cuts, frame);
+        if (which == OtherFrame::none) return make_unknown_motion(width, height);
+        if (now.motion) return *now.motion;
+        if (which == OtherFrame::next) return compare(frame).there;
+        MotionField motion = compare(frame - 1).back;
+        turn_round(motion);
+        return motion;
+    }
+
+    /// @param motion  to the other frame
+    MotionField find_backward(std::int64_t frame, const LoadedFrame& now, const MotionField& motion) {
+        if (is_cut(shot.film.cuts, frame)) return make_unknown_motion(width, height);
+        if (now.motion) return now.backward.value_or(MotionField());
+        if (files.contains(frame - 1)) return compare(frame - 1).back;
+        MotionField backward = motion;
+        turn_round(backward);
+        return backward;
     }
 };
 
@@ -121,6 +145,7 @@ ImageSequence::ImageSequence(Scene shot, FrameFiles files, const RenderSettings&
     state_->shot = std::move(shot);
     state_->files = std::move(files);
     state_->settings = settings;
+    state_->search = picture_search(settings.guide.motion).value_or(*picture_search(best_picture_source()));
     state_->read = [files = state_->files, layers = std::move(layers)](std::int64_t frame) {
         return read_picture_frame(files.at(frame), layers);
     };
@@ -133,6 +158,7 @@ ImageSequence::ImageSequence(Scene shot, std::map<std::int64_t, PictureFrame> pi
     state_->shot = std::move(shot);
     for (const auto& [frame, picture] : pictures) state_->files[frame] = fmt::format("frame {}", frame);
     state_->settings = settings;
+    state_->search = picture_search(settings.guide.motion).value_or(*picture_search(best_picture_source()));
     state_->read = [pictures = std::move(pictures)](std::int64_t frame) { return pictures.at(frame); };
 }
 
@@ -147,12 +173,15 @@ FrameOutput ImageSequence::compute_maps(std::int64_t frame) {
     stats.frame = frame;
 
     if (!s.files.contains(frame)) refuse_missing(s.files, frame);
+    std::erase_if(s.loaded, [&](const auto& kept) { return std::abs(kept.first - frame) > 1; });
+    std::erase_if(s.pairs, [&](const auto& kept) { return kept.first != frame && kept.first != frame - 1; });
     const LoadedFrame& now = s.load(frame);
     out.estimate = now.estimate;
     out.surface.depth = now.depth;
     note_estimate(out, now.sanitized, s.shot.film.viewing);
     clock.add_to(stats.seconds.estimate);
     out.motion = s.find_motion(frame, now);
+    out.backward = s.find_backward(frame, now, out.motion);
     out.motion_from_picture = now.motion.has_value();
     if (!s.noise) s.noise.emplace(s.shot.film.viewing, s.shot.film.frame_rate, NoiseOverTime::fresh);
     compute_frame_vision(out, s.shot, s.settings, *s.noise, true, clock);

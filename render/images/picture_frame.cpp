@@ -160,12 +160,15 @@ bool is_inside(const glm::dvec2& place, const Image<float>& image) {
     return place.x >= 0.0 && place.y >= 0.0 && place.x <= image.width && place.y <= image.height;
 }
 
-MotionField read_motion(const Layers& layers, const std::string& layer, const Image<float>& depth) {
-    const bool as_uv = layers.has(layer, uv_channels);
-    const Image<float>& u = *layers.find(layer, as_uv ? "u" : "Z");
-    const Image<float>& v = *layers.find(layer, as_uv ? "v" : "W");
-    const Image<float>* const codes = layer == "forward" ? layers.find("motion", "valid") : nullptr;
-    const glm::dvec2 sign = as_uv ? glm::dvec2(1.0, -1.0) : glm::dvec2(-1.0, 1.0);  // to x right, y down
+/// The channels of a motion, and what takes them to x right, y down.
+struct MotionChannels {
+    const Image<float>&u, &v;
+    glm::dvec2 sign;
+    const Image<float>* codes = nullptr;  ///< null: none
+};
+
+MotionField read_motion(const MotionChannels& channels, const Image<float>& depth) {
+    const auto& [u, v, sign, codes] = channels;
     const double longest = std::hypot(u.width, u.height);
     MotionField motion{Image<glm::dvec2>(u.width, u.height), Image<double>(u.width, u.height),
                        Image<MotionValidity>(u.width, u.height, MotionValidity::valid)};
@@ -194,6 +197,25 @@ MotionField read_motion(const Layers& layers, const std::string& layer, const Im
     return motion;
 }
 
+/// Motion to the next frame, and where the layer has it, to the frame before.
+void read_motions(const Layers& layers, const std::string& layer, PictureFrame& frame) {
+    const auto channel = [&](const std::string& of, const char* name) -> const Image<float>& {
+        return *layers.find(of, name);
+    };
+    const glm::dvec2 y_up(1.0, -1.0);
+    if (!layers.has(layer, uv_channels)) {
+        frame.motion = read_motion({channel(layer, "Z"), channel(layer, "W"), -y_up}, frame.depth);
+        frame.backward = read_motion({channel(layer, "X"), channel(layer, "Y"), y_up}, frame.depth);
+        return;
+    }
+    const bool own = layer == "forward";
+    frame.motion = read_motion(
+        {channel(layer, "u"), channel(layer, "v"), y_up, own ? layers.find("motion", "valid") : nullptr}, frame.depth);
+    if (!own || !layers.has("backward", uv_channels)) return;
+    frame.backward = read_motion(
+        {channel("backward", "u"), channel("backward", "v"), y_up, layers.find("backward", "valid")}, frame.depth);
+}
+
 }  // namespace
 
 PictureFrame read_picture_frame(const std::filesystem::path& path, const PictureLayers& wanted) {
@@ -202,9 +224,8 @@ PictureFrame read_picture_frame(const std::filesystem::path& path, const Picture
     PictureFrame frame;
     frame.color = read_color(layers, wanted.color, file.metadata.contains("encoding"));
     frame.depth = read_depth(layers, wanted.depth);
-    if (const std::optional<std::string> motion = choose_motion(layers, wanted.motion)) {
-        frame.motion = read_motion(layers, *motion, frame.depth);
-    }
+    if (const std::optional<std::string> motion = choose_motion(layers, wanted.motion))
+        read_motions(layers, *motion, frame);
     return frame;
 }
 

@@ -75,15 +75,14 @@ std::vector<ChannelInfo> motion_channels() {
         {{"motion.valid"},
          "1 valid, 0 background, -1 behind the camera, -2 leaves the picture, -3 no counterpart, -4 hidden in frame "
          "N+1",
-         "1 valid, 0 background, -1 behind the camera (motion 0), -2 leaves the picture, -3 no counterpart (motion 0), "
-         "-4 hidden in frame N+1",
+         "1 valid, 0 background, -1 behind the camera (motion 0), -2 leaves the picture, -3 no counterpart (motion 0; "
+         "of pictures that are compared: the motion back does not return), -4 hidden in frame N+1",
          "whole number, -4 to 1",
          "0"},
         {{"backward.u", "backward.v"},
-         "motion to frame N-1; pixels, u right, v up (scenes)",
-         "position in frame N-1 minus position in frame N; in the scene's first frame that in N minus that in N+1, "
-         "behind a "
-         "cut 0; model-based motion only",
+         "motion to frame N-1; pixels, u right, v up",
+         "position in frame N-1 minus position in frame N; in the first frame that in N minus that in N+1, behind a "
+         "cut 0; not where --motion compares quick estimates of a scene",
          "pixels, u positive to the right, v positive upwards",
          "motion by the camera's rotation"},
         {{"backward.valid"},

@@ -115,8 +115,9 @@ std::string define_motion(const FrameOutput& output, MotionSource source) {
                "picture's "
                "file";
     }
-    const char* what = source == MotionSource::model ? "of the surface point under the pixel's centre"
-                                                     : "of what looks most like the pixel's neighbourhood";
+    const char* what = source == MotionSource::model    ? "of the surface point under the pixel's centre"
+                       : source == MotionSource::raster ? "of the surface point, to 8 bits, minus the pixel's centre"
+                                                        : "of what looks most like the pixel's neighbourhood";
     return fmt::format(
         "forward.u/.v: position in frame N+1 minus position in frame N {}, pixels, x right, y up; the last frame: N "
         "minus N-1",

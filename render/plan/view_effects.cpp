@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render/plan/effect_table.h"
+#include "render/settings/motion_source.h"
 
 namespace aleph {
 
@@ -67,7 +68,7 @@ Finding find_motion(Planning& frame) {
     if (!in.perceives) return skip(not_perceived);
     if (!in.has_other) return skip("there is no other frame in this shot");
     if (in.moves) return simulate("objects or the camera move");
-    return simulate_if(in.settings.guide.motion == MotionSource::image, "it is found from pictures",
+    return simulate_if(picture_search(in.settings.guide.motion).has_value(), "it is found from pictures",
                        "nothing moves into the next frame");
 }
 

@@ -15,6 +15,7 @@
 #include "render/python/frame_object.h"
 #include "render/python/scene_object.h"
 #include "render/python/settings_object.h"
+#include "render/settings/motion_source.h"
 
 namespace aleph::python {
 
@@ -59,7 +60,8 @@ std::vector<std::shared_ptr<Frame>> make_maps(const py::sequence& images, const 
         if (!same_size(picture.motion->displacement, picture.color))
             throw InputError("", fmt::format("motion[{}]", i), "it has another size than its image");
     }
-    const GivenSettings given = read_settings(shot, settings, false);
+    GivenSettings given = read_settings(shot, settings, false);
+    given.settings.guide.motion = best_picture_source();
     std::vector<std::shared_ptr<Frame>> frames;
     const auto origin = describe_origin(shot, given.settings, 1.0);
     run_in_background(threads, on_progress, [&](const FrameProgress& progress) {
@@ -145,7 +147,7 @@ void bind_pictures(py::module_& module) {
 
 images: a sequence of arrays (h, w, 3), linear floats with exposure (white = 1) or sRGB bytes.
 fps: frames per second, as Scene.fps.
-motion: None: found by comparing pictures; else an array (h, w, 2) for each image: pixels to the next one, x right,
+motion: None: found by comparing pictures, by optical flow where this was built with it; else an array (h, w, 2) for each image: pixels to the next one, x right,
 y down, NaN where there is no counterpart.
 cuts: indices of images that begin a new shot.
 settings: as of aleph.render, such as vision="castle".

@@ -64,8 +64,16 @@ std::vector<Setting> vision_settings() {
                        "shadows (direct)",
                        at(&S::guide, &G::estimate), {{"flat", EstimateKind::flat}, {"direct", EstimateKind::direct}}),
         without_scene(choice_setting(
-            "motion", "source of motion: the scene, exact (model), or a comparison of two quick estimates (image)",
-            at(&S::guide, &G::motion), {{"model", MotionSource::model}, {"image", MotionSource::image}})),
+            "motion",
+            "source of motion: the scene, exact (model) or by rasterized maps of 8 bits (raster); or a comparison of "
+            "two quick estimates, by optical flow (flow), a census search that is checked (image), or one as printed "
+            "(census)",
+            at(&S::guide, &G::motion),
+            {{"model", MotionSource::model},
+             {"raster", MotionSource::raster},
+             {"flow", MotionSource::flow},
+             {"image", MotionSource::image},
+             {"census", MotionSource::census}})),
         without_scene(vision_setting()),
         without_scene(choice_setting(
             "bands",

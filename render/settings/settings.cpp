@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
+#include "motion/flow.h"
 #include "render/settings/setting_table.h"
 
 namespace aleph {
@@ -68,6 +69,8 @@ void apply_settings(RenderSettings& settings, const SettingMap& map, const std::
         if (!mismatch.empty()) throw InputError(source, key, mismatch);
         found->set(settings, value);
     }
+    if (settings.guide.motion == MotionSource::flow && !has_flow())
+        throw InputError(source, "motion", "flow needs OpenCV, which this program was built without; choose image");
     refuse_contradiction(settings.effects, source);
 }
 

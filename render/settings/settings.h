@@ -28,8 +28,11 @@ enum class EstimateKind {
 
 /// Where a frame's motion comes from.
 enum class MotionSource {
-    model,  ///< exact, from the scene (thesis 5.1.2)
-    image,  ///< from the quick estimates of two frames alone (5.1.1)
+    model,   ///< exact, from the scene (thesis 5.1.2)
+    raster,  ///< from the scene, as rasterized maps of 8 bits tell it (5.1.2)
+    flow,    ///< from the quick estimates of two frames alone: optical flow
+    image,   ///< the same: census search, checked
+    census,  ///< the same: census search as printed (5.1.1)
 };
 
 /// From the model of vision to the ambient accuracy of each pixel.

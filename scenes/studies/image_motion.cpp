@@ -1,4 +1,4 @@
-// Image-based against model-based motion (thesis figure 5.7): a table of errors by region, and a picture of both.
+// Motion of every source against model-based motion (thesis figure 5.7): errors by region, and a picture.
 
 #include <fmt/format.h>
 
@@ -10,14 +10,14 @@
 #include "engine/load/load_scene.h"
 #include "engine/pose/posed_view.h"
 #include "engine/rays/ray_scene.h"
-#include "motion/image_motion.h"
-#include "motion/model_motion.h"
+#include "motion/picture_motion.h"
+#include "motion/raster.h"
+#include "motion/raster_motion.h"
 #include "render/cli/options.h"
 #include "render/frame/sequence.h"
 #include "render/output/sheet.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/study/processor_time.h"
-#include "scenes/studies/raster_motion.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
 
@@ -67,28 +67,33 @@ double length_of(const glm::dvec2& v) {
     return std::hypot(v.x, v.y);
 }
 
-/// Errors of displacements within a region, in pixels, sorted.
-std::vector<double> list_errors(const MotionField& field, const MotionField& truth, const Region& region) {
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < truth.displacement.size(); ++i) {
-        if (region.holds(i)) errors.push_back(length_of(field.displacement.pixels[i] - truth.displacement.pixels[i]));
-    }
-    std::sort(errors.begin(), errors.end());
-    return errors;
-}
+/// Errors of the valid displacements within a region, pixels, sorted; and the share that is valid.
+struct RegionErrors {
+    std::vector<double> sorted;
+    std::size_t pixels = 0;
 
-void add_row(const StudyTable& table, const std::string& source, const Region& region,
-             const std::vector<double>& errors) {
-    if (errors.empty()) return;
-    const auto quantile = [&](double q) {
-        return errors[std::min(errors.size() - 1, static_cast<std::size_t>(q * static_cast<double>(errors.size())))];
-    };
-    double mean = 0.0;
-    for (const double e : errors) mean += e / static_cast<double>(errors.size());
-    const auto beyond = errors.end() - std::upper_bound(errors.begin(), errors.end(), 1.0);
-    table.add({source, region.name, fmt::format("{}", errors.size()), fmt::format("{:.2f}", quantile(0.5)),
-               fmt::format("{:.2f}", mean), fmt::format("{:.1f}", quantile(0.95)),
-               fmt::format("{:.1f}", 100.0 * static_cast<double>(beyond) / static_cast<double>(errors.size()))});
+    std::string share() const {
+        if (pixels == 0) return "-";
+        return fmt::format("{:.1f}", 100.0 * static_cast<double>(sorted.size()) / static_cast<double>(pixels));
+    }
+    std::string quantile(double q) const {
+        if (sorted.empty()) return "-";
+        const auto at = static_cast<std::size_t>(q * static_cast<double>(sorted.size()));
+        return fmt::format("{:.2f}", sorted[std::min(sorted.size() - 1, at)]);
+    }
+};
+
+RegionErrors find_errors(const MotionField& field, const MotionField& truth, const Region& region) {
+    RegionErrors errors;
+    for (std::size_t i = 0; i < truth.displacement.size(); ++i) {
+        if (!region.holds(i)) continue;
+        ++errors.pixels;
+        const MotionValidity validity = field.validity.pixels[i];
+        if (validity != MotionValidity::valid && validity != MotionValidity::background) continue;
+        errors.sorted.push_back(length_of(field.displacement.pixels[i] - truth.displacement.pixels[i]));
+    }
+    std::sort(errors.sorted.begin(), errors.sorted.end());
+    return errors;
 }
 
 Image<float> lengths_of(const Image<glm::dvec2>& displacement) {
@@ -105,17 +110,32 @@ double scale_of(const Image<float>& lengths) {
     return std::max(2.0, std::ceil(static_cast<double>(sorted[sorted.size() * 998 / 1000]) / 2.0) * 2.0);
 }
 
-/// The motion between two frames, found in four ways, and the seconds of a processor for each.
-struct Motions {
-    FrameOutput now, next;
-    MotionField from_frames, from_estimates, from_raster;
-    double model_seconds = 0.0, hits_seconds = 0.0, image_seconds = 0.0;
-
-    const MotionField& model() const { return now.motion; }
+/// The motion between two frames as one source finds it.
+struct FoundMotion {
+    std::string source;
+    MotionField field;
+    double seconds = 0.0;  ///< of a processor
 };
 
-/// Model-based motion once more, by itself, and what rasterized maps would give.
-void time_model(const Sequence& sequence, const RenderSettings& settings, int frame, Motions& motions) {
+struct Motions {
+    FrameOutput now, next;
+    std::vector<FoundMotion> found;
+
+    const MotionField& model() const { return now.motion; }
+    const MotionField& find(const std::string& source) const {
+        return std::ranges::find(found, source, &FoundMotion::source)->field;
+    }
+};
+
+template <class Find>
+void add_motion(Motions& motions, const std::string& source, const Find& find) {
+    const double start = processor_seconds();
+    MotionField field = find();
+    motions.found.push_back({source, std::move(field), processor_seconds() - start});
+}
+
+/// Motion from the scene, by cast rays and by rasterized maps. The seconds include both.
+void add_scene_motions(const Sequence& sequence, const RenderSettings& settings, int frame, Motions& motions) {
     const Scene& scene = sequence.scene();
     const int camera = CameraNames(scene).find("");
     const auto pose_frame = [&](int number) {
@@ -126,14 +146,26 @@ void time_model(const Sequence& sequence, const RenderSettings& settings, int fr
     const PosePlan plan = make_pose_plan(scene);
     RayScene rays(scene, plan);
     rays.update(now.pose, compute_anchor(now.view));
-    double start = processor_seconds();
-    const SampleHits hits = cast_centers(rays, now.view, nullptr);
-    motions.hits_seconds = processor_seconds() - start;
-    start = processor_seconds();
-    compute_model_motion(scene, now, other, hits.hits, OtherFrame::next);
-    motions.model_seconds = processor_seconds() - start;
-    motions.from_raster = compute_raster_motion(scene, other, motions.now.hits, motions.model());
+    ModelMotion model(scene, plan);
+    add_motion(motions, "`model`",
+               [&] { return model.compute(now, other, cast_centers(rays, now.view, nullptr).hits, OtherFrame::next); });
+    add_motion(motions, "`raster`",
+               [&] { return compute_raster_motion(model, scene, now, other, rasterize(scene, now)); });
 }
+
+/// Motion from two pictures, in every way that this program was built with.
+void add_picture_motions(const Image<Rgb>& now, const Image<Rgb>& next, const std::string& pictures, Motions& motions) {
+    const auto add = [&](const std::string& source, PictureSearch search) {
+        add_motion(motions, fmt::format("`{}`, {}", source, pictures), [&] {
+            return compute_picture_motion(prepare_picture(now, search), prepare_picture(next, search), search).there;
+        });
+    };
+    add("census", PictureSearch::census);
+    add("image", PictureSearch::checked);
+    if (has_flow()) add("flow", PictureSearch::flow);
+}
+
+constexpr const char *of_frames = "rendered frames", *of_estimates = "quick estimates";
 
 Motions find_motions(const Scene& scene, const RenderSettings& settings, int frame) {
     Sequence sequence(scene, settings);
@@ -141,52 +173,57 @@ Motions find_motions(const Scene& scene, const RenderSettings& settings, int fra
     Motions motions;
     motions.now = sequence.render(frame, request);
     motions.next = sequence.render(frame + 1, request);
-    const double start = processor_seconds();
-    motions.from_frames = compute_image_motion(motions.now.shaded.color, motions.next.shaded.color);
-    motions.image_seconds = processor_seconds() - start;
-    motions.from_estimates = compute_image_motion(motions.now.estimate, motions.next.estimate);
-    time_model(sequence, settings, frame, motions);
+    add_scene_motions(sequence, settings, frame, motions);
+    add_picture_motions(motions.now.shaded.color, motions.next.shaded.color, of_frames, motions);
+    add_picture_motions(motions.now.estimate, motions.next.estimate, of_estimates, motions);
+    add_motion(motions, "nothing: 0 everywhere", [&] {
+        MotionField still = motions.model();
+        std::ranges::fill(still.displacement.pixels, glm::dvec2(0.0));
+        return still;
+    });
     return motions;
 }
 
 void print_table(const Motions& motions, const std::vector<bool>& movers, bool markdown) {
-    MotionField nothing = motions.model();
-    std::fill(nothing.displacement.pixels.begin(), nothing.displacement.pixels.end(), glm::dvec2(0.0));
-    const StudyTable table({"motion from", "region", "pixels", "median", "mean", "95 %", "beyond 1 px (%)"}, 2,
-                           markdown);
-    for (const Region& region : list_regions(motions.now, movers)) {
-        add_row(table, "rendered frames", region, list_errors(motions.from_frames, motions.model(), region));
-        add_row(table, "ID and UV maps of 8 bits", region, list_errors(motions.from_raster, motions.model(), region));
-        add_row(table, "quick estimates", region, list_errors(motions.from_estimates, motions.model(), region));
-        add_row(table, "nothing: 0 everywhere", region, list_errors(nothing, motions.model(), region));
+    const StudyTable table({"motion from", "object: valid (%)", "median", "95 %", "background: valid (%)", "median",
+                            "95 %", "hidden: valid (%)", "processor seconds"},
+                           1, markdown);
+    const std::vector<Region> regions = list_regions(motions.now, movers);
+    for (const FoundMotion& found : motions.found) {
+        std::vector<std::string> row{found.source};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const RegionErrors errors = find_errors(found.field, motions.model(), regions[i]);
+            row.insert(row.end(), {errors.share(), errors.quantile(0.5), errors.quantile(0.95)});
+        }
+        row.push_back(find_errors(found.field, motions.model(), regions[2]).share());
+        row.push_back(fmt::format("{:.3f}", found.seconds));
+        table.add(row);
     }
 }
 
 std::vector<Panel> make_panels(const Motions& motions, int frame) {
-    Image<glm::dvec2> error = motions.from_frames.displacement;
+    const MotionField& census = motions.find(fmt::format("`census`, {}", of_frames));
+    const std::string best = fmt::format("`{}`, {}", has_flow() ? "flow" : "image", of_frames);
+    Image<glm::dvec2> error = census.displacement;
     for (std::size_t i = 0; i < error.size(); ++i) error.pixels[i] -= motions.model().displacement.pixels[i];
     const Image<float> lengths = lengths_of(motions.model().displacement);
     const MapRange range{0.0, scale_of(lengths)};
     return {color_panel(fmt::format("frame {}", frame), motions.now.shaded.color),
             color_panel(fmt::format("frame {}", frame + 1), motions.next.shaded.color),
             map_panel(fmt::format("model-based motion, 0 to {:g} px", range.high), lengths, range),
-            map_panel(fmt::format("image-based motion, 0 to {:g} px", range.high),
-                      lengths_of(motions.from_frames.displacement), range),
-            map_panel("image-based, from the quick estimates", lengths_of(motions.from_estimates.displacement), range),
-            map_panel(fmt::format("error of image-based motion, 0 to {:g} px", range.high), lengths_of(error), range)};
+            map_panel(fmt::format("census search, 0 to {:g} px", range.high), lengths_of(census.displacement), range),
+            map_panel(fmt::format("{}, 0 to {:g} px", has_flow() ? "optical flow" : "checked census", range.high),
+                      lengths_of(motions.find(best).displacement), range),
+            map_panel(fmt::format("error of the census search, 0 to {:g} px", range.high), lengths_of(error), range)};
 }
 
 int run_motion(const MotionOptions& options) {
     const Scene scene = load_scene(options.scene);
     const RenderSettings settings = scene_settings(scene, options.scene, options.study);
     const Motions motions = find_motions(scene, settings, options.frame);
-    fmt::print("{}, frames {} and {}, {}; errors against model-based motion, pixels\n\n", options.scene, options.frame,
-               options.frame + 1, options.study.size);
+    fmt::print("{}, frames {} and {}, {}; errors of the valid pixels against model-based motion, pixels\n\n",
+               options.scene, options.frame, options.frame + 1, options.study.size);
     print_table(motions, find_movers(scene, options.frame), options.study.markdown);
-    fmt::print(
-        "\nProcessor seconds: model-based motion {:.4f}, and first hits {:.4f}, which the frame needs anyway; "
-        "image-based motion {:.4f}\n",
-        motions.model_seconds, motions.hits_seconds, motions.image_seconds);
     write_sheet(options.picture, make_panels(motions, options.frame), 2, 400);
     fmt::print("\nThe picture: {}\n", options.picture);
     return exit_done;
@@ -196,7 +233,7 @@ int run_motion(const MotionOptions& options) {
 }  // namespace aleph
 
 int main(int argc, char** argv) {
-    CLI::App app{"Compares image-based with model-based motion: errors by region, and a picture of both."};
+    CLI::App app{"Compares every source of motion with model-based motion: errors by region, and a picture."};
     aleph::MotionOptions options;
     app.add_option("scene", options.scene, "a scene file")->required();
     aleph::add_value(app, "--frame", options.frame, "the first of two frames");

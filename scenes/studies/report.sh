@@ -39,7 +39,7 @@ run() {
     effects) study effects effects -t 1 --repeats 3 ;;
     thesis-pool | thesis-gallery | thesis-antique-room) both "$1" ;;
     motion)
-      build/study_motion scenes/boomerang/scene.json --frame 24 --set spp=8 --set gather=256 --set light_step=0 --markdown \
+      build/study_motion scenes/boomerang/scene.json --frame 24 --set spp=8 --set gather=256 --set light_step=0 --markdown -t 1 \
         -o scenes/boomerang/motion.jpg ;;
     stages | update | size) benchmark "$1" ;;
     *) echo "report.sh: there is no study $1" >&2; exit 2 ;;

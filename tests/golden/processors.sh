@@ -2,7 +2,7 @@
 # The golden images as other processors render them: the files must have the same bytes.
 #   tests/golden/processors.sh [name]
 # Each image is rendered with every instruction set that Embree can be held to (ALEPH_ISA), and with the C library kept
-# from everything newer than AVX2 and FMA. One small picture is rendered by an emulated Haswell (qemu-user).
+# from everything newer than AVX2 and FMA. Two small pictures are rendered by an emulated Haswell (qemu-user).
 # BUILD is the build folder, if it is not `build`.
 set -euo pipefail
 export LC_ALL=C
@@ -52,10 +52,13 @@ done <"$here/images.txt"
 
 if [ -z "$only" ]; then
   if command -v qemu-x86_64 >/dev/null 2>&1; then
-    tiny=(render scenes/pool/scene.json --frames 12 --size 24x18 --spp 1 --gather 16 --accuracy .5 -t 1 -q)
-    "$aleph" "${tiny[@]}" -o "$out/emulated.exr"
-    qemu-x86_64 -cpu Haswell "$aleph" "${tiny[@]}" -o "$out/emulated.haswell.exr" 2>"$out/qemu.txt" || cat "$out/qemu.txt" >&2
-    same emulated haswell
+    emulate() {
+      "$aleph" "${@:2}" -t 1 -q -o "$out/$1.exr"
+      qemu-x86_64 -cpu Haswell "$aleph" "${@:2}" -t 1 -q -o "$out/$1.haswell.exr" 2>"$out/qemu.txt" || cat "$out/qemu.txt" >&2
+      same "$1" haswell
+    }
+    emulate emulated render scenes/pool/scene.json --frames 12 --size 24x18 --spp 1 --gather 16 --accuracy .5
+    emulate emulated-flow maps scenes/pool/scene.json --frames 12 --size 64x48 --motion flow
   else
     echo "qemu-x86_64 is not installed: nothing was emulated"
   fi

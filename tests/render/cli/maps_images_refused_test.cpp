@@ -2,8 +2,8 @@
 // `aleph maps --images`: the files that a pattern names, and the frame that each is compared with.
 
 #include "engine/image/image_file.h"
-#include "render/settings/frame_pattern.h"
 #include "render/images/image_sequence.h"
+#include "render/settings/frame_pattern.h"
 #include "tests/render/cli/maps_images.h"
 #include "tests/support/image_patterns.h"
 #include "tests/support/scratch_folder.h"
@@ -55,7 +55,8 @@ TEST(MapsImages, RefusesWhatItCannotMean) {
     expect_refusal({"--images", folder + "/none.exr"}, {"no such file"});
     expect_refusal({"--images", "/no/such/f.####.exr"}, {"no such folder"});
     expect_refusal({"--images", folder + "/f.%x.exr"}, {"after '%'"});
-    expect_refusal({"--images", pattern, "--motion", "model"}, {"motion", "needs a scene"});
+    for (const char* source : {"model", "raster"})
+        expect_refusal({"--images", pattern, "--motion", source}, {"motion", source, "needs a scene"});
     expect_refusal({"--images", pattern, "--size", "64x48"}, {"size", "needs a scene"});
     expect_refusal({"--images", pattern, "--camera", "main"}, {"--camera"});
     expect_refusal({"--images", pattern, "--exposure", "0"}, {"--exposure"});

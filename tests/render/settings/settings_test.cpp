@@ -159,7 +159,7 @@ TEST(Settings, ChoicesNameWhatIsAllowed) {
 }
 
 TEST(Settings, UnknownMethodsAreRefusedByName) {
-    EXPECT_EQ(refusal("motion", "none"), "expected one of model, image");
+    EXPECT_EQ(refusal("motion", "none"), "expected one of model, raster, flow, image, census");
     EXPECT_EQ(refusal("sampling", "random"), "expected one of uniform, consecutive, variance, protocol, threshold");
     EXPECT_EQ(refusal("integrator", "photon"), "expected one of cache, path");
     EXPECT_EQ(refusal("integrator", 3.0), "expected one of cache, path");

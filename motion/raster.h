@@ -1,0 +1,20 @@
+#pragma once
+// A rasterizer: which triangle each pixel shows, and where on it to 8 bits for each coordinate, as the ID map and the
+// UV map of Yee 2000, 5.1.2, tell it.
+
+#include "engine/base/image.h"
+#include "engine/pose/posed_view.h"
+#include "engine/rays/hit.h"
+
+namespace aleph {
+
+/// The triangle at every pixel centre. u and v are whole 255ths, so that u + v may be above 1 by one of them; distance
+/// is the depth along the viewing axis, m. Of several triangles at one depth the first is shown, by instance, then by
+/// primitive.
+///
+/// Arithmetic is in double and the same on every processor. An edge that two triangles share belongs to one of them, so
+/// that there are neither cracks nor pixels drawn twice. Triangles are cut off where the camera is, and not at its near
+/// plane, as rays are. Alpha is not read: a cut-out hides what is behind it.
+Image<Hit> rasterize(const Scene& scene, const PosedView& posed);
+
+}  // namespace aleph
