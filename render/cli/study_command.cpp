@@ -209,7 +209,8 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
         ->type_name("FILE|SCENE");
     study
         .add_option("--sweep", options.sweeps,
-                    "a setting and its values; every combination of several sweeps is a variant")
+                    "a setting and its values; every combination of several sweeps is a variant. Alone, noise or "
+                    "zero_mean_noise: the reference with noise of so many visible thresholds")
         ->type_name("KEY=A,B,...")
         ->allow_extra_args(false);
     study.add_flag("--effects", options.effects,
@@ -257,7 +258,7 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
     study.add_flag(
         "--viewer-test", options.extras.viewer_test,
         "also write viewer-test.html: a test in which viewers say which of two sequences had the errors, the "
-        "reference or a variant; several consecutive --frames make sequences");
+        "reference or a variant; several consecutive --frames make sequences. It pools the results of several viewers");
     study
         .add_option(
             "--errors", options.extras.errors,
@@ -293,6 +294,7 @@ void add_study_command(CLI::App& app, Command& command) {
         "Examples:\n"
         "  aleph study scenes/pool/scene.json --frames 20 --sweep error=.5,1,2,4 --sweep guide=none,saliency\n"
         "  aleph study scenes/cornell/scene.json --sweep accuracy=.05,.15,.5 --repeats 3\n"
+        "  aleph study scenes/pool/scene.json --frames 10-39 --sweep noise=0,.5,1,2 --viewer-test\n"
         "  aleph study scenes/pool/scene.json --frames 20-29 --sweep error=1,2 --seeds 2\n"
         "  aleph study scenes/pool/scene.json --frames 20 --set error=1 --effects\n"
         "  aleph study scenes/pool/scene.json --frames 18-23 --sweep error=.5,1,2 --search\n"

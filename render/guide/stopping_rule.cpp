@@ -67,7 +67,14 @@ Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach) {
     return mean_around(deviations, reach, false);
 }
 
-bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance) {
+MeanEstimate estimate_own_mean(const PixelSamples& pixel) {
+    MeanEstimate estimate{pixel.taken()};
+    estimate.error2 = static_cast<double>(pixel.error().total);
+    estimate.variance = pixel.sample_variance();
+    return estimate;
+}
+
+bool is_enough(Sampling rule, Stopping stopping, const MeanEstimate& mean, double tolerance) {
     const double tolerated2 = tolerance > 0.0 ? tolerance * tolerance : 0.0;
     switch (rule) {
         case Sampling::uniform:
@@ -76,7 +83,7 @@ bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, doubl
         case Sampling::consecutive:
             return mean.error2 <= tolerated2;
         case Sampling::variance:
-            return (test == VarianceTest::deviation ? mean.variance : mean.variance / mean.samples) <= tolerated2;
+            return (stopping == Stopping::pixel ? mean.variance : mean.variance / mean.samples) <= tolerated2;
         case Sampling::threshold:
             return error_deviations * error_deviations * std::sqrt(mean.error2 / mean.samples) * mean.around <=
                    tolerated2;

@@ -23,9 +23,9 @@ inline constexpr double noise_allowance = 0.9;
 /// above as its power of .8: the share of the pixels in which noise is seen rises more steeply than the noise.
 double allow_noise(double error);
 
-/// The mean of a pixel's samples, as its neighbours tell it. A pixel's own samples never decide when it stops: a pixel
-/// whose first samples happen to agree would stop early, more often at a value that is too low than at one that is too
-/// high, and the picture would be biased. Neighbours tell both numbers, at this pixel's number of samples.
+/// The mean of a pixel's samples, as its neighbours or its own samples tell it. Where own samples decide, a pixel whose
+/// first ones happen to agree stops early, more often at a value that is too low than at one that is too high, and the
+/// picture is biased (Kirk and Arvo 1991). So neighbours tell both numbers, at this pixel's number of samples.
 struct MeanEstimate {
     int samples = 0;
     double error2 = 0.0;    ///< squared error of the mean luminance, from halves (PixelSamples)
@@ -43,22 +43,25 @@ Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach);
 /// @param outlines  of the same size, or empty: none
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y);
 
+/// The same, as the pixel's own samples tell it.
+MeanEstimate estimate_own_mean(const PixelSamples& pixel);
+
 /// Returns whether a rule stops at this estimate.
 /// consecutive (6.10): the means of this stage and of the one before differ by less than the tolerance.
-/// variance (6.12): the standard error of independent samples is below the tolerance; or as printed their standard
-/// deviation, which does not fall with their number.
+/// variance (6.12): the standard error of independent samples is below the tolerance; with Stopping::pixel, as printed,
+/// their standard deviation, which does not fall with their number.
 /// threshold: n samples are enough if error_deviations^2 s S / n is within the tolerance squared, with s the deviation
 /// of the pixel's samples and S that of those around. The energy of the errors around is then within it, with
 /// the fewest samples in all (Neyman 1934): where deviations are equal, when error_deviations standard errors are
 /// within the tolerance; at a lone outline with fewer samples, around it with more.
 /// @param tolerance  of luminance, in the samples' unit. 0 or less is met by an error of 0 only
-bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance);
+bool is_enough(Sampling rule, Stopping stopping, const MeanEstimate& mean, double tolerance);
 
 /// The pixels of a stage that may take more samples, one element each.
 struct StagePixels {
     std::vector<int> x, y;
     std::vector<int> samples;      ///< so far
-    std::vector<float> error;      ///< standard error of the mean luminance, as the pixels around tell it
+    std::vector<float> error;      ///< standard error of the mean luminance, as Stopping says who tells it
     std::vector<float> deviation;  ///< of the luminance of one sample, likewise
     std::vector<float> tolerance;  ///< of the mean luminance (is_enough)
 };

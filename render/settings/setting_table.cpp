@@ -144,11 +144,12 @@ std::vector<Setting> sampling_settings() {
              {"protocol", Sampling::protocol},
              {"threshold", Sampling::threshold}}),
         rarely_set(choice_setting(
-            "variance_test",
-            "what the sampling variance compares with the threshold: the error of the mean (standard-error), or the "
-            "deviation of the samples, as the thesis prints it, which more samples do not lower (deviation)",
-            at(&S::sampling, &Samples::variance_test),
-            {{"standard-error", VarianceTest::standard_error}, {"deviation", VarianceTest::deviation}})),
+            "stopping",
+            "which samples tell when a pixel stops, with the sampling consecutive or variance: those of the pixels "
+            "around it (neighbourhood), or its own, by their difference or deviation as the thesis prints (6.10) and "
+            "(6.12), which makes rarely lit places too dark (pixel); other sampling does not read it",
+            at(&S::sampling, &Samples::stopping),
+            {{"neighbourhood", Stopping::neighbourhood}, {"pixel", Stopping::pixel}})),
         choice_setting("filter",
                        "how the light around a pixel's centre makes up the pixel: its square (box), or a smooth window "
                        "3 pixels wide (blackman-harris)",

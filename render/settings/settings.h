@@ -52,15 +52,15 @@ enum class Integrator {
 enum class Sampling {
     uniform,      ///< all the same
     consecutive,  ///< until two stages in a row differ by less than the threshold (6.10)
-    variance,     ///< until their standard error or deviation is below it (6.12)
+    variance,     ///< until their standard error is below it (6.12)
     protocol,     ///< as many as the Aleph map says beforehand (6.13)
     threshold,    ///< until 99.5 % of the pixels are about within the error that is asked for
 };
 
-/// The value that Sampling::variance compares with the threshold.
-enum class VarianceTest {
-    standard_error,  ///< of the mean
-    deviation,       ///< of the samples, as (6.12) is printed
+/// Whose samples tell Sampling::consecutive and Sampling::variance when a pixel stops. Other rules do not read it.
+enum class Stopping {
+    neighbourhood,  ///< those of the pixels around it: the picture is unbiased
+    pixel,          ///< its own, by their difference or deviation, as (6.10) and (6.12) are printed: it is too dark
 };
 
 /// The choice of planning a frame's effects, or not (effects_plan.h).
@@ -101,9 +101,9 @@ struct CacheSettings {
 /// The transport of light.
 struct LightSettings {
     Integrator integrator = Integrator::cache;
-    int bounces = 1;         ///< of indirect diffuse light
-    int path_depth = 32;     ///< longest path: surfaces that scatter, of all kinds
-    int light_samples = 4;   ///< samples of direct light, per sample of a pixel; shared out among the lights
+    int bounces = 1;        ///< of indirect diffuse light
+    int path_depth = 32;    ///< longest path: surfaces that scatter, of all kinds
+    int light_samples = 4;  ///< samples of direct light, per sample of a pixel; shared out among the lights
 
     bool operator==(const LightSettings&) const = default;
 };
@@ -112,7 +112,7 @@ struct LightSettings {
 struct SamplingSettings {
     Sampling rule = Sampling::uniform;  ///< key "sampling"
     int spp = 16;                       ///< samples per pixel, or the most of them; 1 is the pixel's centre
-    VarianceTest variance_test = VarianceTest::standard_error;
+    Stopping stopping = Stopping::neighbourhood;
     /// Decides in place of a rule with stages: a program's own (guide/stopping_rule.h). Has no key.
     const StoppingRule* own_rule = nullptr;
 

@@ -55,7 +55,7 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
 SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSettings& settings, double exposure) {
     SamplingPlan plan;
     plan.rule = settings.sampling.rule;
-    plan.test = settings.sampling.variance_test;
+    plan.stopping = settings.sampling.stopping;
     plan.own = settings.sampling.own_rule;
     plan.most = settings.sampling.spp;
     if (limits == nullptr) return plan;

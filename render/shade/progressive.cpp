@@ -26,6 +26,11 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
     return ranges;
 }
 
+MeanEstimate tell_mean(const SamplingPlan& plan, const Image<PixelSamples>& pixels, int x, int y) {
+    const bool own = plan.stopping == Stopping::pixel && plan.rule != Sampling::threshold;
+    return own ? estimate_own_mean(pixels(x, y)) : estimate_mean(pixels, plan.outlines, x, y);
+}
+
 /// Asks the plan's rule which pixels of a stage go on: 1 for each that does.
 std::vector<std::uint8_t> ask_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
                                    const std::vector<PixelRange>& stage) {
@@ -36,9 +41,9 @@ std::vector<std::uint8_t> ask_rule(const SamplingPlan& plan, const Image<PixelSa
         for (std::size_t i = begin; i < end; ++i) {
             const PixelRange& range = stage[i];
             if (range.last >= plan.most) continue;
-            MeanEstimate mean = estimate_mean(pixels, plan.outlines, range.x, range.y);
+            MeanEstimate mean = tell_mean(plan, pixels, range.x, range.y);
             if (!around.empty()) mean.around = static_cast<double>(around(range.x, range.y));
-            goes_on[i] = !is_enough(plan.rule, plan.test, mean, plan.tolerance(range.x, range.y));
+            goes_on[i] = !is_enough(plan.rule, plan.stopping, mean, plan.tolerance(range.x, range.y));
         }
     });
     return goes_on;
@@ -49,7 +54,7 @@ std::vector<std::uint8_t> ask_own_rule(const SamplingPlan& plan, const Image<Pix
                                        const std::vector<PixelRange>& stage) {
     StagePixels asked;
     for (const PixelRange& range : stage) {
-        const MeanEstimate mean = estimate_mean(pixels, plan.outlines, range.x, range.y);
+        const MeanEstimate mean = tell_mean(plan, pixels, range.x, range.y);
         asked.x.push_back(range.x);
         asked.y.push_back(range.y);
         asked.samples.push_back(range.last);

@@ -13,9 +13,9 @@ namespace aleph {
 /// How many samples pixels take.
 struct SamplingPlan {
     Sampling rule = Sampling::uniform;
-    VarianceTest test = VarianceTest::standard_error;
+    Stopping stopping = Stopping::neighbourhood;
     const StoppingRule* own = nullptr;  ///< decides in their place
-    int most = 1;             ///< samples of a pixel
+    int most = 1;                       ///< samples of a pixel
     Image<float> tolerance;   ///< of luminance, in the samples' unit (is_enough); empty for `uniform` and `protocol`
     Image<float> aleph;       ///< for `protocol`
     Image<Outline> outlines;  ///< for `threshold`; empty: none

@@ -12,6 +12,7 @@
 #include "render/settings/scene_numbers.h"
 #include "render/study/effects_ledger.h"
 #include "render/study/search_candidates.h"
+#include "render/study/threshold_noise.h"
 
 namespace aleph {
 
@@ -70,6 +71,7 @@ void check(const PreparedStudy& prepared) {
     for (const PreparedStudyScene& scene : prepared.scenes) {
         for (const StudyVariant& variant : prepared.variants) {
             refuse(variant.settings, variant.name);
+            if (find_noise(variant.settings, variant.name)) continue;
             with_settings_of(scene, prepared.study, variant.settings);
         }
         for (const StudyViewer& viewer : prepared.study.viewers)

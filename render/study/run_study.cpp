@@ -11,6 +11,7 @@
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
 #include "render/study/run_store.h"
+#include "render/study/threshold_noise.h"
 #include "render/study/visible_metrics.h"
 
 namespace aleph {
@@ -156,21 +157,42 @@ class StudyRunner {
         return {std::move(reference), reference_picture_path(own.settings, frame, options)};
     }
 
-    /// Returns whether a variant is rendered: another program's pictures are there.
-    bool is_made(std::size_t v) const { return prepared_.variants[v].pictures.empty(); }
+    std::optional<ThresholdNoise> noise_of(std::size_t v) const {
+        return find_noise(prepared_.variants[v].settings, prepared_.variants[v].name);
+    }
 
-    /// The run of another program's pictures.
+    /// Returns whether a variant is rendered: another program's pictures are there, and noise is added.
+    bool is_made(std::size_t v) const { return prepared_.variants[v].pictures.empty() && !noise_of(v); }
+
+    /// The run of pictures that are not rendered: another program's, or the references with noise.
     MeasuredRun take_pictures(std::size_t v, std::size_t s) const {
+        const StudyVariant& variant = prepared_.variants[v];
+        const PreparedStudyScene& scene = prepared_.scenes[s];
+        const std::optional<ThresholdNoise> noise = noise_of(v);
         MeasuredRun run;
-        for (const int frame : prepared_.scenes[s].frames) {
+        for (std::size_t i = 0; i < scene.frames.size(); ++i) {
             FrameRun& taken = run.frames.emplace_back();
-            taken.frame = frame;
+            taken.frame = scene.frames[i];
             taken.plan = "[]";
             taken.timed = false;
-            run.pictures.push_back(prepared_.variants[v].pictures.at(frame).string());
+            run.pictures.push_back(noise ? write_noisy(variant, s, i, *noise)
+                                         : variant.pictures.at(scene.frames[i]).string());
         }
-        measure(s, run);
+        measure(s, run, noise.has_value());
         return run;
+    }
+
+    /// Writes the reference of frame i with noise of the first viewer's threshold.
+    /// @return the file
+    std::string write_noisy(const StudyVariant& variant, std::size_t s, std::size_t i,
+                            const ThresholdNoise& noise) const {
+        const PreparedStudyScene& scene = prepared_.scenes[s];
+        const FrameTruth& truth = truths_[s][i];
+        const std::uint32_t seed = study_.runs.seeds.front();
+        const RunName name{scene.name, variant.name, name_settings(variant.settings), seed, 0};
+        const std::filesystem::path file = store_.picture(name, scene.frames[i]);
+        write_exr(file, add_threshold_noise(truth.reference, truth.thresholds.front(), noise, seed, scene.frames[i]));
+        return file.string();
     }
 
     /// @param judged  its pictures are compared with the references
@@ -207,15 +229,24 @@ class StudyRunner {
     }
 
     /// From the files, so that a study that went on has the numbers of one that was never stopped.
-    void measure(std::size_t s, MeasuredRun& run) const {
+    /// @param exact  the pictures were made from the references: noise of these is no part of their differences
+    void measure(std::size_t s, MeasuredRun& run, bool exact = false) const {
+        std::vector<FrameTruth> without_noise;
+        if (exact) without_noise = truths_[s];
+        for (FrameTruth& truth : without_noise) {
+            std::erase_if(truth.reference.channels, [](const Channel& channel) {
+                return channel.name.starts_with("noise.") || channel.name == "variance.Y";
+            });
+        }
+        const std::vector<FrameTruth>& truths = exact ? without_noise : truths_[s];
         for (std::size_t i = 0; i < run.frames.size(); ++i)
-            run.errors.push_back(measure_errors(read_image(run.pictures[i]), truths_[s][i], prepared_.metrics));
+            run.errors.push_back(measure_errors(read_image(run.pictures[i]), truths[i], prepared_.metrics));
         std::size_t first = 0;
         for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();
         const std::vector<VisibleErrors> errors =
             measure_visible(std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
                 ChannelImage picture = read_image(run.pictures[i]);
-                ChannelImage reference = expose_like(picture, truths_[s][i].reference);
+                ChannelImage reference = expose_like(picture, truths[i].reference);
                 return std::pair(std::move(picture), std::move(reference));
             });
         for (std::size_t i = 0; i < errors.size(); ++i) add_visible_metrics(errors[i], run.errors[i]);

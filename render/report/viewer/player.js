@@ -1,15 +1,16 @@
 // Shows sequences of pictures at a frame rate, on grey.
+import { dim, greyAround } from './brightness.js';
 
 const singleFrame = 1000;
 const gap = 500;
 
-/** Decoded pictures of data URIs. @param {string[]} frames */
-export function decode(frames) {
+/** Decoded pictures of data URIs. @param {string[]} frames @param {number} share of the screen's luminance */
+export function decode(frames, share) {
   return Promise.all(frames.map(async source => {
     const picture = new Image();
     picture.src = source;
     await picture.decode();
-    return picture;
+    return dim(picture, share);
   }));
 }
 
@@ -20,10 +21,10 @@ function pause(time) {
 
 /**
  * Plays pictures once.
- * @param {HTMLCanvasElement} canvas @param {HTMLImageElement[]} pictures @param {number} rate frames per second
+ * @param {HTMLCanvasElement} canvas @param {CanvasImageSource[]} pictures @param {{rate: number, share: number}} show frames per second; share of the screen's luminance
  * @returns {Promise<number>} frames that came too late to be shown
  */
-export async function play(canvas, pictures, rate) {
+export async function play(canvas, pictures, { rate, share }) {
   const context = canvas.getContext('2d');
   const show = picture => context.drawImage(picture, 0, 0, canvas.width, canvas.height);
   let dropped = 0;
@@ -49,27 +50,27 @@ export async function play(canvas, pictures, rate) {
       requestAnimationFrame(step);
     });
   }
-  clear(canvas);
+  clear(canvas, share);
   return dropped;
 }
 
-/** Grey of half the display's luminance. @param {HTMLCanvasElement} canvas */
-export function clear(canvas) {
+/** Grey of half the luminance. @param {HTMLCanvasElement} canvas @param {number} share of the screen's luminance */
+export function clear(canvas, share) {
   const context = canvas.getContext('2d');
-  context.fillStyle = '#bcbcbc';
+  context.fillStyle = greyAround(share);
   context.fillRect(0, 0, canvas.width, canvas.height);
 }
 
 /** Plays two sequences with a pause between them. @returns {Promise<number>} frames dropped */
-export async function playPair(canvas, first, second, rate, onInterval) {
-  clear(canvas);
+export async function playPair(canvas, first, second, show, onInterval) {
+  clear(canvas, show.share);
   await pause(gap);
   onInterval(1);
-  const before = await play(canvas, first, rate);
+  const before = await play(canvas, first, show);
   onInterval(0);
   await pause(gap);
   onInterval(2);
-  const after = await play(canvas, second, rate);
+  const after = await play(canvas, second, show);
   onInterval(0);
   return before + after;
 }

@@ -1,6 +1,7 @@
-// The results as a table, a chart and sentences.
+// The results as sentences, charts and tables.
 import { fill, make } from '../src/dom.js';
-import { weibull, wilson } from './psychometric.js';
+import { fit, weibull, wilson } from './psychometric.js';
+import { byLevel, summarize } from './trials.js';
 
 const [width, height, left, bottom] = [600, 320, 110, 45];
 
@@ -16,8 +17,8 @@ function svg(tag, attributes, ...children) {
 }
 
 /** Right answers against level, with intervals, the fitted function and chance. */
-function drawChart({ levels, fitted, level }) {
-  const log = level?.log && levels.every(row => row.level > 0);
+function drawChart({ levels, fitted, series }) {
+  const log = series.log && levels.every(row => row.level > 0);
   const place = value => (log ? Math.log(value) : value);
   const ends = [place(levels[0].level), place(levels.at(-1).level)];
   const room = Math.max(1e-6, ends[1] - ends[0]) * 0.08;
@@ -42,19 +43,63 @@ function drawChart({ levels, fitted, level }) {
     });
     chart.append(svg('polyline', { points: points.join(' '), class: 'curve' }));
   }
-  chart.append(text((width + left) / 2, height - 4, `${level?.title ?? 'level'}${level?.unit ? ` (${level.unit})` : ''}`));
+  chart.append(text((width + left) / 2, height - 4, `${series.title}${series.unit ? ` (${series.unit})` : ''}`));
   return chart;
 }
 
-/** @param {HTMLElement} node @param {{rows: object[], levels: object[], fitted: object, level: ?object, dropped: number}} results */
-export function drawResults(node, { rows, levels, fitted, level, dropped }) {
-  const head = make('tr', {}, ...['test', 'level', 'trials', 'right', 'share', '95 %'].map(name => make('th', { scope: 'col' }, name)));
-  const body = rows.map(row => make('tr', { 'data-test': row.id, 'data-correct': row.correct, 'data-trials': row.trials },
-    make('th', { scope: 'row' }, row.id), make('td', {}, row.level ?? ''), make('td', {}, row.trials), make('td', {}, row.correct),
-    make('td', {}, percent(row.share)), make('td', {}, `${percent(row.interval[0])} to ${percent(row.interval[1])}`)));
-  const sentence = fitted.reason ?? `Right in 75 % of the trials at ${fitted.threshold.toPrecision(3)} ${level?.unit ?? ''} `
-    + `(95 %: ${fitted.interval.map(value => value.toPrecision(3)).join(' to ')}).`;
-  fill(node, make('p', { id: 'verdict' }, sentence), make('table', {}, make('thead', {}, head), make('tbody', {}, ...body)),
-    levels.length > 1 ? drawChart({ levels, fitted, level }) : null,
+function makeTable(heads, rows) {
+  const head = make('tr', {}, ...heads.map(name => make('th', { scope: 'col' }, name)));
+  const body = rows.map(({ cells: [first, ...others], ...data }) =>
+    make('tr', data, make('th', { scope: 'row' }, first), ...others.map(cell => make('td', {}, cell))));
+  return make('table', {}, make('thead', {}, head), make('tbody', {}, ...body));
+}
+
+function describeThreshold({ threshold, interval: [low, high] }) {
+  const most = high === Infinity ? 'no limit' : high.toPrecision(3);
+  return `${threshold.toPrecision(3)} (95 %: ${low ? low.toPrecision(3) : 0} to ${most})`;
+}
+
+/**
+ * Rows of all trials, and per series its levels and its function.
+ * @param {object[]} all results of viewers
+ */
+export function evaluate(all) {
+  const rows = summarize(all.flatMap(results => results.trials));
+  const series = new Map(all.flatMap(results => results.series).map(one => [one.id, one]));
+  const functions = [...series.values()].map(one => ({ series: one, levels: byLevel(rows, one.id) }))
+    .filter(({ levels }) => levels.length > 0)
+    .map(found => ({ ...found, fitted: fit(found.levels) }));
+  return { rows, functions };
+}
+
+/** A row per viewer: trials, and the threshold of each series. */
+function drawViewers(all, functions) {
+  const rows = all.map((results, i) => {
+    const own = evaluate([results]);
+    const cells = functions.map(({ series }) => {
+      const found = own.functions.find(one => one.series.id === series.id);
+      return found?.fitted.threshold ? describeThreshold(found.fitted) : '';
+    });
+    return { cells: [results.viewer || `viewer ${i + 1}`, results.trials.length, ...cells] };
+  });
+  return makeTable(['viewer', 'trials', ...functions.map(({ series }) => series.title)], rows);
+}
+
+/** @param {HTMLElement} node @param {object[]} all results, one or more */
+export function drawResults(node, all) {
+  const { rows, functions } = evaluate(all);
+  const table = makeTable(['test', 'scene', 'level', 'trials', 'right', 'share', '95 %'], rows.map(row => ({
+    'data-test': row.id, 'data-correct': row.correct, 'data-trials': row.trials,
+    cells: [row.id, row.scene, row.level ?? '', row.trials, row.correct, percent(row.share), `${percent(row.interval[0])} to ${percent(row.interval[1])}`],
+  })));
+  const parts = functions.flatMap(({ series, levels, fitted }) => [
+    make('p', { class: 'verdict' }, `${series.title}: ${fitted.reason ?? `right in 75 % of the trials at ${describeThreshold(fitted)} ${series.unit}.`}`),
+    levels.length > 1 ? drawChart({ levels, fitted, series }) : null,
+  ]);
+  if (functions.length === 0) parts.push(make('p', { class: 'verdict' }, 'These tests have no levels: there is no function to fit.'));
+  const dropped = all.reduce((sum, results) => sum + results.frames_dropped, 0);
+  fill(node, ...parts, table,
+    all.length > 1 ? make('p', {}, `${all.length} viewers, pooled. The interval is that of their answers together; it does not tell how much viewers differ.`) : null,
+    all.length > 1 ? drawViewers(all, functions) : null,
     dropped ? make('p', {}, `${dropped} frames came too late and were not shown: close other programs, or take fewer pixels.`) : null);
 }

@@ -1,13 +1,17 @@
-// Which trials are shown, and what the answers say.
+// Which trials are shown, and what the answers of one viewer or several say.
 import { randomFrom, wilson } from './psychometric.js';
+
+/** @typedef {{scene: string, id: string, series: ?string, level: ?number}} Test */
+/** @typedef {Test & {testInterval: number, answer?: number}} Trial */
 
 /**
  * Every test as often as asked, in random order; in each trial the test is first or second at random.
- * @param {{id: string, level: ?number}[]} tests @param {number} each @param {number} seed
+ * @param {Test[]} tests @param {number} each @param {number} seed
+ * @returns {Trial[]}
  */
 export function makeTrials(tests, each, seed) {
   const random = randomFrom(seed);
-  const trials = tests.flatMap(test => Array.from({ length: each }, () => ({ id: test.id, level: test.level })));
+  const trials = tests.flatMap(({ scene, id, series, level }) => Array.from({ length: each }, () => ({ scene, id, series, level })));
   for (let i = trials.length - 1; i > 0; --i) {
     const k = Math.floor(random() * (i + 1));
     [trials[i], trials[k]] = [trials[k], trials[i]];
@@ -15,33 +19,58 @@ export function makeTrials(tests, each, seed) {
   return trials.map(trial => ({ ...trial, testInterval: random() < 0.5 ? 1 : 2 }));
 }
 
-/**
- * A row per test: trials, right answers, share with its interval.
- * @param {{id: string, level: ?number, testInterval: number, answer?: number}[]} trials
- */
+/** A row per test: trials, right answers, share with its interval. @param {Trial[]} trials */
 export function summarize(trials) {
   const rows = new Map();
-  for (const trial of trials) {
-    if (trial.answer === undefined) continue;
-    const row = rows.get(trial.id) ?? { id: trial.id, level: trial.level, trials: 0, correct: 0 };
+  for (const { scene, id, series, level, testInterval, answer } of trials) {
+    if (answer === undefined) continue;
+    const key = JSON.stringify([scene, id]);
+    const row = rows.get(key) ?? { scene, id, series, level, trials: 0, correct: 0 };
     ++row.trials;
-    row.correct += trial.answer === trial.testInterval ? 1 : 0;
-    rows.set(trial.id, row);
+    row.correct += answer === testInterval ? 1 : 0;
+    rows.set(key, row);
   }
   return [...rows.values()]
     .map(row => ({ ...row, share: row.correct / row.trials, interval: wilson(row.correct, row.trials) }))
-    .sort((a, b) => (a.level ?? Infinity) - (b.level ?? Infinity) || a.id.localeCompare(b.id));
+    .sort((a, b) => a.scene.localeCompare(b.scene) || (a.level ?? Infinity) - (b.level ?? Infinity) || a.id.localeCompare(b.id));
 }
 
-/** Rows of one level together. */
-export function byLevel(rows) {
+/** Rows of one level together, of all scenes. @param {?string} series of the levels */
+export function byLevel(rows, series) {
   const levels = new Map();
-  for (const { level, trials, correct } of rows) {
-    if (level === null || level === undefined) continue;
+  for (const { series: own, level, trials, correct } of rows) {
+    if (own !== series || level === null || level === undefined) continue;
     const sum = levels.get(level) ?? { level, trials: 0, correct: 0 };
     sum.trials += trials;
     sum.correct += correct;
     levels.set(level, sum);
   }
   return [...levels.values()].sort((a, b) => a.level - b.level);
+}
+
+function isTrial(trial) {
+  const isText = value => typeof value === 'string';
+  return trial && isText(trial.scene) && isText(trial.id) && (trial.series === null || isText(trial.series))
+    && (trial.level === null || Number.isFinite(trial.level)) && [1, 2].includes(trial.testInterval) && [1, 2].includes(trial.answer);
+}
+
+/**
+ * Results that were saved, checked. @param {string} text
+ * @throws Error saying what is wrong
+ */
+export function readResults(text) {
+  const results = JSON.parse(text);
+  if (results?.schema_version !== 2 || !Array.isArray(results.trials) || !Array.isArray(results.series)) throw new Error('it has no results of this test');
+  const wrong = results.trials.findIndex(trial => !isTrial(trial));
+  if (wrong >= 0) throw new Error(`trial ${wrong + 1} has no scene, test or answer`);
+  return results;
+}
+
+/** Results without those that are there twice. */
+export function withoutCopies(all) {
+  const seen = new Set();
+  return all.filter(({ made, trials }) => {
+    const key = JSON.stringify([made, trials]);
+    return !seen.has(key) && seen.add(key);
+  });
 }

@@ -9,6 +9,7 @@
 #include "engine/base/files.h"
 #include "render/compare/compare_luminance.h"
 #include "render/study/pages/script_json.h"
+#include "render/study/threshold_noise.h"
 
 namespace aleph {
 
@@ -36,20 +37,57 @@ const StudyAxis* find_level_axis(const Study& study) {
     return found == study.sweep.end() ? nullptr : &*found;
 }
 
-Json level_of(const VariantResult& variant, const StudyAxis* axis) {
-    if (axis == nullptr) return nullptr;
-    const auto found = variant.settings.find(axis->setting);
+/// Levels that belong to one psychometric function: of a setting that is swept, or of noise.
+struct LevelSeries {
+    std::string key, title, unit;
+    bool log = false;  ///< all levels are above 0
+};
+
+std::optional<double> level_of(const VariantResult& variant, const LevelSeries& series) {
+    const auto found = variant.settings.find(series.key);
     const double* value = found == variant.settings.end() ? nullptr : std::get_if<double>(&found->second);
-    return value == nullptr ? Json(nullptr) : Json(*value);
+    return value == nullptr ? std::nullopt : std::optional(*value);
 }
 
-Json describe_level(const StudyAxis* axis) {
-    if (axis == nullptr) return nullptr;
-    const bool positive =
-        std::ranges::all_of(axis->values, [](const SettingValue& value) { return std::get<double>(value) > 0.0; });
-    return {{"title", axis->setting == "error" ? "asked error" : axis->setting},
-            {"unit", axis->setting == "error" ? "visible thresholds" : ""},
-            {"log", positive}};
+/// Those of which there are variants.
+std::vector<LevelSeries> list_series(const Study& study, const StudyResults& results) {
+    std::vector<LevelSeries> series{{noise_key, "noise", "times the threshold"},
+                                    {zero_mean_noise_key, "noise without brightening", "times the threshold"}};
+    const StudyAxis* axis = find_level_axis(study);
+    if (axis != nullptr && axis->setting == "error")
+        series.push_back({"error", "asked error", "visible thresholds"});
+    else if (axis != nullptr && axis->setting != noise_key && axis->setting != zero_mean_noise_key)
+        series.push_back({axis->setting, axis->setting, ""});
+    std::erase_if(series, [&](LevelSeries& one) {
+        one.log = true;
+        bool found = false;
+        for (const VariantResult& variant : results.variants) {
+            const std::optional<double> level = level_of(variant, one);
+            found = found || level;
+            one.log = one.log && level.value_or(1.0) > 0.0;
+        }
+        return !found;
+    });
+    return series;
+}
+
+Json describe_tests(const StudyResults& results, const std::string& scene, const std::vector<LevelSeries>& series) {
+    Json tests = Json::array();
+    for (const VariantResult& variant : results.variants) {
+        if (std::ranges::find(variant.frames, scene, &FrameResult::scene) == variant.frames.end()) continue;
+        Json& test = tests.emplace_back();
+        test = {{"id", variant.name}, {"series", nullptr}, {"level", nullptr}, {"frames", Json::array()}};
+        for (const LevelSeries& one : series) {
+            const std::optional<double> level = level_of(variant, one);
+            if (!level) continue;
+            test["series"] = one.key;
+            test["level"] = *level;
+        }
+        for (const FrameResult& frame : variant.frames) {
+            if (frame.scene == scene) test["frames"].push_back(picture_link(frame.picture));
+        }
+    }
+    return tests;
 }
 
 }  // namespace
@@ -57,30 +95,28 @@ Json describe_level(const StudyAxis* axis) {
 std::string make_viewer_test(std::string_view page, const PreparedStudy& prepared, const StudyResults& results,
                              const StudyContext& context) {
     constexpr std::string_view place = "<!-- TEST DATA -->";
-    const Scene& scene = prepared.scenes.front().scene;
     const RenderSettings settings = with_settings_of(prepared.scenes.front(), prepared.study, {}).settings;
-    const std::string& name = prepared.scenes.front().name;
-    const StudyAxis* axis = find_level_axis(prepared.study);
-    Json json{{"schema_version", 1},
+    Json json{{"schema_version", 2},
               {"title", prepared.study.title},
               {"date", context.date},
               {"width", settings.picture.width},
               {"height", settings.picture.height},
-              {"frames_per_second", scene.film.frame_rate.per_second()},
-              {"pixels_per_degree", scene.film.viewing.pixels_per_degree},
-              {"display_white", scene.film.viewing.display_white},
-              {"level", describe_level(axis)},
-              {"reference", {{"frames", Json::array()}}},
-              {"tests", Json::array()}};
-    for (const JudgingFrame& frame : results.frames) {
-        if (frame.scene == name) json["reference"]["frames"].push_back(picture_link(frame.reference));
-    }
-    for (const VariantResult& variant : results.variants) {
-        if (std::ranges::find(variant.frames, name, &FrameResult::scene) == variant.frames.end()) continue;
-        Json& test = json["tests"].emplace_back();
-        test = {{"id", variant.name}, {"level", level_of(variant, axis)}, {"frames", Json::array()}};
-        for (const FrameResult& frame : variant.frames) {
-            if (frame.scene == name) test["frames"].push_back(picture_link(frame.picture));
+              {"series", Json::array()},
+              {"scenes", Json::array()}};
+    const std::vector<LevelSeries> series = list_series(prepared.study, results);
+    for (const LevelSeries& one : series)
+        json["series"].push_back({{"id", one.key}, {"title", one.title}, {"unit", one.unit}, {"log", one.log}});
+    for (const PreparedStudyScene& prepared_scene : prepared.scenes) {
+        const Film film = with_settings_of(prepared_scene, prepared.study, {}).scene.film;
+        Json& scene = json["scenes"].emplace_back();
+        scene = {{"name", prepared_scene.name},
+                 {"frames_per_second", film.frame_rate.per_second()},
+                 {"pixels_per_degree", film.viewing.pixels_per_degree},
+                 {"display_white", film.viewing.display_white},
+                 {"reference", Json::array()},
+                 {"tests", describe_tests(results, prepared_scene.name, series)}};
+        for (const JudgingFrame& frame : results.frames) {
+            if (frame.scene == prepared_scene.name) scene["reference"].push_back(picture_link(frame.reference));
         }
     }
     std::string text(page);

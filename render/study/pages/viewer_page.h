@@ -13,8 +13,9 @@ namespace aleph {
 /// The bundled page with a place for data; empty where the program was built without it.
 std::string_view viewer_template();
 
-/// The page with the frames of the study's first scene, in their order, as 8-bit pictures. The level of a variant is
-/// its value of the first sweep with numbers; without one there is none, and no function is fitted.
+/// The page with the frames of the study's scenes, in their order, as 8-bit sRGB pictures, with the viewing conditions
+/// of each scene. The level of a variant is the factor of its noise, or its value of the first sweep with numbers;
+/// without one there is none, and no function is fitted.
 /// @param page  viewer_template()
 /// @throws InputError if a picture of a run cannot be read
 std::string make_viewer_test(std::string_view page, const PreparedStudy& prepared, const StudyResults& results,

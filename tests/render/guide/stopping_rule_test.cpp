@@ -82,6 +82,47 @@ TEST(StoppingRule, MC21_RarelyLitPixelsKeepTheirMean) {
     }
 }
 
+/// Pictures of 10,000 pixels, each of whose samples sees a light of 1 with probability p.
+Mean draw_rarely_lit(const SamplingPlan& plan, double p, const Trial& trial) {
+    Mean pictures;
+    const auto draw = [p](RandomStream& random) { return random.next() < p ? 1.0 : 0.0; };
+    for (std::uint32_t run = 0; run < trial.times(12u); ++run) {
+        double sum = 0.0;
+        for (const PixelSamples& pixel : sample_picture(plan, 100, 100, run + trial.seed, draw).pixels)
+            sum += luminance(pixel.mean()) / 1e4;
+        pictures.add(sum);
+    }
+    return pictures;
+}
+
+TEST(StoppingRule, MC21_OwnSamplesMakeRarelyLitPixelsTooDark) {
+    // As (6.10) and (6.12) are printed, a pixel stops if its first 16 samples are dark, as .98^16 = 72 % of them are.
+    // With (6.12) the others go on to the end: one lit sample of 512 has a deviation of .044.
+    constexpr double p = 0.02, tolerance = 0.02, first = 16.0, most = 512.0;
+    const double lit = 1.0 - std::pow(1.0 - p, first);
+    for (const Sampling rule : {Sampling::consecutive, Sampling::variance}) {
+        SCOPED_TRACE(static_cast<int>(rule));
+        SamplingPlan plan = make_plan(rule, static_cast<int>(most), 100, 100, static_cast<float>(tolerance));
+        plan.stopping = Stopping::pixel;
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const Mean pictures = draw_rarely_lit(plan, p, trial);
+            trial.at_most(pictures, 0.9 * p);
+            if (rule == Sampling::variance) trial.near(pictures, p * (first + (most - first) * lit) / most);
+        }));
+        plan.stopping = Stopping::neighbourhood;
+        EXPECT_TRUE(holds([&](Trial& trial) { trial.near(draw_rarely_lit(plan, p, trial), p); }));
+    }
+}
+
+TEST(StoppingRule, OwnSamplesTellDifferenceAndDeviation) {
+    PixelSamples pixel;
+    for (const float value : {1.0f, 1.0f, 2.0f, 4.0f}) pixel.add(grey(value));
+    const MeanEstimate mean = estimate_own_mean(pixel);
+    EXPECT_EQ(mean.samples, 4);
+    EXPECT_NEAR(mean.error2, 1.0, 1e-6) << "the mean was 1 after two samples and is 2 after four";
+    EXPECT_NEAR(mean.variance, 2.0, 1e-6);
+}
+
 TEST(StoppingRule, MC21_SpikesKeepTheirMean) {
     const double p = 1e-3, spike = 1e4;
     expect_unbiased([=](RandomStream& random) { return random.next() < p ? spike : 0.0; }, p * spike, 1.0f);
@@ -200,8 +241,8 @@ TEST(StoppingRule, TheEyesReachIsAnAngle) {
 }
 
 TEST(StoppingRule, AnOutlineNeedsFewerSamplesThanItsOwnErrorSays) {
-    // Columns of deviation 8 in a picture of deviation 1: the energy within reach is within the tolerance with a third of
-    // the samples that each pixel's own error asks for.
+    // Columns of deviation 8 in a picture of deviation 1: the energy within reach is within the tolerance with a third
+    // of the samples that each pixel's own error asks for.
     constexpr int width = 45, height = 45, period = 9;
     constexpr float tolerance = 0.5f;
     SamplingPlan plan = make_plan(Sampling::threshold, 1 << 14, width, height, tolerance);
@@ -213,7 +254,8 @@ TEST(StoppingRule, AnOutlineNeedsFewerSamplesThanItsOwnErrorSays) {
     sample_by_stages(plan, pixels, [&](std::span<const PixelRange> ranges) {
         for (const auto& [x, y, first, last] : ranges) {
             for (int i = first; i < last; ++i) {
-                RandomStream random({1, 0, static_cast<std::uint32_t>(pixels.index(x, y)), static_cast<std::uint32_t>(i)});
+                RandomStream random(
+                    {1, 0, static_cast<std::uint32_t>(pixels.index(x, y)), static_cast<std::uint32_t>(i)});
                 const double deviation = plan.outlines(x, y) == Outline::none ? 1.0 : 8.0;
                 pixels(x, y).add(grey(static_cast<float>(10.0 + deviation * std::sqrt(12.0) * (random.next() - 0.5))));
             }
@@ -245,10 +287,10 @@ TEST(StoppingRule, LaterSamplesArePredictedFromThoseThatGoOn) {
 
 TEST(StoppingRule, TheVarianceRuleReadsDeviationOrError) {
     const MeanEstimate mean{64, 0.0, 0.04};
-    EXPECT_TRUE(is_enough(Sampling::variance, VarianceTest::standard_error, mean, 0.026));
-    EXPECT_FALSE(is_enough(Sampling::variance, VarianceTest::standard_error, mean, 0.024));
-    EXPECT_TRUE(is_enough(Sampling::variance, VarianceTest::deviation, mean, 0.21));
-    EXPECT_FALSE(is_enough(Sampling::variance, VarianceTest::deviation, mean, 0.19));
+    EXPECT_TRUE(is_enough(Sampling::variance, Stopping::neighbourhood, mean, 0.026));
+    EXPECT_FALSE(is_enough(Sampling::variance, Stopping::neighbourhood, mean, 0.024));
+    EXPECT_TRUE(is_enough(Sampling::variance, Stopping::pixel, mean, 0.21));
+    EXPECT_FALSE(is_enough(Sampling::variance, Stopping::pixel, mean, 0.19));
 }
 
 TEST(StoppingRule, TheProtocolDividesTheMostSamplesByAleph) {

@@ -31,7 +31,7 @@ const std::map<std::string, SettingValue>& other_values() {
                                                             {"min_radius_pixels", 2.5},
                                                             {"error", 0.5},
                                                             {"filter", "box"},
-                                                            {"variance_test", "deviation"},
+                                                            {"stopping", "pixel"},
                                                             {"light_step", 5.0},
                                                             {"subdivision_level", 3.0},
                                                             {"plan", "off"},

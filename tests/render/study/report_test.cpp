@@ -212,7 +212,9 @@ TEST(ViewerPage, HoldsSequencesWithTheirLevels) {
     study.scenes = {{source_folder() / "scenes/cornell/scene.json", "3-4"}};
     study.settings = {{"size", std::string("16x12")}, {"filter", std::string("box")}};
     study.reference = {"gather", 2, 1, {}};
+    study.settings["viewing.display_white"] = 250.0;
     study.sweep = {{"guide", {std::string("none")}}, {"spp", {1.0, 2.0}}};
+    study.variants = {{"clean", {{"noise", 0.0}}}, {"noisy", {{"zero_mean_noise", 2.0}}}};
     study.viewers = {{"own", {}}};
     const PreparedStudy prepared = prepare_study(study);
     const StudyResults results = run_study(prepared, folder.path());
@@ -222,15 +224,28 @@ TEST(ViewerPage, HoldsSequencesWithTheirLevels) {
     const auto json = nlohmann::json::parse(page.substr(start.size(), page.find("</script>") - start.size()));
     EXPECT_EQ(json["title"], "</script>");
     EXPECT_EQ(json["width"], 16);
-    EXPECT_EQ(json["frames_per_second"], 30.0);
-    EXPECT_EQ(json["level"]["title"], "spp") << "the first sweep with numbers";
-    EXPECT_EQ(json["reference"]["frames"].size(), 2u);
-    ASSERT_EQ(json["tests"].size(), 2u);
-    EXPECT_EQ(json["tests"][1]["level"], 2.0);
-    EXPECT_EQ(json["tests"][1]["frames"].size(), 2u);
-    const std::string link = json["tests"][0]["frames"][0];
+    ASSERT_EQ(json["series"].size(), 3u);
+    EXPECT_EQ(json["series"][0]["id"], "noise");
+    EXPECT_EQ(json["series"][0]["log"], false) << "a level of 0";
+    EXPECT_EQ(json["series"][1]["log"], true);
+    EXPECT_EQ(json["series"][2]["title"], "spp") << "the first sweep with numbers";
+    ASSERT_EQ(json["scenes"].size(), 1u);
+    const auto& scene = json["scenes"][0];
+    EXPECT_EQ(scene["frames_per_second"], 30.0);
+    EXPECT_EQ(scene["display_white"], 250.0) << "of the study";
+    EXPECT_EQ(scene["reference"].size(), 2u);
+    const auto& tests = scene["tests"];
+    ASSERT_EQ(tests.size(), 4u);
+    EXPECT_EQ(tests[1]["series"], "spp");
+    EXPECT_EQ(tests[1]["level"], 2.0);
+    EXPECT_EQ(tests[1]["frames"].size(), 2u);
+    const std::string link = tests[0]["frames"][0];
     EXPECT_TRUE(link.starts_with("data:image/png;base64,iVBOR")) << link.substr(0, 40);
-    EXPECT_NE(json["tests"][0]["frames"][0], json["tests"][1]["frames"][0]);
+    EXPECT_NE(tests[0]["frames"][0], tests[1]["frames"][0]);
+    EXPECT_EQ(tests[2]["series"], "noise");
+    EXPECT_EQ(tests[2]["frames"][0], scene["reference"][0]) << "no noise";
+    EXPECT_EQ(tests[3]["series"], "zero_mean_noise");
+    EXPECT_NE(tests[3]["frames"][0], scene["reference"][0]);
 }
 
 }  // namespace

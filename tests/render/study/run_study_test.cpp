@@ -2,6 +2,7 @@
 
 #include "render/study/run_study.h"
 #include "render/study/study_file.h"
+#include "render/study/threshold_noise.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
@@ -110,6 +111,68 @@ TEST(RunStudy, PicturesOfAnotherProgramAreJudgedAlikeWithoutCosts) {
     refused("other.####.exr", "another.####.exr");
     refused("\"pictures\"", "\"settings\": {}, \"picture\"");
     refused("\"name\": \"other\",", "\"name\": \"other\", \"settings\": {\"spp\": 1},");
+}
+
+TEST(RunStudy, NoiseErrsByTheThreshold) {
+    const ScratchFolder folder;
+    Study study = small_study();
+    study.sweep = {{"noise", {0.0, 0.5, 2.0}}};
+    study.variants = {{"fair", {{"zero_mean_noise", 1.0}}}};
+    const PreparedStudy prepared = prepare_study(study);
+    const StudyResults results = run_study(prepared, folder.path());
+    const auto metric = [&](std::size_t variant, const char* name) {
+        return results.variants.at(variant).metrics.at(name).value;
+    };
+    EXPECT_EQ(metric(0, "mean_error"), 0.0);
+    EXPECT_EQ(metric(0, "share_seen"), 0.0);
+    // Of 300 pixels; a mean of uniform numbers is off by .58 / sqrt(300) = .033 times their range.
+    EXPECT_NEAR(metric(1, "mean_error"), 0.25, 0.5 * 0.07);
+    EXPECT_NEAR(metric(2, "mean_error"), 1.0, 2.0 * 0.07);
+    EXPECT_EQ(metric(1, "share_beyond"), 0.0);
+    EXPECT_NEAR(metric(2, "share_beyond"), 50.0, 9.0);
+    EXPECT_NEAR(metric(3, "mean_error"), 0.5, 0.07);
+    EXPECT_LT(std::abs(metric(3, "bias")), 0.3 * metric(2, "bias"));
+    EXPECT_FALSE(results.variants[1].metrics.contains("processor_seconds"));
+    EXPECT_EQ(results.made, 0u);
+    EXPECT_EQ(numbers_of(run_study(prepared, folder.path())), numbers_of(results));
+
+    const auto refuse = [&](const SettingMap& settings) {
+        study.variants = {{"wrong", settings}};
+        expect_refusal(find_refusal([&] { prepare_study(study); }), "", "wrong", "");
+    };
+    refuse({{"noise", 1.0}, {"spp", 4.0}});
+    refuse({{"noise", 1.0}, {"zero_mean_noise", 1.0}});
+    refuse({{"noise", -1.0}});
+    refuse({{"zero_mean_noise", not_a_number}});
+    refuse({{"noise", true}});
+    study.settings["noise"] = 1.0;
+    EXPECT_THROW(prepare_study(study), InputError) << "of all variants and the reference";
+}
+
+TEST(ThresholdNoise, IsTheSameForASeedAndAnotherInEveryFrame) {
+    ChannelImage reference;
+    for (const char* name : {"R", "G", "B", "variance.Y"})
+        reference.channels.push_back({name, Image<float>(32, 32, 0.5f)});
+    reference.metadata["whiteLuminance"] = 200.0;
+    const Image<float> threshold(32, 32, 4.0f);
+    const auto red = [&](const ThresholdNoise& noise, std::uint32_t seed, std::int64_t frame) {
+        const ChannelImage noisy = add_threshold_noise(reference, threshold, noise, seed, frame);
+        EXPECT_EQ(noisy.channels.size(), 3u);
+        EXPECT_EQ(noisy.channels[0].values.pixels, noisy.channels[2].values.pixels) << "grey";
+        return noisy.channels[0].values.pixels;
+    };
+    const std::vector<float> one = red({1.0, false}, 3, 7);
+    EXPECT_EQ(red({1.0, false}, 3, 7), one);
+    EXPECT_NE(red({1.0, false}, 3, 8), one);
+    EXPECT_NE(red({1.0, false}, 4, 7), one);
+    // 4 cd/m2 of a white of 200 are .02.
+    EXPECT_GE(std::ranges::min(one), 0.5f);
+    EXPECT_LT(std::ranges::max(one), 0.5201f);
+    EXPECT_GT(std::ranges::max(one), 0.519f);
+    const std::vector<float> fair = red({2.0, true}, 3, 7);
+    EXPECT_GT(std::ranges::max(fair), 0.538f);
+    EXPECT_LT(std::ranges::min(fair), 0.462f);
+    EXPECT_GE(std::ranges::min(fair), 0.4599f);
 }
 
 TEST(RunStudy, DividedItEndsWithTheSameNumbers) {
