@@ -1,4 +1,4 @@
-#include "engine/scene_file/advice.h"
+#include "engine/scene_file/schema.h"
 
 #include <fmt/format.h>
 

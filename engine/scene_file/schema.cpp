@@ -1,8 +1,6 @@
 #include "engine/scene_file/schema.h"
 
 #include "engine/base/errors.h"
-#include "engine/json/schema.h"
-#include "engine/scene_file/advice.h"
 
 namespace aleph {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The subcommands. Each function adds one to the program; when it is chosen, it sets the command that is to be run.
 
-#include "render/cli/options.h"
+#include "render/cli/support/options.h"
 
 namespace aleph {
 

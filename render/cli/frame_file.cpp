@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "engine/image/image_file.h"
-#include "render/cli/output_path.h"
+#include "render/cli/support/output_path.h"
 #include "render/output/flow_file.h"
 #include "render/output/frame_files.h"
 #include "render/output/map_preview.h"

@@ -12,8 +12,8 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/frame_file.h"
-#include "render/cli/output_path.h"
-#include "render/cli/progress.h"
+#include "render/cli/support/output_path.h"
+#include "render/cli/support/progress.h"
 #include "render/cli/watch.h"
 #include "render/guide/error_report.h"
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/copied_frames.h"
-#include "render/cli/frame_claims.h"
-#include "render/cli/progress.h"
-#include "render/cli/render_signals.h"
+#include "render/cli/support/copied_frames.h"
+#include "render/cli/support/frame_claims.h"
+#include "render/cli/support/progress.h"
+#include "render/cli/support/render_signals.h"
 #include "render/cli/scene_options.h"
-#include "render/cli/statistics_file.h"
+#include "render/cli/support/statistics_file.h"
 #include "render/frame/frame_output.h"
 #include "render/output/frame_files.h"
 #include "render/output/verified_statistics.h"

@@ -13,7 +13,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/film.h"
 #include "render/cli/maps_help.h"
-#include "render/cli/output_path.h"
+#include "render/cli/support/output_path.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/write_frames.h"
 #include "render/images/image_sequence.h"

@@ -7,7 +7,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/json/load_limits.h"
-#include "render/cli/options.h"
+#include "render/cli/support/options.h"
 #include "render/settings/settings.h"
 
 namespace aleph {

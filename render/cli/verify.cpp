@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/errors.h"
-#include "render/cli/progress.h"
+#include "render/cli/support/progress.h"
 #include "render/settings/measure.h"
 #include "render/verify/probe.h"
 

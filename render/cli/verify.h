@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/progress.h"
+#include "render/cli/support/progress.h"
 #include "render/cli/scene_options.h"
 #include "render/frame/sequence.h"
 #include "render/output/verified_statistics.h"

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "engine/base/errors.h"
-#include "render/cli/render_signals.h"
+#include "render/cli/support/render_signals.h"
 
 namespace aleph {
 

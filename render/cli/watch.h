@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "engine/base/files.h"
-#include "render/cli/image_viewer.h"
+#include "render/cli/support/image_viewer.h"
 #include "render/cli/scene_options.h"
 
 namespace aleph {

@@ -9,8 +9,8 @@
 #include "engine/base/parallel.h"
 #include "render/cli/budget.h"
 #include "render/cli/film.h"
-#include "render/cli/output_conflicts.h"
-#include "render/cli/output_path.h"
+#include "render/cli/support/output_conflicts.h"
+#include "render/cli/support/output_path.h"
 #include "render/cli/verify.h"
 
 namespace aleph {

@@ -94,8 +94,6 @@ std::string name_scene(const std::filesystem::path& file) {
 
 PreparedStudy prepare_study(Study study) {
     PreparedStudy prepared;
-    prepared.variants = list_variants(study);
-    if (study.search) prepared.candidates = list_candidates(study);
     for (const StudyScene& scene : study.scenes) {
         prepared.scenes.push_back(prepare_scene(scene));
         const std::string& name = prepared.scenes.back().name;
@@ -104,8 +102,10 @@ PreparedStudy prepare_study(Study study) {
     }
     if (study.effects) {
         for (StudyVariant& variant : list_ledger_variants(prepared.scenes, study))
-            prepared.variants.push_back(std::move(variant));
+            study.variants.push_back(std::move(variant));
     }
+    prepared.variants = list_variants(study);
+    if (study.search) prepared.candidates = list_candidates(study);
     prepared.metrics = list_metrics(study);
     if (std::ranges::none_of(prepared.scenes, has_consecutive_frames))
         std::erase_if(prepared.metrics, [](const Metric& metric) {

@@ -84,7 +84,7 @@ struct Study {
 
 /// The variants of the sweep, each named by its settings ("error=1,guide=none"), then the named ones. The last axis
 /// changes fastest.
-/// @throws InputError for more than 10,000, two variants of one name, or none at all unless there is a search or a ledger
+/// @throws InputError for more than 10,000, two variants of one name, or none at all unless there is a search
 std::vector<StudyVariant> list_variants(const Study& study);
 
 /// "error=1,guide=none"

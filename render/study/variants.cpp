@@ -52,7 +52,7 @@ std::vector<StudyVariant> list_variants(const Study& study) {
     SettingMap settings;
     if (!study.sweep.empty()) expand(study, 0, settings, variants);
     for (const StudyVariant& variant : study.variants) variants.push_back(variant);
-    if (variants.empty() && !study.search && !study.effects) throw InputError("", "sweep", "the study has no variants");
+    if (variants.empty() && !study.search) throw InputError("", "sweep", "the study has no variants");
     std::set<std::string> names;
     for (const StudyVariant& variant : variants) {
         if (!names.insert(variant.name).second)

@@ -10,7 +10,7 @@
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "render/budget/cost_pilot.h"
-#include "render/cli/options.h"
+#include "render/cli/support/options.h"
 #include "render/frame/sequence.h"
 #include "render/settings/measure.h"
 #include "render/study/prepared_study.h"

@@ -9,8 +9,8 @@
 
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
-#include "render/cli/options.h"
-#include "render/cli/progress.h"
+#include "render/cli/support/options.h"
+#include "render/cli/support/progress.h"
 #include "render/frame/sequence.h"
 #include "render/study/prepared_study.h"
 #include "render/study/processor_time.h"

@@ -13,7 +13,7 @@
 #include "motion/picture_motion.h"
 #include "motion/raster.h"
 #include "motion/raster_motion.h"
-#include "render/cli/options.h"
+#include "render/cli/support/options.h"
 #include "render/frame/sequence.h"
 #include "render/output/sheet.h"
 #include "render/pixels/pixel_surfaces.h"

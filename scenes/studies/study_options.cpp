@@ -5,7 +5,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "render/cli/options.h"
+#include "render/cli/support/options.h"
 
 namespace aleph {
 

@@ -32,9 +32,10 @@ const std::vector<Layer>& layers() {
             stages.push_back(folder);
         // Each includes those before it.
         std::vector<Layer> rooms;
-        for (const char* room : {"settings", "surface", "pixels", "guide", "light",       "path",   "cache",
-                                 "estimate", "time",    "shade",  "plan",  "frame",       "output", "compare",
-                                 "images",   "budget",  "verify", "study", "study/pages", "python", "cli"}) {
+        for (const char* room :
+             {"settings", "surface", "pixels",      "guide",  "light",       "path",    "cache",  "estimate",
+              "time",     "shade",   "plan",        "frame",  "output",      "compare", "images", "budget",
+              "verify",   "study",   "study/pages", "python", "cli/support", "cli"}) {
             rooms.push_back({std::string("render/") + room, stages});
             stages.push_back(rooms.back().folder);
         }
@@ -169,7 +170,7 @@ TEST(House, CheckerSeesEveryKindOfViolation) {
     EXPECT_EQ(count("engine/image/a.h", "#include \"engine/load/load_scene.h\"\n"), 1u);
     EXPECT_EQ(count("perception/vision/a.cpp", "#include \"perception/perception.h\"\n"), 1u);
     EXPECT_EQ(count("motion/a.cpp", "#include \"perception/perception.h\"\n"), 1u);
-    EXPECT_EQ(count("render/frame/a.cpp", "#include \"render/cli/options.h\"\n"), 1u);
+    EXPECT_EQ(count("render/frame/a.cpp", "#include \"render/cli/support/options.h\"\n"), 1u);
     EXPECT_EQ(count("render/frame/a.cpp", "#include \"../render/settings/settings.h\"\n"), 1u);
     EXPECT_EQ(count("render/frame/a.cpp", "#include \"tests/support/helper.h\"\n"), 1u);
 

@@ -11,7 +11,7 @@
 #include "render/cli/compare/compare_print.h"
 #include "render/cli/compare/junit_file.h"
 #include "render/cli/compare/seen_file.h"
-#include "render/cli/output_conflicts.h"
+#include "render/cli/support/output_conflicts.h"
 
 namespace aleph {
 

@@ -9,9 +9,9 @@
 #include "render/cli/compare/junit_file.h"
 #include "render/cli/compare/seen_file.h"
 #include "render/settings/frame_pattern.h"
-#include "render/cli/options.h"
-#include "render/cli/output_conflicts.h"
-#include "render/cli/progress.h"
+#include "render/cli/support/options.h"
+#include "render/cli/support/output_conflicts.h"
+#include "render/cli/support/progress.h"
 #include "render/settings/frame_list.h"
 
 namespace aleph {

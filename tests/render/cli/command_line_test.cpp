@@ -8,7 +8,7 @@
 
 #include "engine/base/sampling.h"
 #include "engine/image/image_file.h"
-#include "render/cli/options.h"
+#include "render/cli/support/options.h"
 #include "tests/support/german_locale.h"
 #include "tests/support/grey_image.h"
 #include "tests/support/paths.h"

@@ -2,7 +2,7 @@
 
 #include <climits>
 
-#include "render/cli/output_path.h"
+#include "render/cli/support/output_path.h"
 #include "render/settings/frame_list.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"

@@ -1,6 +1,6 @@
 // Locks on frames, and text beside the pixels of pictures.
 
-#include "render/cli/frame_locks.h"
+#include "render/cli/support/frame_locks.h"
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "tests/support/read_bytes.h"

@@ -1,6 +1,6 @@
 // No output replaces a file that the same command reads, or another output.
 
-#include "render/cli/output_conflicts.h"
+#include "render/cli/support/output_conflicts.h"
 #include "engine/image/image_file.h"
 #include "tests/support/files/gltf_draft.h"
 #include "tests/support/read_bytes.h"

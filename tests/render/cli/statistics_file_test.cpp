@@ -4,8 +4,8 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
-#include "render/cli/copied_frames.h"
-#include "render/cli/statistics_file.h"
+#include "render/cli/support/copied_frames.h"
+#include "render/cli/support/statistics_file.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -1,4 +1,4 @@
-#include "render/cli/frame_claims.h"
+#include "render/cli/support/frame_claims.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "render/cli/progress.h"
+#include "render/cli/support/progress.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>

@@ -1,4 +1,4 @@
-#include "render/cli/output_path.h"
+#include "render/cli/support/output_path.h"
 
 #include <fmt/format.h>
 

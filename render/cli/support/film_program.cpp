@@ -1,4 +1,4 @@
-#include "render/cli/film_program.h"
+#include "render/cli/support/film_program.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "render/cli/frame_locks.h"
+#include "render/cli/support/frame_locks.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "render/cli/render_signals.h"
+#include "render/cli/support/render_signals.h"
 
 namespace aleph {
 

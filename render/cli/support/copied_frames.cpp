@@ -1,4 +1,4 @@
-#include "render/cli/copied_frames.h"
+#include "render/cli/support/copied_frames.h"
 
 #include <fmt/format.h>
 

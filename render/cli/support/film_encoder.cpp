@@ -1,4 +1,4 @@
-#include "render/cli/film_encoder.h"
+#include "render/cli/support/film_encoder.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "render/cli/film_program.h"
+#include "render/cli/support/film_program.h"
 #include "render/settings/fingerprint.h"
 
 namespace aleph {

@@ -1,4 +1,4 @@
-#include "render/cli/output_conflicts.h"
+#include "render/cli/support/output_conflicts.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

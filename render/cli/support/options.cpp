@@ -1,4 +1,4 @@
-#include "render/cli/options.h"
+#include "render/cli/support/options.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/json/close_names.h"
-#include "render/cli/render_signals.h"
+#include "render/cli/support/render_signals.h"
 
 namespace aleph {
 

@@ -1,4 +1,4 @@
-#include "render/cli/statistics_file.h"
+#include "render/cli/support/statistics_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

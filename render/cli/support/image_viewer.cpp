@@ -1,4 +1,4 @@
-#include "render/cli/image_viewer.h"
+#include "render/cli/support/image_viewer.h"
 
 #include <netdb.h>
 #include <sys/socket.h>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/frame_locks.h"
+#include "render/cli/support/frame_locks.h"
 
 namespace aleph {
 
