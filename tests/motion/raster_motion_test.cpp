@@ -112,11 +112,7 @@ TEST(RasterMotion, TheFrameBeforeAndNone) {
 
 TEST(RasterMotion, IsNoLongerThanThePictureNorWithoutANumber) {
     Scene scene;
-    Mesh floor;
-    floor.positions = {{-1e7f, -1.0f, 1e7f}, {1e7f, -1.0f, 1e7f}, {0.0f, -1.0f, -1e7f}};
-    floor.triangles = {{0, 1, 2}};
-    scene.meshes = {floor};
-    add_node(scene, Node{.meshes = {0}});
+    add_endless_floor(scene);
     Node mount{};
     mount.transform.translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -1.0));
     add_camera(scene, add_node(scene, mount));

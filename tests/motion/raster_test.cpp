@@ -154,11 +154,7 @@ TEST(Raster, TrianglesSmallerThanPixelsLeaveNoGaps) {
 
 TEST(Raster, AFloorReachesFromBehindTheCameraToTheHorizon) {
     Scene scene;
-    Mesh floor;
-    floor.positions = {{-1e7f, -1.0f, 1e7f}, {1e7f, -1.0f, 1e7f}, {0.0f, -1.0f, -1e7f}};
-    floor.triangles = {{0, 1, 2}};
-    scene.meshes = {floor};
-    add_node(scene, Node{.meshes = {0}});
+    add_endless_floor(scene);
     add_camera(scene);
     const Image<Hit> items = rasterize(scene, make_posed_view(scene, 0.0, 0, 80, 60));
     for (int y = 0; y < 60; ++y)

@@ -39,6 +39,15 @@ inline int add_camera(Scene& scene, int parent = no_index, double fov = std::num
     return add_node(scene, node);
 }
 
+/// One triangle a metre below the origin that reaches from behind a camera there to the horizon.
+inline int add_endless_floor(Scene& scene) {
+    Mesh mesh;
+    mesh.positions = {{-1e7f, -1.0f, 1e7f}, {1e7f, -1.0f, 1e7f}, {0.0f, -1.0f, -1e7f}};
+    mesh.triangles = {{0, 1, 2}};
+    scene.meshes.push_back(mesh);
+    return add_node(scene, Node{.meshes = {static_cast<int>(scene.meshes.size()) - 1}});
+}
+
 /// Random triangles within a box around the origin.
 inline int add_triangle_soup(Scene& scene, int triangles, float half_size) {
     std::mt19937 random(7);

@@ -136,7 +136,8 @@ void add_explain_command(CLI::App& app, Command& command) {
     add_setting_options(*explain_app, options->settings);
     explain_app->footer(
         "The effects plan says which effects a frame is rendered with, why, and how much those that are left out can "
-        "change: --force and --forbid override it, --plan off simulates everything.\n"
+        "change: --force and --forbid override it, --plan off simulates everything. `aleph study --effects` measures "
+        "what each costs and what a viewer would miss without it.\n"
         "If files that the scene names are missing, all of them are listed.\n"
         "Paths of more than 256 bytes are shortened in the middle, where the hash of the whole path tells them apart; "
         "the text indents 32 levels.\n\n"
