@@ -139,7 +139,7 @@ class ShiftedResponses {
     std::array<std::vector<TemporalResponse>, velocity_nodes> responses_;
 };
 
-/// What a display that holds its frames leaves of each annulus and band, for each velocity of what is tracked.
+/// Shares of each annulus and band that a display leaves which holds its frames, at a velocity of what is tracked.
 struct HeldShares {
     std::array<double, frequency_nodes> squares{};
     std::array<double, noise_bands> bands{};

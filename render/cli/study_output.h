@@ -32,7 +32,7 @@ void print_table(const PreparedStudy& prepared, const std::vector<VariantResult>
 /// The head, and a row per variant with the means over its frames.
 void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out);
 
-/// What each effect costs and what a viewer misses without it, scene by scene.
+/// Prints, scene by scene, what each effect costs and what a viewer misses without it.
 void print_ledger(const std::vector<SceneLedger>& ledgers, bool markdown, std::ostream& out);
 
 /// Files that write_study writes beside the usual ones.

@@ -67,9 +67,12 @@ Json to_json(const std::optional<MeasuredValue>& value) {
 }  // namespace
 
 std::vector<StudyVariant> list_ledger_variants(const std::vector<PreparedStudyScene>& scenes, const Study& study) {
-    EffectSet simulated;
+    EffectSet simulated, forbidden;
     for (const PreparedStudyScene& scene : scenes) {
         const SceneWithSettings own = with_settings_of(scene, study, {});
+        for (const EffectName& effect : effect_list) {
+            if (own.settings.effects.forbid.contains(effect.id)) forbidden.add(effect.id);
+        }
         Sequence sequence(own.scene, own.settings);
         for (const int frame : scene.frames) {
             const EffectsPlan plan = sequence.plan(frame);
@@ -78,10 +81,14 @@ std::vector<StudyVariant> list_ledger_variants(const std::vector<PreparedStudySc
             }
         }
     }
+    std::string others;  // a variant's setting takes the place of the study's and the scene's
+    for (const EffectName& effect : effect_list) {
+        if (forbidden.contains(effect.id)) others += std::string(",") + effect.name;
+    }
     std::vector<StudyVariant> variants{{complete, {}}};
     for (const EffectName& effect : effect_list) {
-        if (simulated.contains(effect.id))
-            variants.push_back({variant_without(effect.name), {{"forbid", std::string(effect.name)}}});
+        if (simulated.contains(effect.id) && !forbidden.contains(effect.id))
+            variants.push_back({variant_without(effect.name), {{"forbid", effect.name + others}}});
     }
     return variants;
 }

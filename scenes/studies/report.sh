@@ -36,7 +36,7 @@ run() {
       study pool pool
       bash render/report/picture.sh build out/studies/pool/report.html scenes/studies/report.jpg ;;
     knob) study knob knob -t 1 ;;
-    effects) study effects effects -t 1 --repeats 3 ;;
+    effects) study effects effects -t 1 --repeats 3 --markdown ;;
     thesis-pool | thesis-gallery | thesis-antique-room) both "$1" ;;
     motion)
       build/study_motion scenes/boomerang/scene.json --frame 24 --set spp=8 --set gather=256 --set light_step=0 --markdown -t 1 \

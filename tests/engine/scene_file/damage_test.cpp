@@ -40,7 +40,7 @@ const std::string whole_file = R"({"aleph": 1, "name": "n", "fps": "30000/1001",
     {"scale": {"cycle": [0, 0.25], "period": 1, "values": [1, [1, 2, 3]]}, "translation": {"interpolation": "cubic",
       "keys": [[0, [0, 0, 0], [1, 1, 1], [0, 0, 0]], [9, [0, 0, 0], [2, 2, 2], [0, 0, 0]]]}}]})";
 
-/// What becomes keys on loading: many of them, so that this is a short file of its own.
+/// Elements that become keys on loading: many of them, so that this is a short file of its own.
 const std::string guided_file = R"({"aleph": 1, "frames": [0, 9], "nodes": [{"name": "b1"},
     {"name": "d", "look_at": "b1", "up": [0, 0, 1], "translation": {"interpolation": "smooth", "keys": [[0, [9, 0, 0]], [4, {"named": "v"}], [9, [0, 5, 1]]]}},
     {"follow_path": {"points": [[0, 0, 0], {"named": "v"}, [2, 0, 2]], "closed": true, "at": {"named": "t"}, "align": true, "up": [0, 1, 0]}},

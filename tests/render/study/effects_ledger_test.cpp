@@ -14,11 +14,11 @@
 namespace aleph {
 namespace {
 
-Study ledger_study() {
+Study ledger_study(const char* more = "") {
     const std::string scene = (source_folder() / "scenes/cornell/scene.json").string();
     return parse_study(fmt::format(R"({{"scenes": [{{"scene": "{}", "frames": "3"}}], "size": "20x15", "effects": true,
-        "settings": {{"light_step": 0, "error": 2}}, "reference": {{"passes": 2, "spp": 1024}}}})",
-                                   scene),
+        "settings": {{"light_step": 0, "error": 2{}}}, "reference": {{"passes": 2, "spp": 1024}}}})",
+                                   scene, more),
                        "ledger.json");
 }
 
@@ -61,6 +61,16 @@ TEST(EffectsLedger, TellsWhatEachEffectThatASceneCallsForBrings) {
     EXPECT_EQ(of_indirect["seen"]["value"], indirect.seen->value);
     EXPECT_EQ(of_indirect["seconds"]["value"], indirect.seconds->value);
     EXPECT_TRUE(json[0]["effects"][static_cast<std::size_t>(Effect::textures)]["seen"].is_null());
+}
+
+TEST(EffectsLedger, KeepsWhatTheStudyForbids) {
+    const PreparedStudy prepared = prepare_study(ledger_study(R"(, "forbid": "motion,emission")"));
+    const auto without = [&](const char* effect) {
+        return std::ranges::find(prepared.variants, std::string("without ") + effect, &StudyVariant::name);
+    };
+    EXPECT_EQ(without("emission"), prepared.variants.end());
+    ASSERT_NE(without("direct_light"), prepared.variants.end());
+    EXPECT_EQ(without("direct_light")->settings.at("forbid"), SettingValue("direct_light,emission,motion"));
 }
 
 }  // namespace

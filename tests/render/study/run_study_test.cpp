@@ -125,7 +125,7 @@ TEST(RunStudy, NoiseErrsByTheThreshold) {
     };
     EXPECT_EQ(metric(0, "mean_error"), 0.0);
     EXPECT_EQ(metric(0, "share_seen"), 0.0);
-    // Of 300 pixels; a mean of uniform numbers is off by .58 / sqrt(300) = .033 times their range.
+    // The mean of 300 uniform numbers is off by .58 / sqrt(300) = .033 times their range.
     EXPECT_NEAR(metric(1, "mean_error"), 0.25, 0.5 * 0.07);
     EXPECT_NEAR(metric(2, "mean_error"), 1.0, 2.0 * 0.07);
     EXPECT_EQ(metric(1, "share_beyond"), 0.0);
