@@ -64,13 +64,13 @@ TEST(EffectsLedger, TellsWhatEachEffectThatASceneCallsForBrings) {
 }
 
 TEST(EffectsLedger, KeepsWhatTheStudyForbids) {
-    const PreparedStudy prepared = prepare_study(ledger_study(R"(, "forbid": "motion,emission")"));
+    const PreparedStudy prepared = prepare_study(ledger_study(R"(, "forbid": "motion,area_shadows")"));
     const auto without = [&](const char* effect) {
         return std::ranges::find(prepared.variants, std::string("without ") + effect, &StudyVariant::name);
     };
-    EXPECT_EQ(without("emission"), prepared.variants.end());
+    EXPECT_EQ(without("area_shadows"), prepared.variants.end());
     ASSERT_NE(without("direct_light"), prepared.variants.end());
-    EXPECT_EQ(without("direct_light")->settings.at("forbid"), SettingValue("direct_light,emission,motion"));
+    EXPECT_EQ(without("direct_light")->settings.at("forbid"), SettingValue("direct_light,area_shadows,motion"));
 }
 
 }  // namespace
