@@ -46,6 +46,12 @@ MotionField make_checked(const Image<glm::dvec2>& ways, const Image<glm::dvec2>&
     return field;
 }
 
+FlowPair search_both_ways(const SearchedPicture& first, const SearchedPicture& second, PictureSearch search) {
+    if (search == PictureSearch::flow) return compute_flow(first.grey, second.grey);
+    return {compute_image_motion(first.census, second.census).displacement,
+            compute_image_motion(second.census, first.census).displacement};
+}
+
 }  // namespace
 
 SearchedPicture prepare_picture(const Image<Rgb>& picture, PictureSearch search) {
@@ -58,17 +64,18 @@ SearchedPicture prepare_picture(const Image<Rgb>& picture, PictureSearch search)
     return prepared;
 }
 
-PictureMotion compute_picture_motion(const SearchedPicture& first, const SearchedPicture& second,
-                                     PictureSearch search) {
-    if (search == PictureSearch::flow) {
-        const FlowPair flow = compute_flow(first.grey, second.grey);
-        return {make_checked(flow.there, flow.back), make_checked(flow.back, flow.there)};
-    }
-    PictureMotion motion{compute_image_motion(first.census, second.census),
-                         compute_image_motion(second.census, first.census)};
-    if (search == PictureSearch::census) return motion;
-    return {make_checked(motion.there.displacement, motion.back.displacement),
-            make_checked(motion.back.displacement, motion.there.displacement)};
+MotionField compute_picture_motion(const SearchedPicture& first, const SearchedPicture& second, PictureSearch search) {
+    if (search == PictureSearch::census) return compute_image_motion(first.census, second.census);
+    const FlowPair ways = search_both_ways(first, second, search);
+    return make_checked(ways.there, ways.back);
+}
+
+PictureMotions compute_picture_motions(const SearchedPicture& first, const SearchedPicture& second,
+                                       PictureSearch search) {
+    if (search == PictureSearch::census)
+        return {compute_image_motion(first.census, second.census), compute_image_motion(second.census, first.census)};
+    const FlowPair ways = search_both_ways(first, second, search);
+    return {make_checked(ways.there, ways.back), make_checked(ways.back, ways.there)};
 }
 
 MotionField make_unknown_motion(int width, int height) {

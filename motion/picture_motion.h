@@ -22,18 +22,22 @@ struct SearchedPicture {
 /// @throws InputError if the picture is empty
 SearchedPicture prepare_picture(const Image<Rgb>& picture, PictureSearch search);
 
-/// Motion from the first of two pictures to the second, and from the second to the first.
-struct PictureMotion {
-    MotionField there, back;
-};
-
+/// Motion from the first of two pictures to the second.
 /// The check: a pixel is `valid` if the motion found where it arrives leads back to it, to within
 /// sqrt(.01 (a^2 + b^2) + .5) pixels for motions of lengths a and b (Sundaram et al., "Dense Point Trajectories by
 /// GPU-Accelerated Large Displacement Optical Flow", ECCV 2010). Otherwise it has `no_counterpart` and does not move;
 /// where the motion leads out of the picture, nothing can be checked: `leaves_screen`.
 /// The same bits for any number of threads.
 /// @throws InputError as compute_image_motion and compute_flow
-PictureMotion compute_picture_motion(const SearchedPicture& first, const SearchedPicture& second, PictureSearch search);
+MotionField compute_picture_motion(const SearchedPicture& first, const SearchedPicture& second, PictureSearch search);
+
+struct PictureMotions {
+    MotionField there, back;
+};
+
+/// The same, and from the second picture to the first; the searches are shared.
+PictureMotions compute_picture_motions(const SearchedPicture& first, const SearchedPicture& second,
+                                       PictureSearch search);
 
 /// The motion of a picture that is compared with no other.
 MotionField make_unknown_motion(int width, int height);

@@ -11,8 +11,8 @@
 #include "engine/load/load_scene.h"
 #include "engine/pose/frame_keys.h"
 #include "render/cli/commands.h"
-#include "render/cli/support/output_conflicts.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/support/output_conflicts.h"
 
 namespace aleph {
 

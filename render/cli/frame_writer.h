@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "render/cli/scene_options.h"
 #include "render/cli/support/copied_frames.h"
 #include "render/cli/support/frame_claims.h"
 #include "render/cli/support/progress.h"
 #include "render/cli/support/render_signals.h"
-#include "render/cli/scene_options.h"
 #include "render/cli/support/statistics_file.h"
 #include "render/frame/frame_output.h"
 #include "render/output/frame_files.h"

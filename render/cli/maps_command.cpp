@@ -13,8 +13,8 @@
 #include "render/cli/commands.h"
 #include "render/cli/film.h"
 #include "render/cli/maps_help.h"
-#include "render/cli/support/output_path.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/support/output_path.h"
 #include "render/cli/write_frames.h"
 #include "render/images/image_sequence.h"
 #include "render/images/picture_frame.h"
@@ -119,7 +119,7 @@ PreparedImages prepare_images(const MapsOptions& options) {
     }
     apply_settings(prepared.settings, given, "");
     MotionSource& source = prepared.settings.guide.motion;
-    if (!picture_search(source)) source = best_picture_source();
+    source = source_for_pictures(source);
     if (!first.channels.empty()) {
         prepared.settings.picture.width = first.channels.front().values.width;
         prepared.settings.picture.height = first.channels.front().values.height;

@@ -50,7 +50,8 @@ VerifiedStatistics verify_frames(VerifyRequest request, PictureKeeper& pictures,
             probes.push_back(prober.measure(probes.size()));
             clock.add_to(seconds);
             const double of_least = static_cast<double>(probes.size()) / static_cast<double>(least_probes);
-            progress.update(request.seconds * std::min(seconds / request.seconds, of_least), number(probes.size(), "block"));
+            progress.update(request.seconds * std::min(seconds / request.seconds, of_least),
+                            number(probes.size(), "block"));
         }
     }
     VerifiedStatistics verified = sum_up(probes, request.settings.error > 0.0 ? request.settings.error : 1.0);
@@ -72,11 +73,13 @@ std::string describe_verified(const VerifiedStatistics& verified) {
     if (verified.error != 1.0)
         text += fmt::format("{} % are seen to differ (95 %: {} to {} %), ", format_percent(verified.seen.share),
                             format_percent(verified.seen.low), format_percent(verified.seen.high));
-    text += fmt::format("{} % flicker, {} % last; by paths of 16 bounces or more, over {}\n", format_percent(verified.flicker.share),
-                        format_percent(verified.lasting.share), number(verified.window, "frame"));
+    text += fmt::format("{} % flicker, {} % last; by paths of 16 bounces or more, over {}\n",
+                        format_percent(verified.flicker.share), format_percent(verified.lasting.share),
+                        number(verified.window, "frame"));
     if (verified.unsettled > 0) {
-        text += fmt::format("aleph: verified: in {} noise of the paths was left, so that their shares are less certain\n",
-                            number(verified.unsettled, "block"));
+        text +=
+            fmt::format("aleph: verified: in {} noise of the paths was left, so that their shares are less certain\n",
+                        number(verified.unsettled, "block"));
     }
     return text;
 }

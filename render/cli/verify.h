@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/support/progress.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/support/progress.h"
 #include "render/frame/sequence.h"
 #include "render/output/verified_statistics.h"
 #include "render/verify/picture_keeper.h"
@@ -36,8 +36,8 @@ struct VerifyRequest {
 VerifiedStatistics verify_frames(VerifyRequest request, PictureKeeper& pictures, std::optional<double> estimated,
                                  const ProgressLook& look);
 
-/// "verified: 0.8 % of the pixels are seen to differ (95 %: 0.3 to 1.6 %, 23 blocks in 12 frames), estimated: 0.9 %", and
-/// what was judged.
+/// "verified: 0.8 % of the pixels are seen to differ (95 %: 0.3 to 1.6 %, 23 blocks in 12 frames), estimated: 0.9 %",
+/// and what was judged.
 std::string describe_verified(const VerifiedStatistics& verified);
 
 }  // namespace aleph

@@ -9,8 +9,8 @@
 #include <mutex>
 
 #include "engine/base/files.h"
-#include "render/cli/support/image_viewer.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/support/image_viewer.h"
 
 namespace aleph {
 

@@ -116,7 +116,7 @@ MotionField FrameMotion::search_other(const FrameWork& work, const FrameScene& h
     sanitize_estimate(estimate);
     clock.add_to(out.statistics.seconds.estimate);
     MotionField found =
-        compute_picture_motion(prepare_picture(out.estimate, search), prepare_picture(estimate, search), search).there;
+        compute_picture_motion(prepare_picture(out.estimate, search), prepare_picture(estimate, search), search);
     if (work.other == OtherFrame::previous) turn_round(found);
     return found;
 }

@@ -62,13 +62,19 @@ OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int6
 }
 
 struct ImageSequence::State {
+    /// The part that both kinds of sequences share.
+    State(Scene given, const RenderSettings& chosen)
+        : shot(std::move(given)), settings(chosen), search(*picture_search(source_for_pictures(chosen.guide.motion))) {
+        validate(chosen);
+    }
+
     Scene shot;
     FrameFiles files;
     RenderSettings settings;
-    std::function<PictureFrame(std::int64_t)> read;
     PictureSearch search;
-    std::map<std::int64_t, LoadedFrame> loaded;   ///< the frame used last and its neighbours
-    std::map<std::int64_t, PictureMotion> pairs;  ///< by the first of two frames: those with the frame used last
+    std::function<PictureFrame(std::int64_t)> read;
+    std::map<std::int64_t, LoadedFrame> loaded;    ///< the frame used last and its neighbours
+    std::map<std::int64_t, PictureMotions> pairs;  ///< by the first of two frames: those with the frame used last
     int width = 0, height = 0;
     std::string first_read;
     bool motion_in_files = false;
@@ -110,11 +116,11 @@ struct ImageSequence::State {
     }
 
     /// The motion between a frame and the next one, both ways.
-    const PictureMotion& compare(std::int64_t first) {
+    const PictureMotions& compare(std::int64_t first) {
         const auto found = pairs.find(first);
         if (found != pairs.end()) return found->second;
         const LoadedFrame &from = load(first), &to = load(first + 1);
-        return pairs.emplace(first, compute_picture_motion(from.searched, to.searched, search)).first->second;
+        return pairs.emplace(first, compute_picture_motions(from.searched, to.searched, search)).first->second;
     }
 
     MotionField find_motion(std::int64_t frame, const LoadedFrame& now) {
@@ -140,12 +146,8 @@ struct ImageSequence::State {
 };
 
 ImageSequence::ImageSequence(Scene shot, FrameFiles files, const RenderSettings& settings, PictureLayers layers) {
-    validate(settings);
-    state_ = std::make_unique<State>();
-    state_->shot = std::move(shot);
+    state_ = std::make_unique<State>(std::move(shot), settings);
     state_->files = std::move(files);
-    state_->settings = settings;
-    state_->search = picture_search(settings.guide.motion).value_or(*picture_search(best_picture_source()));
     state_->read = [files = state_->files, layers = std::move(layers)](std::int64_t frame) {
         return read_picture_frame(files.at(frame), layers);
     };
@@ -153,12 +155,8 @@ ImageSequence::ImageSequence(Scene shot, FrameFiles files, const RenderSettings&
 
 ImageSequence::ImageSequence(Scene shot, std::map<std::int64_t, PictureFrame> pictures,
                              const RenderSettings& settings) {
-    validate(settings);
-    state_ = std::make_unique<State>();
-    state_->shot = std::move(shot);
+    state_ = std::make_unique<State>(std::move(shot), settings);
     for (const auto& [frame, picture] : pictures) state_->files[frame] = fmt::format("frame {}", frame);
-    state_->settings = settings;
-    state_->search = picture_search(settings.guide.motion).value_or(*picture_search(best_picture_source()));
     state_->read = [pictures = std::move(pictures)](std::int64_t frame) { return pictures.at(frame); };
 }
 

@@ -61,7 +61,7 @@ std::vector<std::shared_ptr<Frame>> make_maps(const py::sequence& images, const 
             throw InputError("", fmt::format("motion[{}]", i), "it has another size than its image");
     }
     GivenSettings given = read_settings(shot, settings, false);
-    given.settings.guide.motion = best_picture_source();
+    given.settings.guide.motion = source_for_pictures(given.settings.guide.motion);
     std::vector<std::shared_ptr<Frame>> frames;
     const auto origin = describe_origin(shot, given.settings, 1.0);
     run_in_background(threads, on_progress, [&](const FrameProgress& progress) {

@@ -22,8 +22,10 @@ inline std::optional<PictureSearch> picture_search(MotionSource source) {
     }
 }
 
-/// The source for pictures without a scene: optical flow, or the checked census where that was not built.
-inline MotionSource best_picture_source() {
+/// The source for pictures without a scene: the given one if it compares pictures, else optical flow, or the checked
+/// census where that was not built.
+inline MotionSource source_for_pictures(MotionSource given) {
+    if (picture_search(given)) return given;
     return has_flow() ? MotionSource::flow : MotionSource::image;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/errors.h"
 #include "render/frame/sequence.h"
 
 namespace aleph {
@@ -19,20 +18,18 @@ std::string variant_without(const char* effect) {
     return std::string("without ") + effect;
 }
 
-/// The mean of a metric over the frames of a scene, if all of them have it.
-std::optional<MeasuredValue> scene_mean(const VariantResult& variant, const std::string& scene, const char* metric) {
+/// The mean over the frames of a scene of a metric that every study measures.
+MeasuredValue scene_mean(const VariantResult& variant, const std::string& scene, const char* metric) {
     double sum = 0.0, squares = 0.0, count = 0.0;
     bool uncertain = true;
     for (const FrameResult& frame : variant.frames) {
         if (frame.scene != scene) continue;
-        const auto found = frame.metrics.find(metric);
-        if (found == frame.metrics.end()) return std::nullopt;
-        sum += found->second.value;
-        squares += std::pow(found->second.error.value_or(0.0), 2.0);
-        uncertain = uncertain && found->second.error.has_value();
+        const MeasuredValue& value = frame.metrics.at(metric);
+        sum += value.value;
+        squares += std::pow(value.error.value_or(0.0), 2.0);
+        uncertain = uncertain && value.error.has_value();
         count += 1.0;
     }
-    if (count == 0.0) return std::nullopt;
     MeasuredValue mean{sum / count, std::nullopt};
     if (uncertain) mean.error = std::sqrt(squares) / count;
     return mean;
@@ -98,13 +95,12 @@ std::vector<SceneLedger> make_ledger(const PreparedStudy& prepared, const StudyR
         return std::ranges::find(results.variants, name, &VariantResult::name);
     };
     const auto all = find(complete);
-    if (all == results.variants.end()) throw InputError("", "effects", "the study has no variant with all effects");
     std::vector<SceneLedger> ledgers;
     for (const PreparedStudyScene& scene : prepared.scenes) {
         SceneLedger& ledger = ledgers.emplace_back();
         ledger.scene = scene.name;
-        ledger.seconds = scene_mean(*all, scene.name, "processor_seconds").value_or(MeasuredValue());
-        ledger.seen = scene_mean(*all, scene.name, "share_seen").value_or(MeasuredValue());
+        ledger.seconds = scene_mean(*all, scene.name, "processor_seconds");
+        ledger.seen = scene_mean(*all, scene.name, "share_seen");
         for (std::size_t i = 0; i < effect_count; ++i) {
             LedgerEntry& entry = ledger.entries.emplace_back();
             entry.effect = effect_list[i].name;
@@ -112,11 +108,9 @@ std::vector<SceneLedger> make_ledger(const PreparedStudy& prepared, const StudyR
             const auto without = find(variant_without(effect_list[i].name));
             if (without == results.variants.end() || entry.decision == "skip") continue;
             entry.seen = scene_mean(*without, scene.name, "share_seen");
-            entry.seconds = scene_mean(*without, scene.name, "processor_seconds");
-            if (!entry.seconds) continue;
-            entry.seconds->value = ledger.seconds.value - entry.seconds->value;
-            if (entry.seconds->error)
-                entry.seconds->error = std::hypot(*entry.seconds->error, ledger.seconds.error.value_or(0.0));
+            MeasuredValue& saved = entry.seconds.emplace(scene_mean(*without, scene.name, "processor_seconds"));
+            saved.value = ledger.seconds.value - saved.value;
+            if (saved.error) saved.error = std::hypot(*saved.error, ledger.seconds.error.value_or(0.0));
         }
     }
     return ledgers;

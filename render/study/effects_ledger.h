@@ -31,7 +31,7 @@ struct SceneLedger {
         entries;  ///< of all effects, in order; without measured values for those that no variant lacks
 };
 
-/// @param results  of a study of effects (Study::effects)
+/// @param prepared  with Study::effects, which adds the variants that are compared
 std::vector<SceneLedger> make_ledger(const PreparedStudy& prepared, const StudyResults& results);
 
 /// [{"scene":...,"seconds":...,"seen":...,"effects":[{"effect":...,"decision":...,"bound":...,"seconds":...,"seen":...}]}]

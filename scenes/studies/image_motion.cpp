@@ -157,7 +157,7 @@ void add_scene_motions(const Sequence& sequence, const RenderSettings& settings,
 void add_picture_motions(const Image<Rgb>& now, const Image<Rgb>& next, const std::string& pictures, Motions& motions) {
     const auto add = [&](const std::string& source, PictureSearch search) {
         add_motion(motions, fmt::format("`{}`, {}", source, pictures), [&] {
-            return compute_picture_motion(prepare_picture(now, search), prepare_picture(next, search), search).there;
+            return compute_picture_motion(prepare_picture(now, search), prepare_picture(next, search), search);
         });
     };
     add("census", PictureSearch::census);

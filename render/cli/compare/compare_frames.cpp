@@ -8,11 +8,11 @@
 #include "render/cli/compare/compare_frames_print.h"
 #include "render/cli/compare/junit_file.h"
 #include "render/cli/compare/seen_file.h"
-#include "render/settings/frame_pattern.h"
 #include "render/cli/support/options.h"
 #include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/progress.h"
 #include "render/settings/frame_list.h"
+#include "render/settings/frame_pattern.h"
 
 namespace aleph {
 

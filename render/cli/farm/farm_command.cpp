@@ -12,8 +12,8 @@
 #include "render/cli/farm/farm_job.h"
 #include "render/cli/farm/farm_scripts.h"
 #include "render/cli/farm/farm_status.h"
-#include "render/cli/support/output_path.h"
 #include "render/cli/study_output.h"
+#include "render/cli/support/output_path.h"
 #include "render/settings/frame_list.h"
 #include "render/study/study_file.h"
 

@@ -91,8 +91,8 @@ class Damage {
         "1e999", "true", "[[1]]", "{\"a\":1}", "1e-320", "\"\"", "//", "/*",   "-0.0", "4097", "18446744073709551616"};
 };
 
-/// Damages a file so often. At least this share is read, and this share refused.
-void expect_read_or_refused(const std::string& whole, int times, double least) {
+/// Damages a file so often. A third and more is still read, half and more is refused.
+void expect_read_or_refused(const std::string& whole, int times) {
     ASSERT_NO_THROW(read_scene_text(whole, "whole.json"));
     Damage damage;
     int read = 0, refused = 0;
@@ -117,14 +117,13 @@ void expect_read_or_refused(const std::string& whole, int times, double least) {
             ADD_FAILURE() << "was read but not written: " << error.what() << "\n" << text;
         }
     }
-    std::printf("%d read, %d refused\n", read, refused);
-    EXPECT_GT(read, least * times);
-    EXPECT_GT(refused, least * times);
+    EXPECT_GT(read, times / 3);
+    EXPECT_GT(refused, times / 2);
 }
 
 TEST(DamagedSceneFile, IsReadOrRefusedAndWhatIsReadCanBeSaved) {
-    expect_read_or_refused(whole_file, 2000, 0.2);
-    expect_read_or_refused(guided_file, 400, 0.2);
+    expect_read_or_refused(whole_file, 2000);
+    expect_read_or_refused(guided_file, 400);
 }
 
 TEST(DamagedSceneFile, EveryBeginningOfAFileIsRefused) {

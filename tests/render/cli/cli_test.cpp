@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "render/cli/commands.h"
-#include "render/cli/support/progress.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/support/progress.h"
 #include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
 #include "tests/support/scratch_folder.h"

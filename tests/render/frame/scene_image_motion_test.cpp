@@ -79,7 +79,7 @@ TEST(SceneMotionFromImages, WhatIsValidOnTheBoomerangIsNearTheTruth) {
     const FrameOutput now = sequence.render(24, request), next = sequence.render(25, request);
     const auto find_errors = [&](PictureSearch search) {
         const auto prepare = [&](const FrameOutput& frame) { return prepare_picture(frame.estimate, search); };
-        return find_mover_errors(compute_picture_motion(prepare(now), prepare(next), search).there, now.motion);
+        return find_mover_errors(compute_picture_motion(prepare(now), prepare(next), search), now.motion);
     };
     const MoverErrors printed = find_errors(PictureSearch::census), checked = find_errors(PictureSearch::checked);
     EXPECT_EQ(printed.valid, 1.0);
