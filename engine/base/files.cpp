@@ -1,6 +1,8 @@
 #include "engine/base/files.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 #include <sys/stat.h>
 
 #include <fstream>
@@ -63,6 +65,14 @@ Bytes read_regular_file(const fs::path& path, const std::string& file, const std
     stream.read(reinterpret_cast<char*>(bytes.data()), end);
     if (stream.gcount() != end) throw InputError(file, place, fmt::format("cannot read {}", name));
     return bytes;
+}
+
+fs::path code_file() {
+    Dl_info info;
+    link_map* map = nullptr;
+    const auto* const here = reinterpret_cast<const void*>(&code_file);
+    const bool found = dladdr1(here, &info, reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP) != 0;
+    return found && map != nullptr && map->l_name[0] != '\0' ? map->l_name : "/proc/self/exe";
 }
 
 std::string lower_extension(const std::filesystem::path& path) {

@@ -49,6 +49,9 @@ class ReadFiles {
 /// Records a file that is read, or looked for, by other means.
 void note_read_file(const std::filesystem::path& path);
 
+/// The file that holds this code: the program, or the Python module.
+std::filesystem::path code_file();
+
 /// The ending of a file's name in lower case: ".abc" of "Shot.ABC". Empty where there is none.
 std::string lower_extension(const std::filesystem::path& path);
 

@@ -61,6 +61,9 @@ std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed, const Pic
 /// @throws InputError (file empty)
 std::string encode_png(const Image<Rgb>& linear, const PictureTexts& texts = {});
 
+/// @throws InputError (file empty)
+std::string encode_jpeg(const Image<Rgb>& linear, int quality);
+
 /// The bytes as they are, without alpha where all of it is 255.
 /// @throws InputError (file empty)
 std::string encode_png(const Image<glm::u8vec4>& bytes);

@@ -1,19 +1,17 @@
 // Decoding: EXR with exr.cpp; PNG, JPEG and HDR with OpenImageIO, after the checks of formats.cpp.
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "engine/base/errors.h"
-#include "engine/image/codec.h"
+#include "engine/image/library.h"
 
 namespace aleph {
 
 namespace {
 
-/// Interleaved pixels of OpenImageIO: 1 (grey), 2 (grey, alpha), 3 or 4 channels.
+/// Interleaved pixels: 1 (grey), 2 (grey, alpha), 3 or 4 channels.
 template <class T>
 struct Interleaved {
     int width = 0, height = 0, channels = 0;
@@ -49,26 +47,18 @@ Interleaved<T> decode_with_library(ByteView bytes, ImageFormat format, const std
         stripped = strip_jpeg(bytes, name);
         bytes = stripped;
     }
-    const auto input = OIIO::ImageInput::create(plugin);
-    if (!input) throw InputError(name, "", fmt::format("this OpenImageIO has no reader for {}", plugin));
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    OIIO::ImageSpec spec, config;
-    config.attribute("oiio:UnassociatedAlpha", 1);  // colours as encoded, not multiplied by alpha
-    const auto fail = [&] {
-        const std::string error = input->geterror();
-        throw InputError(name, "", error.empty() ? "the picture does not decode" : printable(error, 400));
+    Interleaved<T> pixels;
+    const auto place = [&](int width, int height, int channels) -> void* {
+        check_size(width, height, name);
+        if (channels < 1 || channels > 4)
+            throw InputError(name, "", fmt::format("{} channels are not a colour", channels));
+        pixels = {width, height, channels, {}};
+        pixels.values.resize(std::size_t(width) * height * channels);
+        return pixels.values.data();
     };
-    if (!input->set_ioproxy(&memory) || !input->open(std::string("memory.") + plugin, spec, config)) fail();
-    check_size(spec.width, spec.height, name);
-    if (spec.nchannels < 1 || spec.nchannels > 4) {
-        throw InputError(name, "", fmt::format("{} channels are not a colour", spec.nchannels));
-    }
-    Interleaved<T> pixels{spec.width, spec.height, spec.nchannels, {}};
-    pixels.values.resize(spec.image_pixels() * spec.nchannels);
-    const bool read = input->read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<T>::value, pixels.values.data());
-    // For cut and damaged JPEG data the library returns true, with an error text.
-    if (!read || input->has_error()) fail();
-    input->close();
+    const PixelType type = std::is_same_v<T, float> ? PixelType::floats : PixelType::bytes;
+    const std::string fault = image_library().decode(bytes, plugin, type, place);
+    if (!fault.empty()) throw InputError(name, "", printable(fault, 400));
     return pixels;
 }
 

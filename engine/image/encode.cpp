@@ -1,8 +1,6 @@
 // 8-bit PNG files, and Radiance pictures (.hdr): RGBE, three mantissas of 8 bits with one exponent (Ward 1991, "Real
 // Pixels", Graphics Gems II).
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +8,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
-#include "engine/image/codec.h"
+#include "engine/image/library.h"
 
 namespace aleph {
 
@@ -49,19 +47,22 @@ std::uint8_t encode_srgb8(float linear) {
     return static_cast<std::uint8_t>(std::lround(255.0f * linear_to_srgb(linear)));
 }
 
-/// @param extension  of the format, without a dot
-std::string encode(const std::string& extension, const OIIO::ImageSpec& spec, const void* pixels) {
-    const auto output = OIIO::ImageOutput::create(extension);
-    if (!output) throw InputError("", "", fmt::format("OpenImageIO cannot write {}: {}", extension, OIIO::geterror()));
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    // Some failures are reported by geterror() only.
-    const bool done = output->set_ioproxy(&memory) && output->open("memory." + extension, spec) &&
-                      output->write_image(spec.format, pixels) && output->close();
-    const std::string error = output->geterror();
-    if (!done || !error.empty())
-        throw InputError("", "", printable(error.empty() ? extension + ": failed" : error, 400));
-    return {bytes.begin(), bytes.end()};
+std::string encode(const EncodedPicture& picture) {
+    std::string bytes;
+    const std::string fault = image_library().encode(picture, bytes);
+    if (!fault.empty()) throw InputError("", "", printable(fault, 400));
+    return bytes;
+}
+
+std::string encode_srgb(const Image<Rgb>& linear, const std::string& format, PictureTexts attributes) {
+    check_size(linear.width, linear.height, "");
+    Image<std::array<std::uint8_t, 3>> encoded(linear.width, linear.height);
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+        const Rgb& c = linear.pixels[i];
+        encoded.pixels[i] = {encode_srgb8(c.x), encode_srgb8(c.y), encode_srgb8(c.z)};
+    }
+    attributes["oiio:ColorSpace"] = "sRGB";
+    return encode({format, linear.width, linear.height, 3, PixelType::bytes, encoded.pixels.data(), attributes});
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed, const Pic
     Image<Rgb> encoded(linear.width, linear.height);
     for (std::size_t i = 0; i < linear.size(); ++i)
         encoded.pixels[i] = round_to_rgbe(replace_unfit(linear.pixels[i], changed));
-    std::string bytes = encode("hdr", {linear.width, linear.height, 3, OIIO::TypeDesc::FLOAT}, encoded.pixels.data());
+    std::string bytes = encode({"hdr", linear.width, linear.height, 3, PixelType::floats, encoded.pixels.data(), {}});
     // OpenImageIO writes no comments. They follow the first line.
     std::string comments;
     for (const auto& [key, text] : texts) comments += fmt::format("# {}={}\n", key, text);
@@ -80,16 +81,11 @@ std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed, const Pic
 }
 
 std::string encode_png(const Image<Rgb>& linear, const PictureTexts& texts) {
-    check_size(linear.width, linear.height, "");
-    Image<std::array<std::uint8_t, 3>> encoded(linear.width, linear.height);
-    for (std::size_t i = 0; i < linear.size(); ++i) {
-        const Rgb& c = linear.pixels[i];
-        encoded.pixels[i] = {encode_srgb8(c.x), encode_srgb8(c.y), encode_srgb8(c.z)};
-    }
-    OIIO::ImageSpec spec(linear.width, linear.height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    for (const auto& [key, text] : texts) spec.attribute(key, text);
-    return encode("png", spec, encoded.pixels.data());
+    return encode_srgb(linear, "png", texts);
+}
+
+std::string encode_jpeg(const Image<Rgb>& linear, int quality) {
+    return encode_srgb(linear, "jpg", {{"Compression", fmt::format("jpeg:{}", quality)}});
 }
 
 std::string encode_png(const Image<glm::u8vec4>& bytes) {
@@ -100,9 +96,7 @@ std::string encode_png(const Image<glm::u8vec4>& bytes) {
     packed.reserve(bytes.size() * static_cast<std::size_t>(channels));
     for (const glm::u8vec4& texel : bytes.pixels)
         for (int c = 0; c < channels; ++c) packed.push_back(texel[c]);
-    OIIO::ImageSpec spec(bytes.width, bytes.height, channels, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);  // else colours are divided by alpha
-    return encode("png", spec, packed.data());
+    return encode({"png", bytes.width, bytes.height, channels, PixelType::bytes, packed.data(), {}});
 }
 
 }  // namespace aleph

@@ -65,6 +65,10 @@ void write_png(const std::filesystem::path& path, const Image<Rgb>& linear, cons
     write_file(path, encode_for(path, [&] { return encode_png(linear, texts); }));
 }
 
+void write_jpeg(const std::filesystem::path& path, const Image<Rgb>& linear, int quality) {
+    write_file(path, encode_for(path, [&] { return encode_jpeg(linear, quality); }));
+}
+
 std::size_t write_hdr(const std::filesystem::path& path, const Image<Rgb>& linear, const PictureTexts& texts) {
     std::size_t changed = 0;
     write_file(path, encode_for(path, [&] { return encode_hdr(linear, changed, texts); }));

@@ -47,6 +47,10 @@ using PictureTexts = std::map<std::string, std::string>;
 /// @throws OutputError naming the file
 void write_png(const std::filesystem::path& path, const Image<Rgb>& linear, const PictureTexts& texts = {});
 
+/// Writes 8-bit sRGB, as write_png does. @param quality  1 to 100
+/// @throws OutputError naming the file
+void write_jpeg(const std::filesystem::path& path, const Image<Rgb>& linear, int quality);
+
 /// Writes a Radiance picture (RGBE). Each pixel has one exponent and 8 bits per channel, so that a value is off by up
 /// to 1/256 of the pixel's largest channel: a small channel beside a large one becomes 0. Values below 0 and NaN are
 /// written as 0, those above 1.7e38 as that.

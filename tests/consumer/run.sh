@@ -18,6 +18,17 @@ cmake --build "$work/build" --parallel "${JOBS:-2}"
 (cd "$work" && build/consumer)
 "$work/moved/bin/aleph" --version
 
+# PNG files are written by a library beside the program, and nothing is left where that is missing. EXR files do without it.
+tiny() { "$work/moved/bin/aleph" render "$root/scenes/cornell/scene.json" --frames 0 --size 8x6 --spp 1 -o "$work/$1" -q; }
+tiny with.png
+library=$(find "$work/moved" -path "*/aleph/libaleph_images.so" -not -path "*python*")
+mv "$library" "$work/away.so"
+! tiny without.png 2>"$work/missing.log" || { echo "a PNG file without its library"; exit 1; }
+grep -q "PNG, JPEG and HDR files need libaleph_images.so" "$work/missing.log"
+[ ! -e "$work/without.png" ]
+tiny without.exr
+mv "$work/away.so" "$library"
+
 # The example of golden images: the same frames pass, and those with another seed and one sample fail.
 aleph=$work/moved/bin/aleph scene=$root/scenes/cornell/scene.json quick="--size;32x24;--spp;4"
 "$aleph" render "$scene" --frames 0-1 ${quick//;/ } -o "$work/golden/" -q
