@@ -12,7 +12,7 @@ namespace aleph {
 
 namespace {
 
-/// Squared errors, of luminance as the samples have it.
+/// Squared errors, as the samples have them.
 struct SquaredErrors {
     double total = 0.0;
     std::array<double, light_part_count> parts{};

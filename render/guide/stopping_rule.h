@@ -28,13 +28,13 @@ double allow_noise(double error);
 /// picture is biased (Kirk and Arvo 1991). So neighbours tell both numbers, at this pixel's number of samples.
 struct MeanEstimate {
     int samples = 0;
-    double error2 = 0.0;    ///< squared error of the mean luminance, from halves (PixelSamples)
+    double error2 = 0.0;    ///< squared error of the mean, from halves (PixelSamples::Error::total)
     double variance = 0.0;  ///< of one sample's luminance
     double around = 0.0;    ///< deviation of one sample of the pixels around (deviations_around), luminance
 };
 
 /// Mean over the pixels around, without the pixel itself (mean_around), of the standard deviation of their samples'
-/// luminance: of independent samples with as much error as theirs.
+/// light (PixelSamples::Error::total): of independent samples with as much error as theirs.
 Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach);
 
 /// The larger of what the eight pixels around (x, y) tell, and the 24. Only those count that have an outline as it has,
@@ -61,7 +61,7 @@ bool is_enough(Sampling rule, Stopping stopping, const MeanEstimate& mean, doubl
 struct StagePixels {
     std::vector<int> x, y;
     std::vector<int> samples;      ///< so far
-    std::vector<float> error;      ///< standard error of the mean luminance, as Stopping says who tells it
+    std::vector<float> error;      ///< standard error of the mean, in luminance, as Stopping says who tells it
     std::vector<float> deviation;  ///< of the luminance of one sample, likewise
     std::vector<float> tolerance;  ///< of the mean luminance (is_enough)
 };

@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "perception/noise_threshold.h"
+
 namespace aleph {
 
 namespace {
@@ -10,6 +12,10 @@ constexpr float least_cosine = 0.9f;            // between the true normals of o
 constexpr float least_shading_cosine = 0.999f;  // between normals with about the same irradiance
 constexpr float widest_step = 2.0f;             // footprints across a face
 constexpr int enough_irradiances = 4;
+
+glm::dvec2 find_signal(const Rgb& light) {
+    return {luminance(light), red_green_worth * glm::dot(red_green_weights, light)};
+}
 
 }  // namespace
 
@@ -41,7 +47,7 @@ void PixelSamples::add(const SampleLight& light) {
     const double y = luminance(total), difference = y - luminance_.mean;
     luminance_.mean += difference / valid_;
     luminance_.squares += difference * (y - luminance_.mean);
-    for (std::size_t part = 0; part < luminances_.size(); ++part) luminances_[part] += luminance(light.parts[part]);
+    for (std::size_t part = 0; part < signals_.size(); ++part) signals_[part] += find_signal(light.parts[part]);
     control_ += light.control;
     end_sample();
 }
@@ -59,19 +65,20 @@ void PixelSamples::end_sample() {
     if (first_half_.valid > 0 && second_valid > 0) {
         const double first = first_half_.valid, second = second_valid;
         const double share = first * second / ((first + second) * (first + second));
-        double total = 0.0;
-        for (std::size_t part = 0; part < luminances_.size(); ++part) {
-            const double difference =
-                first_half_.luminances[part] / first - (luminances_[part] - first_half_.luminances[part]) / second;
-            error_.parts[part] = static_cast<float>(share * difference * difference);
+        const auto square = [share](const glm::dvec2& of) { return static_cast<float>(share * glm::dot(of, of)); };
+        glm::dvec2 total(0.0);
+        for (std::size_t part = 0; part < signals_.size(); ++part) {
+            const glm::dvec2 difference =
+                first_half_.signals[part] / first - (signals_[part] - first_half_.signals[part]) / second;
+            error_.parts[part] = square(difference);
             total += difference;
         }
-        error_.total = static_cast<float>(share * total * total);
-        const double control = first_half_.control / first - (control_ - first_half_.control) / second;
-        error_.uncorrected = static_cast<float>(share * (total - control) * (total - control));
+        error_.total = square(total);
+        total.x -= first_half_.control / first - (control_ - first_half_.control) / second;
+        error_.uncorrected = square(total);
         error_.samples = valid_;
     }
-    first_half_ = {luminances_, control_, valid_};
+    first_half_ = {signals_, control_, valid_};
 }
 
 }  // namespace aleph

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <optional>
 
 #include "engine/base/color.h"
@@ -57,7 +58,8 @@ struct SampleLight {
 /// of independent halves, and more than that of halves that complement each other.
 class PixelSamples {
   public:
-    /// Squared errors of the mean luminance.
+    /// Squared errors of the mean, of luminance and of its red-green signal in the luminance that it is worth
+    /// (noise_threshold.h): lamps of two hues may leave noise that luminance alone does not show.
     struct Error {
         float total = 0.0f;
         std::array<float, light_part_count> parts{};
@@ -89,8 +91,8 @@ class PixelSamples {
     bool has_edge() const { return edge_; }
 
   private:
-    /// By part of the light; sums over the valid samples.
-    using Luminances = std::array<double, light_part_count>;
+    /// Luminance and red-green signal, by part of the light; sums over the valid samples.
+    using Signals = std::array<glm::dvec2, light_part_count>;
     /// Mean, and squared differences from it (Welford 1962).
     struct Spread {
         double mean = 0.0, squares = 0.0;
@@ -100,8 +102,8 @@ class PixelSamples {
         int count = 0;
     };
     struct FirstHalf {
-        Luminances luminances{};  ///< of the samples before the present half
-        double control = 0.0;     ///< of these
+        Signals signals{};     ///< of the samples before the present half
+        double control = 0.0;  ///< of these
         int valid = 0;
     };
 
@@ -111,7 +113,7 @@ class PixelSamples {
     Rgb indirect_{0.0f};
     int taken_ = 0, valid_ = 0, hits_ = 0;
     Spread luminance_;
-    Luminances luminances_{};
+    Signals signals_{};
     double control_ = 0.0;
     FirstHalf first_half_;
     Error error_;

@@ -13,7 +13,8 @@ constexpr FrameRate thirty{30, 1};
 
 /// D L / sigma by a dense sum over the square of frequencies and over time.
 double sensitivity(double luminance, double retinal, double tracked, NoiseOverTime over_time,
-                   const ViewingConditions& viewing = {}) {
+                   const ViewingConditions& viewing = {},
+                   double (&to_pattern)(double, double, double, double) = castle_sensitivity) {
     constexpr int cells = 150, times = 8;
     double energy = 0.0;
     for (int y = 0; y < cells; ++y) {
@@ -27,7 +28,7 @@ double sensitivity(double luminance, double retinal, double tracked, NoiseOverTi
                 const double omega = count == 1 ? 0.0 : 15.0 * (t + 0.5) / count;
                 for (const double sign : {-1.0, 1.0}) {
                     const double shifted = std::abs(omega + sign * rho * retinal);
-                    energy += 0.5 * std::pow(held * castle_sensitivity(rho, shifted, luminance, area), 2.0) / count;
+                    energy += 0.5 * std::pow(held * to_pattern(rho, shifted, luminance, area), 2.0) / count;
                 }
             }
         }
@@ -45,6 +46,28 @@ TEST(NoiseThreshold, IsTheSumOverTheFrequenciesOfTheNoise) {
                     const float found = noise.threshold(static_cast<float>(luminance), static_cast<float>(retinal),
                                                         static_cast<float>(tracked));
                     EXPECT_NEAR(found / exact, 1.0, 0.06) << luminance << " " << retinal << " " << tracked;
+                }
+            }
+        }
+    }
+}
+
+TEST(NoiseThreshold, NoiseOfRedAndGreenIsWorthItsVisibility) {
+    Image<Rgb> primaries(3, 1);
+    for (int i = 0; i < 3; ++i) primaries(i, 0)[i] = 1.0f;
+    const Image<float> signals = compute_visual_channel(primaries, 1.0, 1);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(signals(i, 0), red_green_weights[i], 1e-5f);
+
+    ViewingConditions viewing;
+    for (const double pixels_per_degree : {20.0, 62.0}) {
+        viewing.pixels_per_degree = pixels_per_degree;
+        for (const NoiseOverTime over_time : {NoiseOverTime::fresh, NoiseOverTime::lasts}) {
+            for (const double luminance : {2.0, 20.0, 80.0}) {
+                for (const double retinal : {0.15, 9.0}) {
+                    const double worth = sensitivity(luminance, retinal, 0.0, over_time, viewing, castle_red_green) /
+                                         sensitivity(luminance, retinal, 0.0, over_time, viewing);
+                    EXPECT_GT(worth / red_green_worth, luminance < 20.0 ? 0.55 : 0.88) << luminance << " " << retinal;
+                    EXPECT_LT(worth / red_green_worth, 1.25) << luminance << " " << retinal;
                 }
             }
         }

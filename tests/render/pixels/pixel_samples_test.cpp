@@ -2,6 +2,7 @@
 
 #include "render/pixels/pixel_samples.h"
 #include "engine/base/sampling.h"
+#include "perception/noise_threshold.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
@@ -30,6 +31,22 @@ TEST(PixelSamples, HalvesTellTheErrorOfTheMean) {
         }
         trial.near(told, 1.0 / 12.0 / samples);
     }));
+}
+
+TEST(PixelSamples, NoiseOfHueAloneIsAnError) {
+    // Red and green light of one luminance, by turns: a mean of two samples is off by the other hue's half.
+    const auto sample = [](const Rgb& color) {
+        SampleLight light;
+        light[LightPart::direct] = color / luminance(color);
+        return light;
+    };
+    PixelSamples sum;
+    sum.add(sample(Rgb(1.0f, 0.0f, 0.0f)));
+    sum.add(sample(Rgb(0.0f, 1.0f, 0.0f)));
+    const double red_green = (0.12762 / 0.2126 + 0.08709 / 0.7152) / 2.0;
+    EXPECT_NEAR(sum.error().total, std::pow(red_green_worth * red_green, 2.0), 1e-4);
+    EXPECT_EQ(sum.error().parts[static_cast<std::size_t>(LightPart::direct)], sum.error().total);
+    EXPECT_NEAR(sum.sample_variance(), 0.0, 1e-12);  // of luminance
 }
 
 TEST(PixelSamples, IrradianceIsSharedOnOneFaceOnly) {
