@@ -120,7 +120,7 @@ SettingMap read_settings(const CLI::App& app) {
     std::map<const CLI::Option*, std::size_t> seen;
     SettingMap settings;
     for (const CLI::Option* option : app.parse_order()) {
-        const std::string name = option->get_name();
+        const std::string name = option_label(*option);
         const auto setting =
             std::ranges::find(setting_table(), name, [](const Setting& s) { return option_name(s.key); });
         if (setting == setting_table().end() && name != "--set") continue;

@@ -48,10 +48,10 @@ struct Candidates {
     }
 };
 
-/// The group of the largest bound; none if all others are lights, or below the limit.
-int find_brightest_group(const LightTree& tree, const Candidates& candidates, float limit) {
+/// The group of the largest bound; none if all nodes are lights.
+int find_brightest_group(const LightTree& tree, const Candidates& candidates) {
     int found = no_index;
-    float largest = limit;
+    float largest = 0.0f;
     for (int i = 0; i < candidates.size; ++i) {
         if (tree.is_light(candidates.nodes[i]) || !(candidates.bounds[i] > largest)) continue;
         largest = candidates.bounds[i];
@@ -60,36 +60,15 @@ int find_brightest_group(const LightTree& tree, const Candidates& candidates, fl
     return found;
 }
 
-/// Marks the faintest, by an estimate of 0, while all that are marked bring less than the limit. @return what they
-/// bring
-float leave_out(Candidates& candidates, float limit) {
-    std::array<int, LightCut::capacity> faint;  // none of the others can be left out
-    auto end = faint.begin();
-    for (int i = 0; i < candidates.size; ++i) {
-        if (candidates.bounds[i] < limit) *end++ = i;
-    }
-    std::sort(faint.begin(), end, [&](int a, int b) {
-        return candidates.bounds[a] < candidates.bounds[b] || (candidates.bounds[a] == candidates.bounds[b] && a < b);
-    });
-    float sum = 0.0f;
-    for (auto i = faint.begin(); i != end && sum + candidates.bounds[*i] < limit; ++i) {
-        sum += candidates.bounds[*i];
-        candidates.estimates[*i] = 0.0f;
-    }
-    return sum;
-}
-
-Candidates find_candidates(const LightTree& tree, const Receiver& receiver, float behind, float divided) {
+Candidates find_candidates(const LightTree& tree, const Receiver& receiver, float behind) {
     Candidates candidates;
     const auto divide = [&](int place, const LightGroup& group) {
         candidates.replace(place, group, reach_of(group, receiver.position, receiver.normal, behind));
     };
     candidates.size = 1;
     divide(0, tree.groups.front());
-    // All of few lights, so that groups of them are not left out for what only their bound may bring.
-    const float limit = tree.lights <= LightCut::few ? 0.0f : divided;
     while (candidates.size + LightGroup::size - 1 <= LightCut::capacity) {
-        const int brightest = find_brightest_group(tree, candidates, limit);
+        const int brightest = find_brightest_group(tree, candidates);
         if (brightest == no_index) break;
         divide(brightest, tree.group(candidates.nodes[brightest]));
     }
@@ -110,7 +89,7 @@ std::size_t choose(std::span<const float> weights, std::span<const float> ends, 
     return chosen;
 }
 
-/// Few lights without a limit: all, by vector instructions.
+/// Few lights: all, by vector instructions.
 LightCut take_all_lights(const LightSet& lights, const Receiver& receiver, float behind) {
     LightCut cut;
     cut.size = lights.count();
@@ -124,12 +103,11 @@ LightCut take_all_lights(const LightSet& lights, const Receiver& receiver, float
 
 }  // namespace
 
-LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float behind, const CutLimits& limits) {
+LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float behind) {
     LightCut cut;
     if (lights.count() == 0) return cut;
-    if (lights.count() <= LightCut::few && !(limits.left_out > 0.0f)) return take_all_lights(lights, receiver, behind);
-    Candidates candidates = find_candidates(lights.tree, receiver, behind, limits.divided);
-    if (limits.left_out > 0.0f) cut.left_out = leave_out(candidates, limits.left_out);
+    if (lights.count() <= LightCut::few) return take_all_lights(lights, receiver, behind);
+    const Candidates candidates = find_candidates(lights.tree, receiver, behind);
     for (int i = 0; i < candidates.size; ++i) {
         const float weight = candidates.estimates[i];
         cut.nodes[cut.size] = candidates.nodes[i];

@@ -5,12 +5,6 @@
 
 namespace aleph {
 
-/// Illuminances, of luminance.
-struct CutLimits {
-    float divided = 0.0f;   ///< groups that bring less are not divided
-    float left_out = 0.0f;  ///< nodes that together bring less are left out
-};
-
 struct LightCut {
     static constexpr int few = 16;       ///< so many lights are all in the cut
     static constexpr int capacity = 24;  ///< nodes
@@ -20,12 +14,11 @@ struct LightCut {
     std::array<float, capacity> weights;  ///< about the illuminance that each brings
     std::array<float, capacity> ends;     ///< sum of the weights up to and including each
     float total = 0.0f;                   ///< of the weights; infinite or not a number if a weight is
-    float left_out = 0.0f;                ///< illuminance that the lights left out may bring, without shadows
 };
 
 /// Few lights: all of them. Else groups are divided, that of the largest bound first, until there are enough nodes.
 /// @param behind  1 where light from behind the surface counts as well, else 0
-LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float behind, const CutLimits& limits = {});
+LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float behind);
 
 /// A light chosen for a surface point.
 struct LightPick {

@@ -56,14 +56,13 @@ bool has_area(const LightSet& lights, int light) {
 /// Lights that are chosen at a surface, each in proportion to about what it brings.
 class ChosenLights {
   public:
-    ChosenLights(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
-                 const CutLimits& limits = {})
+    ChosenLights(const LightingContext& context, const LitSurface& lit, const LobeShares& shares)
         : context_(context),
           lit_(lit),
           shares_(shares),
           receiver_{lit.point.ray_origin(), lit.point.normal},
           behind_(lit.material.has_glass() ? 1.0f : 0.0f),
-          cut_(find_light_cut(context.lights, receiver_, behind_, limits)),
+          cut_(find_light_cut(context.lights, receiver_, behind_)),
           seen_(context.lights, receiver_) {}
 
     /// Adds one sample of `count`.
@@ -123,36 +122,11 @@ Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const Lit
     return sum.light();
 }
 
-/// No less than the luminance of radiance that a surface scatters, per illuminance from any direction. Infinite if
-/// layers other than Lambert and gloss scatter too.
-float bound_reflection(const LitSurface& lit) {
-    const SurfaceMaterial& material = lit.material;
-    if (material.has_coat() || material.has_sheen() || material.has_glass()) {
-        return std::numeric_limits<float>::infinity();
-    }
-    const auto largest = [](const Rgb& c) { return std::max({c.x, c.y, c.z}); };
-    float bound = largest(material.diffuse) / std::numbers::pi_v<float>;
-    if (material.has_glossy() && !material.is_mirror()) {
-        // F D G2 / (4 n.v), with G2 at most that of the view alone.
-        const glm::vec2 widths = material.widths();
-        const float most_d = 1.0f / (std::numbers::pi_v<float> * widths.x * widths.y);
-        const float alpha2 = std::min(widths.x, widths.y) * std::min(widths.x, widths.y), cosine = lit.cos_view;
-        const float most_g = 0.5f / (cosine + std::sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine));
-        bound += std::max(largest(material.gloss.f0), material.gloss.f90) * most_d * most_g;
-    }
-    return bound;
-}
-
 }  // namespace
 
 Rgb sample_direct_light(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
                         const PixelSequence& sequence, const DirectSamples& samples) {
-    CutLimits limits;
-    const float reflection = samples.tolerance > 0.0f ? bound_reflection(lit) : 0.0f;
-    if (reflection > 0.0f) limits.divided = limits.left_out = samples.tolerance / reflection;
-    ChosenLights lights(context, lit, shares, limits);
-    if (samples.left_out != nullptr)
-        *samples.left_out = limits.left_out > 0.0f ? lights.cut().left_out * reflection : 0.0f;
+    ChosenLights lights(context, lit, shares);
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
     Unblocked sum(context, task);
     SequenceOfUse points = sequence.of(SampleUse::light_point);

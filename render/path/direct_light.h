@@ -10,17 +10,13 @@ namespace aleph {
 struct DirectSamples {
     int first = 0;  ///< of the pixel's sequence
     int count = 1;
-    /// Luminance of radiance: lights that together cannot bring so much, even without shadows, are left out.
-    float tolerance = 0.0f;
-    float* left_out = nullptr;  ///< set, if not null, to a bound of the luminance of what was left out
 };
 
 /// Radiance that a surface scatters from the lights, without its own emission: the mean of these samples, each of one
-/// light that is chosen by about what it brings. Unbiased for all lights that are not left out. The light and the point
-/// on it take one point of SampleUse::light_point.
-/// Samples of the lobes are left to the caller. Each light is weighted against them by its own density alone (power
-/// heuristic, Veach 1997), as if it were the only one: so a ray that meets the light needs no other weight than that
-/// of PathState, whatever the choice of lights and the number of samples.
+/// light that is chosen by about what it brings. Unbiased. The light and the point on it take one point of
+/// SampleUse::light_point. Samples of the lobes are left to the caller. Each light is weighted against them by its own
+/// density alone (power heuristic, Veach 1997), as if it were the only one: so a ray that meets the light needs no
+/// other weight than that of PathState, whatever the choice of lights and the number of samples.
 /// @param shares  of the lobes from which directions are sampled as well; those of share 0 have full weight
 Rgb sample_direct_light(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
                         const PixelSequence& sequence, const DirectSamples& samples);

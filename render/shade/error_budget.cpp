@@ -21,17 +21,12 @@ float strictest_around(const Image<float>& threshold, int x, int y) {
 
 }  // namespace
 
-std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLimits& limits,
-                                                                const RenderSettings& settings, double exposure) {
-    if (!(settings.error > 0.0)) return std::nullopt;
-    const double scale = settings.error / (limits.viewing.display_white * exposure);
-    SystematicTolerance tolerance{Image<float>(limits.threshold.width, limits.threshold.height),
-                                  Image<float>(limits.threshold.width, limits.threshold.height)};
-    for (std::size_t i = 0; i < limits.threshold.size(); ++i) {
-        const double tolerated = scale * static_cast<double>(limits.threshold.pixels[i]);
-        tolerance.lights.pixels[i] = static_cast<float>(left_out_share * tolerated);
-        tolerance.gloss.pixels[i] = static_cast<float>(gloss_share * tolerated);
-    }
+Image<float> compute_gloss_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure) {
+    if (!(settings.error > 0.0)) return {};
+    const double scale = gloss_share * settings.error / (limits.viewing.display_white * exposure);
+    Image<float> tolerance(limits.threshold.width, limits.threshold.height);
+    for (std::size_t i = 0; i < tolerance.size(); ++i)
+        tolerance.pixels[i] = static_cast<float>(scale * static_cast<double>(limits.threshold.pixels[i]));
     return tolerance;
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 // How much a pixel's samples may err, given what else errs in it.
 
-#include <optional>
-
 #include "engine/base/viewing.h"
 #include "render/guide/stopping_rule.h"
 #include "render/pixels/outlines.h"
@@ -14,21 +12,20 @@ namespace aleph {
 
 /// Errors that a viewer tolerates in a frame. Images have the frame's size.
 struct VisibleLimits {
-    const Image<float>& threshold;           ///< cd/m2 (6.9)
-    const Image<float>& noise;               ///< cd/m2 (NoiseVisibility)
-    const Image<float>& aleph;               ///< elevation of the threshold
-    const Image<float>& accuracy;            ///< alpha, of cached light
+    const Image<float>& threshold;  ///< cd/m2 (6.9)
+    const Image<float>& noise;      ///< cd/m2 (NoiseVisibility)
+    const Image<float>& aleph;      ///< elevation of the threshold
+    const Image<float>& accuracy;   ///< alpha, of cached light
     const Image<Outline>& outlines;
     ViewingConditions viewing;
 };
 
-/// Shares of the error that is asked for, for errors that samples do not lower: a bound of what lights that are left
-/// out bring, and the root mean square of what irradiance in place of a lobe is off.
-inline constexpr double left_out_share = 0.05, gloss_share = 0.05;
+/// Share of the error that is asked for by which irradiance in place of a lobe may be off, root mean square. Samples do
+/// not lower it.
+inline constexpr double gloss_share = 0.05;
 
-/// Nothing where no error is asked for.
-std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLimits& limits,
-                                                                const RenderSettings& settings, double exposure);
+/// Luminance before exposure, per pixel (SampleShading::gloss_tolerance). Empty where no error is asked for.
+Image<float> compute_gloss_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure);
 
 /// The luminance that samples may err by, as they have it (before exposure).
 /// threshold: allow_noise of RenderSettings::error, times what noise of single pixels goes unseen.

@@ -45,8 +45,7 @@ struct IntegratorInput {
     ShadedFrame& out;
     std::uint32_t noise_key = 0;             ///< SamplePlace::noise_key
     const Image<float>& sampling_tolerance;  ///< SamplingPlan::tolerance
-    /// Errors that do not fall with the number of samples; empty: nothing may be left out.
-    const std::optional<SystematicTolerance>& tolerance;
+    const Image<float>& gloss_tolerance;     ///< of SampleShading; empty: none
 };
 
 std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input);

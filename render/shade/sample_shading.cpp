@@ -98,8 +98,8 @@ void add_irradiance(const PixelSurface& surface, const Rgb& irradiance, SampleLi
 /// Lobes to sample, and what stands in for the others where the irradiance is known.
 SampledLobes choose_lobes(const SampleShading& shading, const PixelSurface& surface, const LitSurface& lit,
                           const std::optional<Rgb>& irradiance) {
-    const bool tolerant = shading.tolerance != nullptr && irradiance && surface.material.has_specular();
-    const float tolerance = tolerant ? shading.tolerance->gloss(surface.x, surface.y) : 0.0f;
+    const bool tolerant = shading.gloss_tolerance != nullptr && irradiance && surface.material.has_specular();
+    const float tolerance = tolerant ? (*shading.gloss_tolerance)(surface.x, surface.y) : 0.0f;
     return choose_sampled_lobes(lit, irradiance.value_or(Rgb(0.0f)), tolerance);
 }
 
@@ -130,9 +130,8 @@ void add_with_cache(const SampleShading& shading, const SampleScene& scene, Shad
     light[LightPart::surface] = surface.material.emission + lobes.radiance;
     const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
     const int count = settings.light.light_samples;
-    DirectSamples samples{surface.sample * count, count};
-    if (shading.tolerance != nullptr) samples.tolerance = shading.tolerance->lights(surface.x, surface.y);
-    light[LightPart::direct] = sample_direct_light(lighting, task, lit, lobes.shares, sequence, samples);
+    light[LightPart::direct] =
+        sample_direct_light(lighting, task, lit, lobes.shares, sequence, {surface.sample * count, count});
     if (lobes.shares != LobeShares{}) {
         const ScatterSample sample = sample_lobes(lit, lobes.shares, sequence, surface.sample);
         RandomStream random = path_stream(shading, surface);

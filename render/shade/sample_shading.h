@@ -26,12 +26,6 @@ struct ShadingTask : RayTask {
     std::uint64_t lookups = 0, hits = 0, invalid = 0;
 };
 
-/// Errors, of luminance, that do not fall with the number of samples. Per pixel.
-struct SystematicTolerance {
-    Image<float> lights;  ///< what lights that are left out may bring
-    Image<float> gloss;   ///< how far irradiance that stands in for a lobe may be off (glossy_light.h)
-};
-
 /// How a frame's samples are shaded.
 struct SampleShading {
     const IndirectContext& context;
@@ -42,8 +36,10 @@ struct SampleShading {
     const KnownIrradiance* known = nullptr;  ///< to paths; null: they find all light by themselves
     bool blurred = false;                    ///< the shutter is open: what `shutter` does not know is found by paths
     const ShutterLight* shutter = nullptr;   ///< null: it knows nothing
-    const SystematicTolerance* tolerance = nullptr;  ///< null: nothing may be left out
-    Image<RecordUse>* uses = nullptr;                ///< records that were read; null: not asked for
+    /// By how much luminance irradiance that stands in for a lobe may be off (glossy_light.h), per pixel; null: by
+    /// none.
+    const Image<float>* gloss_tolerance = nullptr;
+    Image<RecordUse>* uses = nullptr;  ///< records that were read; null: not asked for
 };
 
 /// Keeps the random numbers of paths apart from those of direct light and of gathers (gather_at.cpp).

@@ -41,7 +41,7 @@ void refuse_options_as_values(const CLI::App& app) {
         if (option->get_positional()) continue;
         for (const std::string& value : option->results()) {
             if (!is_option(app, value)) continue;
-            throw CLI::ValidationError(option->get_name(),
+            throw CLI::ValidationError(option_label(*option),
                                        fmt::format("a value is missing before {} (a file of that name is ./{})",
                                                    printable(value), printable(value)));
         }
@@ -108,6 +108,11 @@ const char* kind_of() {
 }
 
 }  // namespace
+
+std::string option_label(const CLI::Option& option) {
+    if (!option.get_lnames().empty()) return "--" + option.get_lnames().front();
+    return option.get_snames().empty() ? option.get_name(true) : "-" + option.get_snames().front();
+}
 
 template <class T>
 T parse_value(std::string_view text, const std::string& option) {

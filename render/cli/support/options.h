@@ -20,6 +20,10 @@ enum ExitCode : int {
     exit_again = 75,     ///< a signal stopped it; the same command goes on from there (EX_TEMPFAIL of sysexits)
 };
 
+/// An option as users type it: "--error"; the name of a positional one. CLI11's own get_name() has none for options
+/// that only --help-all shows.
+std::string option_label(const CLI::Option& option);
+
 /// A number as JSON and C++ write it, with a decimal point in every locale. The whole text has to be a finite number in
 /// the range of T.
 /// @throws CLI::ConversionError naming the option

@@ -68,6 +68,26 @@ void expect_one_error_line(const Outcome& outcome, const std::string& part) {
     EXPECT_EQ(outcome.out, "");
 }
 
+TEST(CommandLine, EverySettingHasAnOptionThatCounts) {
+    // In the settings of one name, in the fingerprint of a frame: as with --set, and not as without.
+    const auto fingerprint = [](std::vector<std::string> words) {
+        words.insert(words.begin(),
+                     {"explain", (source_folder() / "scenes/cornell/scene.json").string(), "--fingerprint"});
+        const Outcome outcome = run_aleph(words);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return outcome.out;
+    };
+    const std::string plain = fingerprint({});
+    for (const auto& [key, value] : {std::pair("stopping", "pixel"), std::pair("adapter_k", "3"), std::pair("spp", "7"),
+                                     std::pair("forbid", "caustics")}) {
+        std::string option = key;
+        std::ranges::replace(option, '_', '-');
+        const std::string given = fingerprint({"--" + option, value});
+        EXPECT_NE(given, plain) << option;
+        EXPECT_EQ(given, fingerprint({"--set", std::string(key) + "=" + value})) << option;
+    }
+}
+
 TEST(CommandLine, HelpAndVersion) {
     const Outcome version = run_aleph({"--version"});
     EXPECT_EQ(version.code, 0);

@@ -126,7 +126,6 @@ TEST(LightTree, TheBoundOfATexturedLampIsThatOfItsBrightestTexel) {
         EXPECT_GT(brought, 0.0);
         EXPECT_GE(reaches.bounds[0], brought);
         EXPECT_LT(reaches.bounds[0], 3.0 * brought);
-        EXPECT_GE(find_light_cut(stage.lights, receiver, 0.0f, {.left_out = static_cast<float>(brought)}).size, 1);
     }
 }
 
@@ -184,81 +183,6 @@ TEST(LightTree, LightsAreChosenWithTheProbabilityThatIsSaid) {
             }
         }
     }
-}
-
-TEST(LightTree, WhatIsLeftOutIsBelowTheTolerance) {
-    for (const int count : {8, 100}) {
-        const Stage stage(make_crowd(count, false));
-        const Receiver receiver{{0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}};
-        const std::vector<double> brought = find_illuminances(stage, receiver);
-        double all = 0.0;
-        for (const double b : brought) all += b;
-        const std::vector<double> added = add_up(stage.lights.tree, brought);
-        int most_nodes = 0;
-        for (const double share : {0.01, 0.1, 0.3}) {
-            const auto limit = static_cast<float>(share * all);
-            const LightCut cut = find_light_cut(stage.lights, receiver, 0.0f, {.divided = limit, .left_out = limit});
-            double kept = 0.0;
-            for (int i = 0; i < cut.size; ++i) kept += added[cut.nodes[i]];
-            EXPECT_LT(cut.left_out, limit);
-            EXPECT_LE(all - kept, cut.left_out * 1.01 + 1e-6 * all);
-            most_nodes = std::max(most_nodes, cut.size);
-            if (share == 0.3 && count == 8) {
-                EXPECT_LT(cut.size, most_nodes);
-            }
-        }
-        EXPECT_EQ(find_light_cut(stage.lights, receiver, 0.0f).left_out, 0.0f);
-    }
-}
-
-TEST(LightTree, DirectLightIsLessByNoMoreThanItSays) {
-    const Stage stage(make_crowd(100, false));
-    RayTask task(stage.rays);
-    SurfaceMaterial glossy = make_lambert(0.5f);
-    glossy.gloss.f0 = Rgb(0.04f);
-    glossy.gloss.f90 = 1.0f;
-    glossy.gloss.alpha = 0.5f;
-    for (const SurfaceMaterial& material : {make_lambert(0.5f), glossy}) {
-        const glm::vec3 view = glm::normalize(glm::vec3(0.6f, -0.5f, 0.0f));
-        const ViewedSurface surface{make_point({0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}), material, view};
-        const LobeShares shares{};
-        EXPECT_TRUE(holds([&](Trial& trial) {
-            const auto light = [&](float tolerance, float& left_out) {
-                Mean mean;
-                for (std::uint32_t run = 0; run < trial.times(400u); ++run) {
-                    const PixelSequence sequence(run + trial.seed, 0, 0, 0);
-                    mean.add(luminance(sample_direct_light(stage.lighting(), task, LitSurface(surface), shares,
-                                                           sequence, {0, 4, tolerance, &left_out})));
-                }
-                return mean;
-            };
-            float none = 1.0f, some = 0.0f;
-            const Mean all = light(0.0f, none);
-            const auto tolerance = static_cast<float>(0.2 * all.mean());
-            const Mean kept = light(tolerance, some);
-            EXPECT_EQ(none, 0.0f);
-            EXPECT_GT(some, 0.0f);
-            EXPECT_LT(some, tolerance);
-            const double error = std::hypot(all.error(), kept.error());
-            trial.at_most(all.mean() - some, error, kept.mean());
-            trial.at_most(kept.mean(), error, all.mean());
-        }));
-    }
-}
-
-TEST(LightTree, LayersWithoutABoundLeaveNothingOut) {
-    const Stage stage(make_crowd(100, false));
-    RayTask task(stage.rays);
-    SurfaceMaterial coated = make_lambert(0.5f);
-    coated.coat.strength = 1.0f;
-    coated.coat.alpha = 0.1f;
-    const ViewedSurface surface{make_point({0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}), coated,
-                                glm::vec3(0.0f, -1.0f, 0.0f)};
-    const LobeShares shares{};
-    float left_out = 1.0f;
-    sample_direct_light(stage.lighting(), task, LitSurface(surface), shares, PixelSequence(1, 0, 0, 0),
-                        {0, 1, 10.0f, &left_out});
-    EXPECT_EQ(left_out, 0.0f);
 }
 
 }  // namespace

@@ -40,9 +40,11 @@ TEST(ErrorBudget, SamplesKeepToTheNoiseThatGoesUnseen) {
         follow_error(settings, error);
         EXPECT_NEAR(compute_sampling_tolerance(limits, settings, 2.0)(1, 1), times * unit, 1e-7) << error;
     }
-    ASSERT_TRUE(compute_systematic_tolerance(limits, settings, 1.0).has_value());
+    settings.error = 0.5;
+    const double threshold = 0.5 * 2.0 / limits.viewing.display_white / 4.0;
+    EXPECT_NEAR(compute_gloss_tolerance(limits, settings, 4.0)(1, 1), gloss_share * threshold, 1e-8);
     settings.error = 0.0;
-    EXPECT_FALSE(compute_systematic_tolerance(limits, settings, 1.0).has_value());
+    EXPECT_TRUE(compute_gloss_tolerance(limits, settings, 4.0).empty());
 }
 
 }  // namespace
