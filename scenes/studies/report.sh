@@ -1,23 +1,18 @@
 #!/usr/bin/env bash
 # Runs the studies and benchmarks whose results README.md and THESIS.md have, in out/studies, and makes their pictures.
 #   bash scenes/studies/report.sh [study ...]     pool takes minutes, all of them hours
+#   bash scenes/studies/report.sh thesis          all of THESIS.md, with its figures
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 bash scenes/setup.sh chromium
 cmake -S . -B build -G Ninja >/dev/null
-ninja -C build --quiet aleph study_motion
+ninja -C build --quiet aleph study_motion study_sheet
 
 # study FILE NAME [OPTION ...]
 study() {
   local file=scenes/studies/$1.json name=$2
   shift 2
   build/aleph study "$file" -o "out/studies/$name" "$@"
-}
-
-# The same, guided by either model of vision.
-both() {
-  study "$1" "$1"
-  study "$1" "$1-castle" --set vision=castle --set viewing.persistence=1 --viewers castle,thesis
 }
 
 # benchmark NAME: its tables alone, printed and in out/studies/NAME.txt.
@@ -37,14 +32,16 @@ run() {
       bash render/report/picture.sh build out/studies/pool/report.html scenes/studies/report.jpg ;;
     knob) study knob knob -t 1 ;;
     effects) study effects effects -t 1 --repeats 3 --markdown ;;
-    thesis-pool | thesis-gallery | thesis-antique-room) both "$1" ;;
     motion)
       build/study_motion scenes/boomerang/scene.json --frame 24 --set spp=8 --set gather=256 --set light_step=0 --markdown -t 1 \
-        -o scenes/boomerang/motion.jpg ;;
+        -o scenes/studies/figures/fig-5.7.jpg ;;
+    thesis-pool | thesis-gallery | thesis-antique-room | thesis-noise) study "$1" "$1" ;;
+    figures) bash scenes/studies/figures.sh ;;
+    thesis) for part in motion thesis-{pool,gallery,antique-room,noise} figures; do run "$part"; done ;;
     stages | update | size) benchmark "$1" ;;
     *) echo "report.sh: there is no study $1" >&2; exit 2 ;;
   esac
 }
 
-[ $# -gt 0 ] || set -- demo motion pool thesis-pool thesis-gallery thesis-antique-room knob effects stages update size
+[ $# -gt 0 ] || set -- demo pool thesis knob effects stages update size
 for name in "$@"; do run "$name"; done
