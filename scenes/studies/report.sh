@@ -15,6 +15,12 @@ study() {
   build/aleph study "$file" -o "out/studies/$name" "$@"
 }
 
+# room NAME OPTION ...: frame 32 of antique-room, larger than its study can be in the time, for figures 6.15 and 6.16.
+room() {
+  build/aleph render scenes/antique-room/scene.json --frames 32 --size 320x240 --accuracy .15 --gather 1024 --light-samples 1 --bounces 1 \
+    --light-step 10 -q -o "out/studies/antique-room/$1.exr" "${@:2}"
+}
+
 # benchmark NAME: its tables alone, printed and in out/studies/NAME.txt.
 benchmark() {
   ninja -C build --quiet "bench_$1"
@@ -36,8 +42,12 @@ run() {
       build/study_motion scenes/boomerang/scene.json --frame 24 --set spp=8 --set gather=256 --set light_step=0 --markdown -t 1 \
         -o scenes/studies/figures/fig-5.7.jpg ;;
     thesis-pool | thesis-gallery | thesis-antique-room | thesis-noise) study "$1" "$1" ;;
+    antique-room)
+      room variance --spp 512 --sampling variance --stopping pixel
+      room protocol --spp 512 --sampling protocol
+      room reference --spp 128 --integrator path ;;
     figures) bash scenes/studies/figures.sh ;;
-    thesis) for part in motion thesis-{pool,gallery,antique-room,noise} figures; do run "$part"; done ;;
+    thesis) for part in motion thesis-{pool,gallery,antique-room,noise} antique-room figures; do run "$part"; done ;;
     stages | update | size) benchmark "$1" ;;
     *) echo "report.sh: there is no study $1" >&2; exit 2 ;;
   esac
