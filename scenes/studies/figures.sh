@@ -25,7 +25,7 @@ sheet() {
   panels=()
 }
 
-# savings STUDY: rays and seconds of the variant `none` over those of each variant, and the error that is added to its own; with 1024 rays, of `none at 1024 rays`.
+# savings STUDY: rays and seconds of the variant `none` over those of each variant, and the error that is added to its error; with 1024 rays, of `none at 1024 rays`.
 savings() {
   awk -F, '
     NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
@@ -34,19 +34,19 @@ savings() {
       if (!(variant in seen)) { seen[variant] = 1; variants[++count] = variant }
       if (!(frame in shown)) { shown[frame] = 1; frames[++length_of_shot] = frame }
       rays[variant, frame] = $(column["gather_rays"]); seconds[variant, frame] = $(column["processor_seconds"])
-      error[variant] += $(column["relative_mse_indirect"])
+      error[variant] += $(column["relative_mse"])
     }
     END {
       head = "| guide | rays, ratio |"; rule = "| --- | ---: |"
       for (f = 1; f <= length_of_shot; ++f) { head = head " frame " frames[f] " |"; rule = rule " ---: |" }
-      print head " seconds, ratio | relative MSE of indirect light, added |\n" rule " ---: | ---: |"
+      print head " seconds, ratio | relative MSE, added, thousandths |\n" rule " ---: | ---: |"
       for (v = 1; v <= count; ++v) {
         name = variants[v]; base = name ~ /1024/ ? "none at 1024 rays" : "none"; mean = time = 0; cells = ""
         for (f = 1; f <= length_of_shot; ++f) {
           ratio = rays[base, frames[f]] / rays[name, frames[f]]; mean += ratio / length_of_shot
           time += seconds[base, frames[f]] / seconds[name, frames[f]] / length_of_shot; cells = cells sprintf(" %.2g |", ratio)
         }
-        printf "| %s | %.2g |%s %.2g | %.3f |\n", name, mean, cells, time, (error[name] - error[base]) / length_of_shot
+        printf "| %s | %.2g |%s %.2g | %.2g |\n", name, mean, cells, time, 1000 * (error[name] - error[base]) / length_of_shot
       }
     }' "$studies/$1/study.csv"
 }
@@ -69,6 +69,24 @@ rules() {
         for (n = 1; n <= 2; ++n)
           row = row sprintf(" %d | %.3g | %.2g |", records[name, n], seconds[name, n], seconds[base, n] / seconds[name, n])
         printf "%s %.0f | %.2g | %.2g | %.2g | %.2f |\n", row, samples[name], beyond[name], certain[name], castle[name], bias[name]
+      }
+    }' "$studies/$1/study.csv"
+}
+
+# visibility STUDY: what the models of vision say of each variant, and how much brighter it is; means over the frames.
+visibility() {
+  awk -F, '
+    BEGIN { count = split("share_seen share_flicker share_lasting share_beyond share_beyond.castle bias", metrics, " ") }
+    NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
+    {
+      variant = $(column["variant"]); if (!frames[variant]++) names[++variants] = variant
+      for (m = 1; m <= count; ++m) sum[variant, m] += $(column[metrics[m]])
+    }
+    END {
+      print "| noise, times the threshold | seen (%) | flicker (%) | lasting (%) | beyond one threshold (%) | by castleCSF (%) | brighter (%) |"
+      print "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
+      for (v = 1; v <= variants; ++v) {
+        row = "| " names[v] " |"; for (m = 1; m <= count; ++m) row = row sprintf(" %.0f |", sum[names[v], m] / frames[names[v]]); sub(/-0 /, "0 ", row); print row
       }
     }' "$studies/$1/study.csv"
 }
@@ -114,11 +132,11 @@ sheet 6.16 3 320 --crop 264,178,40,30
 noise=thesis-noise
 build/aleph maps scenes/art-gallery/scene.json --frames 300 --size 320x240 -q -o $studies/$noise/maps.exr
 colour "frame 300, reference" "$(picture $noise 0 300)"
-map "visible threshold (6.9), cd/m2" $studies/$noise/maps.exr threshold.Y 20
+map "visible threshold (6.9), cd/m2" $studies/$noise/maps.exr threshold.Y 100
 colour "noise of zero mean, 1 threshold" "$(picture $noise "1 of zero mean" 300)"
 for level in 0.5 1 2; do colour "noise from 0 to $level thresholds" "$(picture $noise "$level from 0" 300)"; done
 sheet 7.1 3 320
 
 {
-  echo "6.3" && savings thesis-pool && echo "6.10" && savings thesis-gallery && echo "6.14" && rules $room
+  echo "6.3" && savings thesis-pool && echo "6.10" && savings thesis-gallery && echo "6.14" && rules $room && echo "7.1" && visibility $noise
 } >$studies/figures.md

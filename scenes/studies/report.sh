@@ -18,7 +18,7 @@ study() {
 # room NAME OPTION ...: frame 32 of antique-room, larger than its study can be in the time, for figures 6.15 and 6.16.
 room() {
   build/aleph render scenes/antique-room/scene.json --frames 32 --size 320x240 --accuracy .15 --gather 1024 --light-samples 1 --bounces 1 \
-    --light-step 10 -q -o "out/studies/antique-room/$1.exr" "${@:2}"
+    --light-step 10 --aovs -q -o "out/studies/antique-room/$1.exr" "${@:2}"
 }
 
 # benchmark NAME: its tables alone, printed and in out/studies/NAME.txt.
@@ -43,9 +43,9 @@ run() {
         -o scenes/studies/figures/fig-5.7.jpg ;;
     thesis-pool | thesis-gallery | thesis-antique-room | thesis-noise) study "$1" "$1" ;;
     antique-room)
-      room variance --spp 512 --sampling variance --stopping pixel
+      room reference --spp 128 --integrator path
       room protocol --spp 512 --sampling protocol
-      room reference --spp 128 --integrator path ;;
+      room variance --spp 512 --sampling variance --set stopping=pixel ;;
     figures) bash scenes/studies/figures.sh ;;
     thesis) for part in motion thesis-{pool,gallery,antique-room,noise} antique-room figures; do run "$part"; done ;;
     stages | update | size) benchmark "$1" ;;
