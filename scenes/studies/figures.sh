@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the figures of THESIS.md, of the finished studies in out/studies: pictures in scenes/studies/figures, tables in out/studies/figures.md.
+# Makes the figures of THESIS.md, of the finished studies in out/studies: pictures in scenes/studies/figures, tables in out/studies/tables.txt.
 #   bash scenes/studies/figures.sh [FOLDER]     FOLDER: of the pictures, in place of scenes/studies/figures
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -139,4 +139,4 @@ sheet 7.1 3 320
 
 {
   echo "6.3" && savings thesis-pool && echo "6.10" && savings thesis-gallery && echo "6.14" && rules $room && echo "7.1" && visibility $noise
-} >$studies/figures.md
+} >$studies/tables.txt
