@@ -43,7 +43,7 @@ run() {
         -o scenes/studies/figures/fig-5.7.jpg ;;
     thesis-pool | thesis-gallery | thesis-antique-room | thesis-noise) study "$1" "$1" ;;
     antique-room)
-      room reference --spp 128 --integrator path
+      room reference --spp 512 --guide none
       room protocol --spp 512 --sampling protocol
       room variance --spp 512 --sampling variance --set stopping=pixel ;;
     figures) bash scenes/studies/figures.sh ;;
