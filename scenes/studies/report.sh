@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Runs the studies and benchmarks whose results README.md and THESIS.md have, in out/studies, and makes their pictures.
 #   bash scenes/studies/report.sh [study ...]     pool takes minutes, all of them hours
+#   bash scenes/studies/report.sh thesis          all of THESIS.md, with its figures
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 bash scenes/setup.sh chromium
 cmake -S . -B build -G Ninja >/dev/null
-ninja -C build --quiet aleph study_motion
+ninja -C build --quiet aleph study_motion study_sheet
 
 # study FILE NAME [OPTION ...]
 study() {
@@ -14,10 +15,10 @@ study() {
   build/aleph study "$file" -o "out/studies/$name" "$@"
 }
 
-# The same, guided by either model of vision.
-both() {
-  study "$1" "$1"
-  study "$1" "$1-castle" --set vision=castle --set viewing.persistence=1 --viewers castle,thesis
+# room NAME OPTION ...: frame 32 of antique-room, larger than its study can be in the time, for figures 6.15 and 6.16.
+room() {
+  build/aleph render scenes/antique-room/scene.json --frames 32 --size 320x240 --accuracy .15 --gather 1024 --light-samples 1 --bounces 1 \
+    --light-step 10 --aovs -q -o "out/studies/antique-room/$1.exr" "${@:2}"
 }
 
 # benchmark NAME: its tables alone, printed and in out/studies/NAME.txt.
@@ -37,14 +38,20 @@ run() {
       bash render/report/picture.sh build out/studies/pool/report.html scenes/studies/report.jpg ;;
     knob) study knob knob -t 1 ;;
     effects) study effects effects -t 1 --repeats 3 --markdown ;;
-    thesis-pool | thesis-gallery | thesis-antique-room) both "$1" ;;
     motion)
       build/study_motion scenes/boomerang/scene.json --frame 24 --set spp=8 --set gather=256 --set light_step=0 --markdown -t 1 \
-        -o scenes/boomerang/motion.jpg ;;
+        -o scenes/studies/figures/fig-5.7.jpg ;;
+    thesis-pool | thesis-gallery | thesis-antique-room | thesis-noise) study "$1" "$1" ;;
+    antique-room)
+      room reference --spp 512 --guide none
+      room protocol --spp 512 --sampling protocol
+      room variance --spp 512 --sampling variance --set stopping=pixel ;;
+    figures) bash scenes/studies/figures.sh ;;
+    thesis) for part in motion thesis-{pool,gallery,antique-room,noise} antique-room figures; do run "$part"; done ;;
     stages | update | size) benchmark "$1" ;;
     *) echo "report.sh: there is no study $1" >&2; exit 2 ;;
   esac
 }
 
-[ $# -gt 0 ] || set -- demo motion pool thesis-pool thesis-gallery thesis-antique-room knob effects stages update size
+[ $# -gt 0 ] || set -- demo pool thesis knob effects stages update size
 for name in "$@"; do run "$name"; done
