@@ -41,8 +41,8 @@ TEST(ErrorBudget, SamplesKeepToTheNoiseThatGoesUnseen) {
         EXPECT_NEAR(compute_sampling_tolerance(limits, settings, 2.0)(1, 1), times * unit, 1e-7) << error;
     }
     settings.error = 0.5;
-    const double threshold = 0.5 * 2.0 / limits.viewing.display_white / 4.0;
-    EXPECT_NEAR(compute_gloss_tolerance(limits, settings, 4.0)(1, 1), gloss_share * threshold, 1e-8);
+    const double least = 0.5 * 2.0 / limits.viewing.display_white / 4.0;
+    EXPECT_NEAR(compute_gloss_tolerance(limits, settings, 4.0)(1, 1), gloss_share * least, 1e-8);
     settings.error = 0.0;
     EXPECT_TRUE(compute_gloss_tolerance(limits, settings, 4.0).empty());
 }
