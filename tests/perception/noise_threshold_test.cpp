@@ -56,7 +56,10 @@ TEST(NoiseThreshold, NoiseOfRedAndGreenIsWorthItsVisibility) {
     Image<Rgb> primaries(3, 1);
     for (int i = 0; i < 3; ++i) primaries(i, 0)[i] = 1.0f;
     const Image<float> signals = compute_visual_channel(primaries, 1.0, 1);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(signals(i, 0), red_green_weights[i], 1e-5f);
+    const float grey = signals(0, 0) + signals(1, 0) + signals(2, 0);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(signals(i, 0) - grey * luminance(primaries(i, 0)), red_green_weights[i], 1e-5f);
+    EXPECT_NEAR(red_green_weights.x + red_green_weights.y + red_green_weights.z, 0.0f, 1e-8f);
 
     ViewingConditions viewing;
     for (const double pixels_per_degree : {20.0, 62.0}) {

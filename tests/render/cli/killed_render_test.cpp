@@ -219,7 +219,7 @@ TEST_F(KilledRender, TwoProcessesDivideTheFramesOrRefuse) {
 TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
     // Later options count. The frame takes seconds, in which it is asked how far it is, stopped, killed and finished.
     const auto long_frame = [&](const fs::path& output, const Words& more) {
-        Words words = this->words("7", output, {"--size", "120x90", "--spp", "60", "--accuracy", "0"});
+        Words words = this->words("7", output, {"--size", "120x90", "--spp", "150", "--accuracy", "0"});
         words.insert(words.end(), more.begin(), more.end());
         return words;
     };
