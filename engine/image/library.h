@@ -1,5 +1,5 @@
 #pragma once
-// What this program uses of OpenImageIO, as a table of functions. That library needs some 260 others, which take a
+// The functions of OpenImageIO that this program uses, as a table. OpenImageIO needs some 260 libraries, which take a
 // quarter of a second to load: the table is in a file of its own, loaded when the first picture needs it. Programs that
 // link an installed aleph have the table linked in.
 
