@@ -23,8 +23,8 @@ using BandContrasts = std::array<float, noise_bands>;
 
 /// Red-green signal of linear Rec.709 RGB (visible_bands.h) without that of grey of the same luminance, .004 of it, and
 /// how much luminance its noise of single pixels is worth where each is as visible: 1.3 to 1.75 times the signal at 20
-/// to 80 cd/m2, 20 to 62 pixels per degree and any velocity, .8 to 1.4 at 2 cd/m2, by the integral of NoiseVisibility.
-/// The yellow-violet signal is worth .06 to .2.
+/// to 80 cd/m2, 20 to 62 pixels per degree and up to 10 deg/s, .8 to 1.4 at 2 cd/m2, by the integral of
+/// NoiseVisibility. The yellow-violet signal is worth .06 to .2.
 inline constexpr Rgb red_green_weights{0.12682f, -0.08977f, -0.03705f};
 inline constexpr float red_green_worth = 1.4f;
 

@@ -82,7 +82,8 @@ Image<Rgb> color_scale(const Image<float>& positions) {
 }
 
 int text_width(const std::string& text, int size) {
-    return std::max(0, OIIO::ImageBufAlgo::text_size(text, size, font).width());
+    const OIIO::ROI room = OIIO::ImageBufAlgo::text_size(text, size, font);
+    return room.defined() ? room.width() : 0;
 }
 
 void draw_text(Image<Rgb>& picture, int x, int y, bool x_is_right, const std::string& text, int size) {

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Makes the figures of THESIS.md, of the finished studies in out/studies: pictures in scenes/studies/figures, tables in out/studies/tables.txt.
-#   bash scenes/studies/figures.sh [FOLDER]     FOLDER: of the pictures, in place of scenes/studies/figures
+# Makes the figures of THESIS.md from the finished studies in out/studies: pictures in scenes/studies/figures, tables in
+# out/studies/tables.txt.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 studies=out/studies
-figures=${1:-scenes/studies/figures}
+figures=scenes/studies/figures
 mkdir -p "$figures"
 
 # picture STUDY VARIANT FRAME: the file of a run's picture.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <iostream>
 
 #include "engine/base/errors.h"
@@ -34,14 +33,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-double parse_end(const std::string& text, const std::string& panel) {
-    double value = 0.0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || stop != text.data() + text.size())
-        throw InputError(panel, "", fmt::format("expected a number in place of \"{}\"", text));
-    return value;
-}
-
 /// CAPTION=FILE is the picture of an image file; CAPTION=FILE,CHANNEL,LOW,HIGH a channel in colours from LOW to HIGH.
 Panel read_panel(const std::string& text) {
     const std::size_t equals = text.find('=');
@@ -53,7 +44,7 @@ Panel read_panel(const std::string& text) {
     if (parts.size() == 1) return color_panel(caption, linear_colour(image));
     const Image<float>* channel = image.find(parts[1]);
     if (!channel) throw InputError(parts[0], "", fmt::format("has no channel {}", parts[1]));
-    return map_panel(caption, *channel, {parse_end(parts[2], text), parse_end(parts[3], text)});
+    return map_panel(caption, *channel, {parse_value<double>(parts[2], text), parse_value<double>(parts[3], text)});
 }
 
 /// A part of a picture whose pixels stand as often beside each other as they fit into the width.

@@ -45,7 +45,7 @@ run() {
     antique-room)
       room reference --spp 512 --guide none
       room protocol --spp 512 --sampling protocol
-      room variance --spp 512 --sampling variance --set stopping=pixel ;;
+      room variance --spp 512 --sampling variance --stopping pixel ;;
     figures) bash scenes/studies/figures.sh ;;
     thesis) for part in motion thesis-{pool,gallery,antique-room,noise} antique-room figures; do run "$part"; done ;;
     stages | update | size) benchmark "$1" ;;
