@@ -13,7 +13,7 @@ namespace aleph {
 
 namespace {
 
-constexpr double seen_surfaces = 300.0;  // per view, about
+constexpr double pixels_per_surface = 10.0, fewest_surfaces = 300.0, most_surfaces = 2000.0;  // per view, about
 constexpr int rays_per_surface = 16;
 constexpr float filling_rays = 1024.0f;  // of the gather whose ray has the footprint that bounds radii
 
@@ -50,7 +50,8 @@ std::optional<PixelSurface> find_in_tile(const IndirectContext& context, const S
 void add_seen_surfaces(const IndirectContext& context, const SampleHits& sample, std::vector<PixelSurface>& surfaces,
                        RayCounts& counts) {
     const double pixels = static_cast<double>(sample.hits.size());
-    const int size = std::max(1, static_cast<int>(std::lround(std::sqrt(pixels / seen_surfaces))));
+    const double wanted = std::clamp(pixels / pixels_per_surface, fewest_surfaces, most_surfaces);
+    const int size = std::max(1, static_cast<int>(std::lround(std::sqrt(pixels / wanted))));
     RayTask task(context.lighting.rays);
     for (int y = 0; y < sample.hits.height; y += size) {
         for (int x = 0; x < sample.hits.width; x += size) {

@@ -10,30 +10,17 @@ namespace aleph {
 namespace {
 
 /// alpha of the records, over the picture's; but for pictures of great accuracy it is the loosest one.
-constexpr double looser = 7.0, loosest_record = 0.7;
+constexpr double looser = 2.5, loosest_record = 0.7;
 
 constexpr double sampled_accuracy = 0.05;  // stands for that of a picture without records
 
-/// A scene where fewer records suffice takes more, with a smaller alpha: they cost little.
-constexpr std::size_t many_records = 500;
-constexpr float stricter = 0.7f;
-
 constexpr int record_rays = 128;
 
-/// Adds records where gathers of the picture arrive. @return alpha of the last ones
-float fill_coarsely(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places,
-                    FrameTally& tally) {
-    const double asked = context.settings.cache.accuracy, picture = asked > 0.0 ? asked : sampled_accuracy;
-    float alpha = static_cast<float>(std::max(picture, std::min(looser * picture, loosest_record)));
-    const auto fill = [&] {
-        const Image<float> accuracy(places.points.width, places.points.height, alpha);
-        fill_places(cache, make_places_context(context, accuracy), places, tally);
-    };
-    fill();
-    if (cache.records().size() >= many_records || stricter * alpha < picture) return alpha;
-    alpha *= stricter;
-    fill();
-    return alpha;
+/// The records' alpha. They reach into corners from where there is more light: what they add there lasts from frame to
+/// frame, and is seen long before noise as large is.
+float choose_alpha(const RenderSettings& settings) {
+    const double asked = settings.cache.accuracy, picture = asked > 0.0 ? asked : sampled_accuracy;
+    return static_cast<float>(std::max(picture, std::min(looser * picture, loosest_record)));
 }
 
 }  // namespace
@@ -70,13 +57,13 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     fill.rays = record_rays;
     fill.gathered = &gathered;
     DirectGrid direct(context.max_radius);
-    const Image<float> accuracy;
+    FurtherBounces known{make_cache(context.lighting.shading), choose_alpha(context.settings)};
+    const Image<float> accuracy(places.hits.width, places.hits.height, known.accuracy);
     IndirectContext coarse = make_places_context(context, accuracy);
     coarse.direct = &direct;
     coarse.bounces.further = {.bounces = bounces - 1, .noted = true};
     coarse.bounces.before = 1;
-    FurtherBounces known{make_cache(context.lighting.shading)};
-    known.accuracy = fill_coarsely(known.cache, coarse, fill, tally);
+    fill_places(known.cache, coarse, fill, tally);
     const float reach = static_cast<float>(shade_reach) * known.accuracy;
     if (bounces > 1) {
         known.cache.prepare(reach);

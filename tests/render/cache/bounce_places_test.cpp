@@ -41,13 +41,13 @@ struct Rooms : IndirectStage {
 };
 
 TEST(BouncePlaces, SeenSurfacesAreOneInEachTile) {
-    // 120 x 80 pixels in 300 tiles: 6 wide.
-    Rooms rooms(120, 80);
+    // 312 x 208 pixels in 2,000 tiles: 6 wide.
+    Rooms rooms(312, 208);
     std::vector<PixelSurface> surfaces = rooms.seen();
-    ASSERT_EQ(surfaces.size(), 20u * 14u);
-    for (int i = 0; i < 280; ++i) {
-        EXPECT_EQ(surfaces[static_cast<std::size_t>(i)].x, i % 20 * 6 + 1);
-        EXPECT_EQ(surfaces[static_cast<std::size_t>(i)].y, i / 20 * 6 + 1);
+    ASSERT_EQ(surfaces.size(), 52u * 35u);
+    for (int i = 0; i < 1820; ++i) {
+        EXPECT_EQ(surfaces[static_cast<std::size_t>(i)].x, i % 52 * 6 + 1);
+        EXPECT_EQ(surfaces[static_cast<std::size_t>(i)].y, i / 52 * 6 + 1);
     }
     // Where the first pixel of a tile shows nothing, others are tried.
     const glm::ivec2 tries[] = {{1, 1}, {4, 1}, {1, 4}, {4, 4}};
@@ -55,27 +55,32 @@ TEST(BouncePlaces, SeenSurfacesAreOneInEachTile) {
         rooms.centers.hits(12 + tries[i].x, 6 + tries[i].y) = Hit{};
         surfaces = rooms.seen();
         if (i == 3) {
-            EXPECT_EQ(surfaces.size(), 279u);
+            EXPECT_EQ(surfaces.size(), 1819u);
         } else {
-            ASSERT_EQ(surfaces.size(), 280u);
-            EXPECT_EQ(surfaces[22].x, 12 + tries[i + 1].x);
-            EXPECT_EQ(surfaces[22].y, 6 + tries[i + 1].y);
+            ASSERT_EQ(surfaces.size(), 1820u);
+            EXPECT_EQ(surfaces[54].x, 12 + tries[i + 1].x);
+            EXPECT_EQ(surfaces[54].y, 6 + tries[i + 1].y);
         }
     }
     LeftHalfKnown known;
-    known.half = 60;
+    known.half = 156;
     rooms.context.carried = &known;
     surfaces = rooms.seen();
-    EXPECT_EQ(surfaces.size(), 140u);
-    for (const PixelSurface& surface : surfaces) EXPECT_GE(surface.x, 60);
+    EXPECT_EQ(surfaces.size(), 910u);
+    for (const PixelSurface& surface : surfaces) EXPECT_GE(surface.x, 156);
+}
+
+TEST(BouncePlaces, SmallPicturesHaveFewerTiles) {
+    EXPECT_EQ(Rooms(120, 80).seen().size(), 40u * 27u);  // one pixel in ten: 3 wide
+    EXPECT_EQ(Rooms(60, 40).seen().size(), 20u * 14u);   // 300, rounded to 3 wide
 }
 
 TEST(BouncePlaces, TilesEndAtThePicture) {
-    Rooms wide(121, 80), high(120, 85);  // the last tiles are one pixel wide, and high
-    EXPECT_EQ(wide.seen().size(), 280u);
-    for (const PixelSurface& surface : wide.seen()) EXPECT_LT(surface.x, 121);
-    EXPECT_EQ(high.seen().size(), 280u);
-    for (const PixelSurface& surface : high.seen()) EXPECT_LT(surface.y, 85);
+    Rooms wide(313, 208), high(312, 211);  // the last tiles are one pixel wide, and high
+    EXPECT_EQ(wide.seen().size(), 1820u);
+    for (const PixelSurface& surface : wide.seen()) EXPECT_LT(surface.x, 313);
+    EXPECT_EQ(high.seen().size(), 1820u);
+    for (const PixelSurface& surface : high.seen()) EXPECT_LT(surface.y, 211);
     EXPECT_EQ(Rooms(3, 2).seen().size(), 6u);
 }
 
