@@ -14,7 +14,7 @@ constexpr double looser = 2.5, loosest_record = 0.7;
 
 constexpr double sampled_accuracy = 0.05;  // stands for that of a picture without records
 
-constexpr int record_rays = 128;
+constexpr int record_rays = 64;
 
 /// The records' alpha. They reach into corners from where there is more light: what they add there lasts from frame to
 /// frame, and is seen long before noise as large is.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <numeric>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "render/settings/numbers.h"
@@ -26,6 +28,7 @@ struct Link {
 
 /// Irradiance that arrives at a place of what one FurtherLight asks for.
 struct LinkedLight {
+    int ray = 0;       ///< that found it
     Rgb weight{0.0f};  ///< of a unit of the irradiance there
     std::array<Link, most_links> links{};
 
@@ -34,20 +37,26 @@ struct LinkedLight {
 
 /// A record, or a hit without records around: then it has one ray.
 struct Place {
-    RandomKey key;  ///< of a hit
-    GatheredRays found;
+    RandomKey key;     ///< of a hit
     Rgb direct{0.0f};  ///< irradiance of one bounce
     std::vector<LinkedLight> linked;
 };
+
+/// Takes out what the rays of a place did not look up. Weights become those of the place's irradiance.
+std::vector<FurtherLight> take_further(GatheredRays& found) {
+    const float per_share = pi / static_cast<float>(found.strata.count());
+    for (FurtherLight& further : found.further) further.weight *= found.places[further.ray].share * per_share;
+    return std::exchange(found.further, {});
+}
 
 class LightTransport {
   public:
     LightTransport(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
                    std::vector<GatheredRays> gathered, int bounces, RayCounts& counts)
-        : context_(context), cache_(cache), accuracy_(accuracy), counts_(counts) {
-        places_.resize(gathered.size());
+        : context_(context), cache_(cache), accuracy_(accuracy), counts_(counts), gathered_(std::move(gathered)) {
+        places_.resize(gathered_.size());
         for (std::size_t i = 0; i < places_.size(); ++i) {
-            places_[i].found = std::move(gathered[i]);
+            unlinked_.push_back(take_further(gathered_[i]));
             places_[i].direct = cache.records()[i].irradiance;
         }
         std::size_t done = 0;
@@ -57,6 +66,7 @@ class LightTransport {
             add_random_places(done);
             done = end;
         }
+        unlinked_.clear();
         for (const Place& place : places_) irradiance_.push_back(place.direct);
         for (int bounce = 2; bounce < bounces; ++bounce) {
             if (!add_bounce()) break;
@@ -69,11 +79,10 @@ class LightTransport {
         parallel_for(records.size(), 16, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
             for (std::size_t i = begin; i < end; ++i) {
-                static_cast<GatheredRays&>(scratch) = std::move(places_[i].found);
+                static_cast<GatheredRays&>(scratch) = std::move(gathered_[i]);
                 const float per_share = pi / static_cast<float>(scratch.strata.count());
-                for (std::size_t f = 0; f < scratch.further.size(); ++f) {
-                    const int ray = scratch.further[f].ray;
-                    scratch.light[ray] += arrive(places_[i].linked[f]) / (per_share * scratch.places[ray].share);
+                for (const LinkedLight& light : places_[i].linked) {
+                    scratch.light[light.ray] += arrive(light) / (per_share * scratch.places[light.ray].share);
                 }
                 set_light(add_up_rays(scratch.strata, records[i].normal, scratch), records[i]);
             }
@@ -87,22 +96,27 @@ class LightTransport {
         std::mutex mutex;
         parallel_for(places_.size() - first, 16, [&](std::size_t begin, std::size_t end) {
             RayTask task(context_.lighting.rays);
-            for (std::size_t i = first + begin; i < first + end; ++i) link_place(places_[i], task);
+            for (std::size_t i = begin; i < end; ++i) link_place(places_[first + i], unlinked_[i], task);
             const std::lock_guard lock(mutex);
             counts_ += task.counts;
         });
     }
 
-    void link_place(Place& place, RayTask& task) const {
-        const GatheredRays& found = place.found;
-        const float per_share = pi / static_cast<float>(found.strata.count());
-        for (const FurtherLight& further : found.further) {
+    /// @param found  what its rays found; what has no link is left
+    void link_place(Place& place, std::vector<FurtherLight>& found, RayTask& task) const {
+        std::vector<FurtherLight> unlinked;
+        place.linked.reserve(found.size());
+        for (const FurtherLight& further : found) {
             LinkedLight& light = place.linked.emplace_back();
+            light.ray = further.ray;
             // One that is not finite would spoil all places.
-            if (!is_finite(further.weight)) continue;
-            light.weight = further.weight * (found.places[further.ray].share * per_share);
-            light.links = find_links(further.place, task);
+            if (is_finite(further.weight)) {
+                light.weight = further.weight;
+                light.links = find_links(further.place, task);
+            }
+            if (!light.is_linked()) unlinked.push_back(further);
         }
+        found = std::move(unlinked);
     }
 
     /// The records of most weight; none where there is no record.
@@ -120,25 +134,21 @@ class LightTransport {
         return links;
     }
 
-    /// What of a place was not linked. Of a place with one ray, one part stands for all or for nothing, by Russian
-    /// roulette: else their number could grow from ray to ray.
-    std::vector<std::size_t> choose_unlinked(std::size_t i) {
-        Place& place = places_[i];
-        std::vector<std::size_t> unlinked;
+    /// Chooses from the parts of a place that were not linked. Of a place with one ray, one part stands for all or for
+    /// nothing, by Russian roulette: else their number could grow from ray to ray.
+    std::vector<std::size_t> choose_unlinked(std::size_t i, const std::vector<LinkedLight*>& parts) const {
+        std::vector<std::size_t> all(parts.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        if (i < cache_.records().size() || all.empty()) return all;
         float total = 0.0f;
-        for (std::size_t f = 0; f < place.linked.size(); ++f) {
-            if (place.linked[f].is_linked()) continue;
-            unlinked.push_back(f);
-            total += luminance(place.linked[f].weight);
-        }
-        if (i < cache_.records().size() || unlinked.empty()) return unlinked;
-        float left = RandomStream(place.key).next() * std::max(total, 1.0f);
-        for (const std::size_t f : unlinked) {
-            const float weight = luminance(place.linked[f].weight);
+        for (const LinkedLight* part : parts) total += luminance(part->weight);
+        float left = RandomStream(places_[i].key).next() * std::max(total, 1.0f);
+        for (const std::size_t k : all) {
+            const float weight = luminance(parts[k]->weight);
             left -= weight;
             if (!(left < 0.0f)) continue;
-            place.linked[f].weight *= std::max(total, 1.0f) / weight;
-            return {f};
+            parts[k]->weight *= std::max(total, 1.0f) / weight;
+            return {k};
         }
         return {};
     }
@@ -147,11 +157,16 @@ class LightTransport {
     void add_random_places(std::size_t first) {
         std::vector<const FurtherLight*> lit;
         for (std::size_t i = first, end = places_.size(); i < end; ++i) {
-            for (const std::size_t f : choose_unlinked(i)) {
-                places_[i].linked[f].links[0] = {static_cast<int>(end + lit.size()), 1.0f};
-                lit.push_back(&places_[i].found.further[f]);
+            std::vector<LinkedLight*> parts;
+            for (LinkedLight& light : places_[i].linked) {
+                if (!light.is_linked()) parts.push_back(&light);
+            }
+            for (const std::size_t k : choose_unlinked(i, parts)) {
+                parts[k]->links[0] = {static_cast<int>(end + lit.size()), 1.0f};
+                lit.push_back(&unlinked_[i - first][k]);
             }
         }
+        std::vector<std::vector<FurtherLight>> unlinked(lit.size());
         std::vector<Place> added(lit.size());
         std::mutex mutex;
         parallel_for(added.size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -167,11 +182,12 @@ class LightTransport {
                 if (!is_finite(added[i].direct)) added[i].direct = Rgb(0.0f);
                 added[i].key = lit[i]->key;
                 ++added[i].key.seed;
-                added[i].found = scratch;
+                unlinked[i] = take_further(scratch);
             }
             const std::lock_guard lock(mutex);
             counts_ += task.counts;
         });
+        unlinked_ = std::move(unlinked);
         std::ranges::move(added, std::back_inserter(places_));
     }
 
@@ -211,8 +227,10 @@ class LightTransport {
     const IrradianceCache& cache_;
     const float accuracy_;
     RayCounts& counts_;
-    std::vector<Place> places_;    ///< records first
-    std::vector<Rgb> irradiance_;  ///< of places
+    std::vector<GatheredRays> gathered_;               ///< of the records
+    std::vector<Place> places_;                        ///< records first
+    std::vector<std::vector<FurtherLight>> unlinked_;  ///< of the places that were added last
+    std::vector<Rgb> irradiance_;                      ///< of places
 };
 
 }  // namespace
