@@ -16,8 +16,8 @@ constexpr double sampled_accuracy = 0.05;  // stands for that of a picture witho
 
 constexpr int record_rays = 64;
 
-/// The records' alpha. They reach into corners from where there is more light: what they add there lasts from frame to
-/// frame, and is seen long before noise as large is.
+/// The records' alpha. Records that reach far bring light from where there is more of it into corners: an error that
+/// lasts from frame to frame, and that is seen where noise of its size is not.
 float choose_alpha(const RenderSettings& settings) {
     const double asked = settings.cache.accuracy, picture = asked > 0.0 ? asked : sampled_accuracy;
     return static_cast<float>(std::max(picture, std::min(looser * picture, loosest_record)));
