@@ -13,7 +13,7 @@ namespace aleph {
 
 namespace {
 
-constexpr double pixels_per_surface = 20.0, fewest_surfaces = 300.0, most_surfaces = 2000.0;  // per view, about
+constexpr double pixels_per_surface = 10.0, fewest_surfaces = 300.0, most_surfaces = 2000.0;  // per view, about
 constexpr int rays_per_surface = 16;
 constexpr float filling_rays = 1024.0f;  // of the gather whose ray has the footprint that bounds radii
 

@@ -71,7 +71,7 @@ TEST(BouncePlaces, SeenSurfacesAreOneInEachTile) {
 }
 
 TEST(BouncePlaces, SmallPicturesHaveFewerTiles) {
-    EXPECT_EQ(Rooms(120, 80).seen().size(), 30u * 20u);  // one pixel in twenty: 4 wide
+    EXPECT_EQ(Rooms(120, 80).seen().size(), 40u * 27u);  // one pixel in ten: 3 wide
     EXPECT_EQ(Rooms(60, 40).seen().size(), 20u * 14u);   // 300, rounded to 3 wide
 }
 
