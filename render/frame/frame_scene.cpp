@@ -35,12 +35,14 @@ std::size_t FrameScene::prepare() {
     lights_ = make_light_set(*shading_);
     leave_out(shot_.settings.effects.forbid);
     shading_->points_unshadowed = false;
+    shading_->caustic_width = find_caustic_width(shot_.settings);
     return touched;
 }
 
 void FrameScene::copy_to(KeyPose& kept) const {
     kept.posed = *posed_;
     kept.shading = make_shading_scene(shot_.scene, kept.posed.pose, *rays_, shot_.textures);
+    kept.shading.caustic_width = shading_->caustic_width;
 }
 
 void FrameScene::leave_out(const EffectSet& effects) {

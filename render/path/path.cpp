@@ -92,7 +92,7 @@ class Path {
     /// Adds the light of the surface and of everything beyond.
     void scatter_at(ViewedSurface& surface) {
         while (state_.left.depth > 0) {
-            if (state_.turned && context_.shading.skipped.contains(Effect::caustics)) remove_specular(surface.material);
+            if (state_.turned) blur_caustics(context_.shading, surface.material);
             const bool known = add_known(surface);
             if (!survive()) return;
             --state_.left.depth;

@@ -50,6 +50,13 @@ void add_default_error(const SettingMap& scene, SettingMap& given) {
     if (!chooses_work(scene) && !chooses_work(given)) given["error"] = 1.0;
 }
 
+float find_caustic_width(const RenderSettings& settings) {
+    const EffectSettings& effects = settings.effects;
+    const bool exact = effects.plan == EffectsPlanning::off || effects.force.contains(Effect::caustics);
+    // Measured with mirror balls under a lamp: .1 leaves faint spots, .25 takes 1 to 2 % of the light.
+    return exact || settings.light.integrator == Integrator::path ? 0.0f : 0.15f;
+}
+
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source) {
     const std::vector<Setting>& table = setting_table();
     // Refused below, if it is not a number in range.

@@ -159,6 +159,10 @@ void add_default_error(const SettingMap& scene, SettingMap& given);
 /// @param error  thresholds, above 0
 void follow_error(RenderSettings& settings, double error);
 
+/// GGX alpha that lobes have at least where a Lambert layer turned the path; 0: their own. Cached light blurs caustics
+/// by it, unless the plan of effects is off or forced to simulate them.
+float find_caustic_width(const RenderSettings& settings);
+
 /// As JSON and the command line write it: true, 0.5, saliency.
 std::string setting_text(const SettingValue& value);
 

@@ -78,6 +78,7 @@ struct ShadingScene {
     std::vector<int> emitting;    ///< instances whose material emits at some time
     VisibleBounds bounds;
     EffectSet skipped;               ///< left out of shading
+    float caustic_width = 0.0f;      ///< find_caustic_width
     bool points_unshadowed = false;  ///< nothing stands before lights without area
 
     /// @param pdf  LightSample::pdf

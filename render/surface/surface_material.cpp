@@ -143,12 +143,19 @@ void remove_lobes(const EffectSet& skipped, SurfaceMaterial& material) {
     if (skipped.contains(Effect::refraction)) material.glass.share = 0.0f;
 }
 
-}  // namespace
-
+/// Leaves the Lambert layer and emission alone.
 void remove_specular(SurfaceMaterial& material) {
     remove_gloss(material);
     material.coat.strength = material.glass.share = 0.0f;
     material.sheen.color = Rgb(0.0f);
+}
+
+}  // namespace
+
+void blur_caustics(const ShadingScene& shading, SurfaceMaterial& material) {
+    if (shading.skipped.contains(Effect::caustics)) return remove_specular(material);
+    material.coat.alpha = std::max(material.coat.alpha, shading.caustic_width);
+    if (!material.passes_straight()) material.gloss.alpha = std::max(material.gloss.alpha, shading.caustic_width);
 }
 
 glm::vec3 keep_visible(const glm::vec3& normal, const glm::vec3& fallback, const glm::vec3& geometric,

@@ -90,8 +90,11 @@ struct ViewedSurface {
 SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point,
                                   const RayFootprint& footprint);
 
-/// Leaves the Lambert layer and emission alone.
-void remove_specular(SurfaceMaterial& material);
+/// The material as paths see it that a Lambert layer turned: lobes have at least the scene's caustic_width, so that
+/// light which a mirror or a narrow lobe sends from a small lamp to a diffuse surface is found by sampling the lamp, and
+/// not by chance (Kaplanyan and Dachsbacher 2013, "Path Space Regularization for Holistic and Robust Light Transport").
+/// Smooth sheets of glass still pass light straight. Without caustics there are no lobes.
+void blur_caustics(const ShadingScene& shading, SurfaceMaterial& material);
 
 /// Share of the rays that the surface stops: less than 1 where a mask or blending lets some pass (Blend::random).
 float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint);

@@ -1,0 +1,84 @@
+// Light that mirrors send to diffuse surfaces, against a closed form: a mirror ball scatters a beam evenly.
+
+#include "render/cache/gather.h"
+#include "render/settings/settings.h"
+#include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
+#include "tests/support/trial.h"
+
+namespace aleph {
+namespace {
+
+constexpr double ball_radius = 0.25, lamp_side = 0.3, lamp_height = 20.0, lamp_radiance = 1e4;
+
+/// A perfect mirror ball at the origin, far below a small lamp. From 5 m the lamp's image has 1e-7 sr.
+Scene make_ball_below_lamp() {
+    Scene scene;
+    scene.materials.push_back({.base_color = glm::dvec3(1.0), .gloss = {.metallic = 1.0, .roughness = 0.0}});
+    const Shape ball{.kind = Shape::Kind::sphere, .radius = ball_radius, .segments = 256};
+    add_mesh(scene, make_shape_mesh(ball, 0));
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(lamp_radiance));
+    add_mesh(scene, make_quad(lamp_side, lamp_side, lamp), {0.0, lamp_height, 0.0}, z_to_down);
+    return scene;
+}
+
+/// What the ball reflects of a beam of irradiance E has the focal lengths f_t and f_s of a convex mirror (Coddington),
+/// and E f_t f_s / ((s + f_t) (s + f_s)) at the distance s from it.
+TEST(Caustics, BlurredLightOfAMirrorBallIsThatOfAMirrorBall) {
+    Stage stage(make_ball_below_lamp());
+    stage.shading.caustic_width = find_caustic_width(RenderSettings{});
+    RayTask task(stage.rays);
+    GatherScratch scratch;
+    const double distance = 1.5;
+    for (const double incidence : {0.3, 0.6, 0.9}) {
+        const double to_lamp = lamp_height - ball_radius * std::cos(incidence);
+        const double beam = lamp_radiance * lamp_side * lamp_side / (to_lamp * to_lamp);
+        const double tangential = 0.5 * ball_radius * std::cos(incidence);
+        const double sagittal = 0.5 * ball_radius / std::cos(incidence);
+        const double expected = beam * tangential * sagittal / ((distance + tangential) * (distance + sagittal));
+        const glm::dvec3 normal(std::sin(incidence), std::cos(incidence), 0.0);
+        const glm::dvec3 away(std::sin(2.0 * incidence), std::cos(2.0 * incidence), 0.0);
+        const glm::dvec3 at = ball_radius * normal + distance * away - stage.shading.anchor;
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            Mean mean;
+            for (std::uint32_t run = 0; run < trial.times(1024u); ++run) {
+                mean.add(gather_irradiance(stage.lighting(), task, make_point(at, -away),
+                                           {choose_strata(1024), {run + trial.seed, 0, 0, 0}}, scratch, {.depth = 4})
+                             .irradiance.x);
+            }
+            EXPECT_LT(mean.error(), 0.03 * expected) << incidence;  // without the blur hardly a ray finds the lamp
+            trial.near(mean, expected, 0.05 * expected);
+        }));
+    }
+}
+
+TEST(Caustics, LobesAreWidenedWhereLightDoesNotPassStraight) {
+    Stage stage(make_ball_below_lamp());
+    stage.shading.caustic_width = 0.15f;
+    SurfaceMaterial mirror = make_metal(0.0f), rough = make_metal(0.4f), sheet{.gloss{.f90 = 1.0f, .alpha = 0.0f}};
+    sheet.glass.share = 1.0f;
+    sheet.coat = {.strength = 1.0f, .alpha = 0.01f};
+    SurfaceMaterial volume = sheet;
+    volume.glass.volume = true;
+    for (SurfaceMaterial* material : {&mirror, &rough, &sheet, &volume}) blur_caustics(stage.shading, *material);
+    EXPECT_EQ(mirror.gloss.alpha, 0.15f);
+    EXPECT_EQ(rough.gloss.alpha, 0.4f);
+    EXPECT_EQ(volume.gloss.alpha, 0.15f);
+    EXPECT_TRUE(sheet.passes_straight());
+    EXPECT_EQ(sheet.coat.alpha, 0.15f);
+    stage.shading.skipped.add(Effect::caustics);
+    blur_caustics(stage.shading, mirror);
+    EXPECT_FALSE(mirror.has_specular());
+}
+
+TEST(Caustics, PathsAndForcedCausticsAreNotBlurred) {
+    RenderSettings paths, forced, off;
+    paths.light.integrator = Integrator::path;
+    forced.effects.force.add(Effect::caustics);
+    off.effects.plan = EffectsPlanning::off;
+    EXPECT_GT(find_caustic_width(RenderSettings{}), 0.0f);
+    for (const RenderSettings* exact : {&paths, &forced, &off}) EXPECT_EQ(find_caustic_width(*exact), 0.0f);
+}
+
+}  // namespace
+}  // namespace aleph
