@@ -39,9 +39,14 @@ TEST(AlembicMeshes, CornersBecomeVertices) {
     EXPECT_EQ(mesh.triangles.size(), 32u);
     const PointCache& cache = scene.point_caches[mesh.deformation.points];
     ASSERT_EQ(cache.velocities.size(), cache.positions.size());
-    const json& velocities = property_of(object, ".velocities")["samples"];
-    for (std::size_t i = 0; i < cache.velocities.size(); ++i)
-        EXPECT_EQ(cache.velocities[i][7], vec3_at(velocities[i][2], 7));
+    const json &points = property_of(object, "P")["samples"],
+               &velocities = property_of(object, ".velocities")["samples"];
+    for (std::size_t i = 0; i < cache.velocities.size(); ++i) {
+        for (std::size_t k = 0; k < 25; ++k) {
+            EXPECT_EQ(cache.positions[i][k], vec3_at(points[i][2], k));
+            EXPECT_EQ(cache.velocities[i][k], vec3_at(velocities[i][2], k));
+        }
+    }
 }
 
 TEST(AlembicMeshes, FacesTurnCounterClockwiseOrAsNormalsSay) {
