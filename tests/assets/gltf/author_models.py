@@ -1,25 +1,13 @@
 #!/usr/bin/env python3
-"""Writes the glTF models of this folder, one per group of features; it needs the standard library only. The numbers are
-repeated in tests/engine/gltf/assets_test.cpp; poses_test.cpp there works out the poses.
+"""Writes the glTF models of this folder, one per group of features; it needs the standard library only.
+tests/engine/gltf/poses_test.cpp works out their poses.
 """
 import math
 
 from author_motion import interpolation, inverse_parent, morph_cube, recursive, skin
-from gltf_writer import FOLDER, Model, box, pack, png, turn
+from gltf_writer import Model, box, pack, png, turn
 
 STRENGTH = "KHR_materials_emissive_strength"
-
-
-def interleaved():
-    """Positions and normals in one view, 24 bytes a vertex."""
-    model = Model()
-    positions, normals, _, indices = box((0.5, 0.5, 0.5))
-    view = model.view(pack([p + n for p, n in zip(positions, normals)], "f"), byteStride=24, target=34962)
-    attributes = {"POSITION": model.accessor(positions, bounds=True, view=view),
-                  "NORMAL": model.accessor(normals, view=view, byteOffset=12)}
-    mesh = model.add("meshes", primitives=[{"attributes": attributes, "indices": model.accessor(indices, "H")}])
-    model.node("box", mesh=mesh)
-    model.save("interleaved.glb")
 
 
 def sparse():
@@ -35,46 +23,6 @@ def sparse():
     node = model.node("plane", mesh=mesh)
     model.animate("lift", (node, "weights", "LINEAR", [1, 2], model.sparse(2, 1, [1], [[1]])))
     model.save("sparse.glb")
-
-
-def triangles():
-    """Two triangles without indices, normals and material, the root with a child that holds nothing."""
-    model = Model()
-    corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
-    root = model.node("root", mesh=model.add("meshes", primitives=[model.primitive(corners)]))
-    model.node("empty", root)
-    model.save("triangles.gltf")
-
-
-def cameras():
-    model = Model()
-    model.add("cameras", type="perspective", perspective={"yfov": 0.7, "znear": 0.125, "zfar": 100})
-    model.add("cameras", type="orthographic", orthographic={"xmag": 2.0, "ymag": 1.5, "znear": 0.01, "zfar": 100})
-    stand = model.node("stand", translation=[0, 1, 4], rotation=turn(1, 30))
-    model.node("near", stand, camera=0)
-    model.node("flat", stand, camera=1, translation=[0, 0, 2])
-    model.save("cameras.gltf")
-
-
-def textures():
-    """Pictures beside the file and inside its text; the transform of one, in the second set of coordinates."""
-    model = Model()
-    model.extension("KHR_texture_transform", required=True)
-    (FOLDER / "squares.png").write_bytes(png([[(255, 0, 0), (0, 255, 0)], [(0, 0, 255), (255, 255, 255)]]))
-    model.add("images", uri="squares.png")
-    rough = model.view(png([[(0, 64, 255), (0, 255, 0)]]))
-    model.add("images", bufferView=rough, mimeType="image/png")
-    model.add("samplers", magFilter=9728, wrapS=33071, wrapT=33648)
-    model.add("textures", source=0, sampler=0)
-    model.add("textures", source=1)
-    moved = {"index": 0, "extensions": {"KHR_texture_transform": {
-        "offset": [0.25, -0.5], "rotation": 0.5, "scale": [2, 3], "texCoord": 1}}}
-    material = model.material("squares", (1, 1, 1), 1, 1, {
-        "baseColorTexture": moved, "metallicRoughnessTexture": {"index": 1}})
-    square = model.primitive([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [0, 1, 2, 0, 2, 3], material,
-                             TEXCOORD_0=[[0, 1], [1, 1], [1, 0], [0, 0]], TEXCOORD_1=[[0, 2], [2, 2], [2, 0], [0, 0]])
-    model.node("square", mesh=model.add("meshes", primitives=[square]))
-    model.save("textures.gltf", external=True)
 
 
 def truck():
@@ -144,52 +92,6 @@ def lamp_box():
     model.save("lamp_box.glb")
 
 
-def moving_light():
-    """A point light and a camera that move; the first key is not at 0."""
-    model = Model()
-    model.extension("KHR_lights_punctual", required=True)
-    model.json["extensions"] = {"KHR_lights_punctual": {"lights": [
-        {"type": "point", "color": [1, 0.5, 0.25], "intensity": 40, "range": 8}]}}
-    model.add("cameras", type="perspective", perspective={"yfov": 0.8, "znear": 0.1})
-    model.node("floor", mesh=model.add("meshes", primitives=[model.box((2, 0.125, 2))]))
-    crane = model.node("crane", translation=[0, 2, 0])
-    lamp = model.node("lamp", crane, extensions={"KHR_lights_punctual": {"light": 0}})
-    camera = model.node("camera", camera=0)
-    times = [i / 24 for i in range(1, 13)]
-    model.animate(
-        "move", (lamp, "translation", "LINEAR", times, [[i / 8, 0, 0] for i in range(12)]),
-        (camera, "translation", "LINEAR", times, [[0, 1 + i / 16, 5] for i in range(12)]),
-        (camera, "rotation", "LINEAR", times, [turn(1, 2 * i) for i in range(12)]))
-    model.save("moving_light.gltf")
-
-
-def orientation():
-    """Six arrows along y under nodes that turn them about an axis, by a quaternion or a matrix, and a target for each
-    where a right-handed turn puts the point of its arrow."""
-    model = Model()
-    arrow = model.add("meshes", primitives=[model.primitive(
-        [[-0.125, 1, 0], [0.125, 1, 0], [0, 2, 0], [0, 1, -0.125], [0, 1, 0.125], [0, 2, 0]], [0, 1, 2, 3, 4, 5])])
-    target = model.add("meshes", primitives=[model.box((0.125, 0.125, 0.125))])
-    for axis, (first, second) in enumerate(((40, -110), (65, 160), (-35, 100))):
-        name = "XYZ"[axis]
-        for side, degrees in (("1", first), ("2", second)):
-            c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-            # About y itself, the arrow is laid along z first: a turn of 90 degrees about x.
-            lie = {"rotation": turn(0, 90)} if axis == 1 else {}
-            a, b = (axis + 1) % 3, (axis + 2) % 3  # the turn takes a to b
-            columns = [[float(i == k) for i in range(4)] for k in range(4)]
-            columns[a][a], columns[a][b], columns[b][a], columns[b][b] = c, s, -s, c
-            given = {"rotation": turn(axis, degrees)} if side == "1" else {"matrix": sum(columns, [])}
-            holder = model.node("Turn" + name + side, **given)
-            model.node("Arrow" + name + side, holder, mesh=arrow, **lie)
-            point = [0.0, 0.0, 0.0]
-            rest = 2 if axis == 1 else 1
-            point[a], point[b] = (2 * c, 2 * s) if rest == a else (-2 * s, 2 * c)
-            model.node("Target" + name + side, mesh=target, translation=point)
-    model.save("orientation.glb")
-
-
 if __name__ == "__main__":
-    for author in (interleaved, sparse, triangles, cameras, textures, truck, lamp_box, moving_light, orientation,
-                   interpolation, inverse_parent, morph_cube, skin, recursive):
+    for author in (sparse, truck, lamp_box, interpolation, inverse_parent, morph_cube, skin, recursive):
         author()

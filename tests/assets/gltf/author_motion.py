@@ -19,7 +19,7 @@ def interpolation():
                 level, rise = [0] * len(values[0]), [0, 4, 0, 0][:len(values[0])]
                 values = [part for value in values for part in (level, value, rise)]
             model.animate(f"{mode} {path}", (node, path, mode, TIMES, values))
-    model.save("interpolation.gltf", external=True)
+    model.save("interpolation.glb")
 
 
 def inverse_parent():
@@ -96,4 +96,4 @@ def recursive():
     model = Model()
     model.json["scenes"] = [{"nodes": [0]}]
     model.json["nodes"] = [{"name": "hen", "children": [1]}, {"name": "egg", "children": [0]}]
-    model.save("recursive.gltf")
+    model.save("recursive.glb")

@@ -1,5 +1,4 @@
 """Writes small glTF 2.0 files: accessors, meshes, nodes and animations in plain numbers."""
-import base64
 import json
 import math
 import struct
@@ -73,11 +72,10 @@ class Model:
         self.binary += data
         return self.add("bufferViews", buffer=0, byteOffset=offset, byteLength=len(data), **more)
 
-    def accessor(self, rows, component="f", bounds=False, view=None, **more):
-        """Values in rows, numbers for scalars. @param view  None: a view of its own"""
+    def accessor(self, rows, component="f", bounds=False, **more):
+        """Values in rows, numbers for scalars, in a view of their own."""
         rows = [row if isinstance(row, (list, tuple)) else [row] for row in rows]
-        if view is None:
-            view = self.view(pack(rows, component))
+        view = self.view(pack(rows, component))
         if bounds:
             columns = list(zip(*[[as_float(value) for value in row] for row in rows]))
             more |= {"min": [min(c) for c in columns], "max": [max(c) for c in columns]}
@@ -135,27 +133,15 @@ class Model:
             targets.append({"sampler": len(samplers) - 1, "target": {"node": node, "path": path}})
         return self.add("animations", name=name, samplers=samplers, channels=targets)
 
-    def extension(self, name, required=False):
+    def extension(self, name):
         self.json.setdefault("extensionsUsed", []).append(name)
-        if required:
-            self.json.setdefault("extensionsRequired", []).append(name)
 
-    def save(self, name, external=False):
-        """A .glb, or a .gltf with its buffer inside; external: in a file beside it."""
+    def save(self, name):
         binary = bytes(self.binary) + bytes(-len(self.binary) % 4)
-        buffer = {"byteLength": len(binary)}
         if binary:
-            self.json["buffers"] = [buffer]
-        if name.endswith(".glb"):
-            text = json.dumps(self.json, separators=(",", ":")).encode()
-            text += b" " * (-len(text) % 4)
-            chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942)
-            data = struct.pack("<III", 0x46546C67, 2, 12 + len(chunks) + len(binary)) + chunks + binary
-            (FOLDER / name).write_bytes(data)
-            return
-        if external:
-            buffer["uri"] = name.replace(".gltf", ".bin")
-            (FOLDER / buffer["uri"]).write_bytes(binary)
-        elif binary:
-            buffer["uri"] = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
-        (FOLDER / name).write_text(json.dumps(self.json, indent=1) + "\n", encoding="utf-8")
+            self.json["buffers"] = [{"byteLength": len(binary)}]
+        text = json.dumps(self.json, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942)
+        data = struct.pack("<III", 0x46546C67, 2, 12 + len(chunks) + len(binary)) + chunks + binary
+        (FOLDER / name).write_bytes(data)

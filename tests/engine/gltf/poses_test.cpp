@@ -161,7 +161,7 @@ TEST_P(GltfMorphs, PointsAndNormalsFollowTheWeights) {
 
 /// Half way between keys 0.5 s apart of the values 0 and 1, left with 4 a second and reached level.
 TEST(GltfPosesOnPaper, KF07_StepLinearCubic) {
-    const ScenePose frame = pose(load_model(own_model("interpolation.gltf")), 0.25);
+    const ScenePose frame = pose(load_model(own_model("interpolation.glb")), 0.25);
     const auto y = [&](std::size_t node) { return frame.world.at(node)[3].y - 6.0; };
     EXPECT_DOUBLE_EQ(y(6), 0.0);
     EXPECT_DOUBLE_EQ(y(7), 0.5);
