@@ -10,19 +10,16 @@
 #include "engine/scene/operations.h"
 #include "engine/scene/time_sampling.h"
 #include "engine/scene/track.h"
+#include "engine/scene/transforms.h"
 
 namespace aleph {
 namespace {
 
 constexpr int max_step_count = 512;
 
+using aleph::turn_between;  // of rotations
 double turn_between(double a, double b) {
     return std::abs(b - a);
-}
-
-double turn_between(const glm::dquat& a, const glm::dquat& b) {
-    const glm::dquat nearer = glm::dot(a, b) < 0.0 ? -b : b;
-    return 4.0 * std::atan2(glm::length(a - nearer), glm::length(a + nearer));
 }
 
 /// Rotation part by Gram-Schmidt: without shear it is the polar one, and with shear near enough to count degrees.

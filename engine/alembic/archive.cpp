@@ -65,8 +65,7 @@ AlembicArchive::AlembicArchive(std::vector<std::uint8_t> bytes, const std::strin
     OgawaCursor layout(ogawa_.data(root, 0).bytes, file, "layout version");
     if (const std::uint64_t version = layout.take_unsigned(4); version != 0)
         layout.fail(fmt::format("version {} is not supported, only 0", version));
-    OgawaCursor library(ogawa_.data(root, 1).bytes, file, "library version");
-    library_version_ = static_cast<int>(library.take_unsigned(4));
+    OgawaCursor(ogawa_.data(root, 1).bytes, file, "library version").take_unsigned(4);
     const OgawaData text = ogawa_.data(root, 3), times = ogawa_.data(root, 4), table = ogawa_.data(root, 5);
     budget_.charge(text.bytes.size() + times.bytes.size() + table.bytes.size(), 4);
     metadata_ = parse_alembic_metadata(as_text(text));

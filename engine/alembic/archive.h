@@ -29,6 +29,10 @@ const std::string& metadata_value(const AlembicMetadata& metadata, std::string_v
 /// How plain values are stored; the order is the format's.
 enum class PlainType : std::uint8_t { boolean, u8, i8, u16, i16, u32, i32, u64, i64, f16, f32, f64, text, wide_text };
 
+inline bool is_real(PlainType type) {
+    return type == PlainType::f16 || type == PlainType::f32 || type == PlainType::f64;
+}
+
 struct AlembicProperty {
     enum class Kind { compound, scalar, array };
     std::string name;
@@ -80,7 +84,6 @@ class AlembicArchive {
 
     const std::string& file() const { return ogawa_.file(); }
     const AlembicMetadata& metadata() const { return metadata_; }
-    int library_version() const { return library_version_; }  ///< major * 10000 + minor * 100 + patch
     const std::vector<TimeSampling>& time_samplings() const { return time_samplings_; }
     const std::vector<std::uint64_t>& sample_maxima() const { return sample_maxima_; }  ///< per sampling, informative
 
@@ -121,7 +124,6 @@ class AlembicArchive {
     OgawaFile ogawa_;
     mutable ReadBudget budget_;
     AlembicMetadata metadata_;
-    int library_version_ = 0;
     std::vector<TimeSampling> time_samplings_;
     std::vector<std::uint64_t> sample_maxima_;
     std::vector<AlembicMetadata> indexed_metadata_;

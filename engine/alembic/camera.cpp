@@ -12,20 +12,16 @@ namespace {
 
 constexpr double mm_per_cm = 10.0;
 
-/// Tangent of half the horizontal field of view.
-double half_width_tangent(std::span<const double> core) {
-    return core[horizontal_aperture] * mm_per_cm / (2.0 * core[focal_length]);
-}
-
 /// The numbers that Camera needs: radians, heights of the picture, scene units.
 struct View {
     double fov, shift_x, shift_y, focus;
 };
 
 View make_view(std::span<const double> core, const glm::dmat3& film_back) {
-    const FilmWindow window = film_window(core, film_back, false);
+    const FilmWindow window = film_window(core, film_back);
     const double height = window.top - window.bottom;
-    return {2.0 * std::atan(0.5 * height * half_width_tangent(core)), 0.5 * (window.left + window.right) / height,
+    const double half_width_tangent = core[horizontal_aperture] * mm_per_cm / (2.0 * core[focal_length]);
+    return {2.0 * std::atan(0.5 * height * half_width_tangent), 0.5 * (window.left + window.right) / height,
             0.5 * (window.bottom + window.top) / height, core[focus_distance]};
 }
 
@@ -100,20 +96,15 @@ glm::dmat3 read_film_back(AlembicReader& reader, int object, const AlembicCompou
 
 }  // namespace
 
-double horizontal_field_of_view(std::span<const double> core) {
-    return 2.0 * std::atan(half_width_tangent(core));
-}
-
-FilmWindow film_window(std::span<const double> core, const glm::dmat3& film_back, bool overscan) {
-    const auto beyond = [&](AlembicCameraChannel channel) { return 1.0 + (overscan ? core[channel] : 0.0); };
+FilmWindow film_window(std::span<const double> core, const glm::dmat3& film_back) {
     const double width = core[horizontal_aperture], squeeze = core[lens_squeeze];
     const double half_height = squeeze * core[vertical_aperture] / width;
     const auto place = [&](double x, double y) {
         const glm::dvec3 p = film_back * glm::dvec3(x, y, 1.0);
         return glm::dvec2(p.x / p.z, p.y / p.z);
     };
-    const glm::dvec2 first = place(-beyond(overscan_left) * squeeze, beyond(overscan_top) * half_height);
-    const glm::dvec2 second = place(beyond(overscan_right) * squeeze, -beyond(overscan_bottom) * half_height);
+    const glm::dvec2 first = place(-squeeze, half_height);
+    const glm::dvec2 second = place(squeeze, -half_height);
     const double move_x = 2.0 * core[horizontal_offset] * squeeze / width, move_y = 2.0 * core[vertical_offset] / width;
     return {first.x + move_x, second.x + move_x, second.y + move_y, first.y + move_y};
 }

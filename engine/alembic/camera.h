@@ -35,12 +35,9 @@ struct FilmWindow {
     double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
 };
 
-/// The film window that a camera's 16 numbers describe. @param film_back  applied to the corners (column vectors)
-/// @param overscan  false: the film's frame alone, which is what a picture shows
-FilmWindow film_window(std::span<const double> core, const glm::dmat3& film_back, bool overscan);
-
-/// Radians; the frame without overscan, squeeze and film back.
-double horizontal_field_of_view(std::span<const double> core);
+/// The film window that a camera's 16 numbers describe, without overscan. @param film_back  applied to the corners
+/// (column vectors)
+FilmWindow film_window(std::span<const double> core, const glm::dmat3& film_back);
 
 /// Film-back operations in file order: each text starts with t (2 channels), s (2) or m (9).
 /// @throws std::invalid_argument for an unknown operation or channels that do not fit

@@ -45,10 +45,6 @@ std::optional<Meaning> meaning_of(const std::string& name) {
     return std::nullopt;
 }
 
-bool is_number(PlainType type) {
-    return type == PlainType::f16 || type == PlainType::f32 || type == PlainType::f64;
-}
-
 /// Values found for each meaning; the first ones are used.
 using Found = std::map<Meaning, std::vector<double>>;
 
@@ -56,7 +52,7 @@ void collect_parameters(AlembicReader& reader, int object, const AlembicCompound
     for (const AlembicProperty& property : parameters.properties) {
         if (property.kind == AlembicProperty::Kind::compound || property.sample_count == 0) continue;
         const std::optional<Meaning> meaning = meaning_of(property.name);
-        if (!meaning || !is_number(property.type) || found.contains(*meaning)) continue;
+        if (!meaning || !is_real(property.type) || found.contains(*meaning)) continue;
         std::vector<double> values = reader.archive.numbers<double>(property, 0);
         const bool usable = !values.empty() && std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
         if (!usable) continue;

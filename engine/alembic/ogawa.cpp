@@ -13,13 +13,13 @@ namespace {
 constexpr std::uint64_t data_bit = std::uint64_t{1} << 63;
 constexpr std::size_t header_size = 16;
 
-std::uint64_t decode(std::span<const std::uint8_t> bytes) {
+}  // namespace
+
+std::uint64_t decode_little_endian(std::span<const std::uint8_t> bytes) {
     std::uint64_t value = 0;
     for (std::size_t i = bytes.size(); i-- > 0;) value = value << 8 | bytes[i];
     return value;
 }
-
-}  // namespace
 
 void ReadBudget::charge(std::uint64_t count, std::uint64_t size) {
     if (size != 0 && count > left_ / size) {
@@ -59,7 +59,7 @@ void OgawaFile::fail(std::uint64_t offset, const std::string& reason) const {
 
 std::uint64_t OgawaFile::word(std::uint64_t offset) const {
     if (offset > bytes_.size() || bytes_.size() - offset < 8) fail(offset, "lies outside the file");
-    return decode({bytes_.data() + offset, 8});
+    return decode_little_endian({bytes_.data() + offset, 8});
 }
 
 OgawaGroup OgawaFile::group_at(std::uint64_t offset) const {
@@ -104,7 +104,7 @@ std::span<const std::uint8_t> OgawaCursor::take(std::uint64_t length) {
 }
 
 std::uint64_t OgawaCursor::take_unsigned(std::size_t width) {
-    return decode(take(width));
+    return decode_little_endian(take(width));
 }
 
 double OgawaCursor::take_double() {

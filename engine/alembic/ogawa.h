@@ -9,6 +9,9 @@
 
 namespace aleph {
 
+/// The number that at most 8 bytes hold.
+std::uint64_t decode_little_endian(std::span<const std::uint8_t> bytes);
+
 /// Where a group's list of children lies. The empty group has no children and offset 0.
 struct OgawaGroup {
     std::uint64_t offset = 0;  ///< bytes from the start of the file

@@ -37,9 +37,8 @@ std::optional<GeometryParameter> find_parameter(const AlembicArchive& archive, c
     } else {
         parameter.values = *property;
     }
-    const PlainType type = parameter.values.type;
-    const bool real = type == PlainType::f16 || type == PlainType::f32 || type == PlainType::f64;
-    if (parameter.values.sample_count == 0 || parameter.values.extent < extent || !real) return std::nullopt;
+    const bool fits = parameter.values.extent >= extent && is_real(parameter.values.type);
+    if (parameter.values.sample_count == 0 || !fits) return std::nullopt;
     return parameter;
 }
 

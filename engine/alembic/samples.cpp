@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -17,36 +18,11 @@ namespace {
 constexpr std::size_t digest_bytes = 16;  // before the values of every sample
 constexpr std::uint64_t max_rank = 64;    // dimensions of one array
 
-/// Bytes of one plain value; text has none.
-std::size_t width_of(PlainType type) {
-    switch (type) {
-        case PlainType::boolean:
-        case PlainType::u8:
-        case PlainType::i8:
-            return 1;
-        case PlainType::u16:
-        case PlainType::i16:
-        case PlainType::f16:
-            return 2;
-        case PlainType::u32:
-        case PlainType::i32:
-        case PlainType::f32:
-            return 4;
-        case PlainType::u64:
-        case PlainType::i64:
-        case PlainType::f64:
-            return 8;
-        case PlainType::text:
-        case PlainType::wide_text:
-            return 0;
-    }
-    return 0;
-}
+/// Bytes of one plain value, in the order of PlainType; text has none.
+constexpr std::array<std::size_t, 14> widths{1, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8, 0, 0};
 
-std::uint64_t decode(const std::uint8_t* bytes, std::size_t width) {
-    std::uint64_t value = 0;
-    for (std::size_t i = width; i-- > 0;) value = value << 8 | bytes[i];
-    return value;
+std::size_t width_of(PlainType type) {
+    return widths[static_cast<std::size_t>(type)];
 }
 
 /// IEEE 754 half precision.
@@ -63,7 +39,7 @@ double decode_half(std::uint64_t bits) {
 
 template <class T>
 T decode_number(PlainType type, const std::uint8_t* bytes) {
-    const std::uint64_t bits = decode(bytes, width_of(type));
+    const std::uint64_t bits = decode_little_endian({bytes, width_of(type)});
     switch (type) {
         case PlainType::boolean:
             return bits != 0;
@@ -91,9 +67,6 @@ T decode_number(PlainType type, const std::uint8_t* bytes) {
     }
 }
 
-bool is_real(PlainType type) {
-    return type == PlainType::f16 || type == PlainType::f32 || type == PlainType::f64;
-}
 bool is_text(PlainType type) {
     return width_of(type) == 0;
 }
@@ -225,7 +198,7 @@ std::vector<std::string> AlembicArchive::texts(const AlembicProperty& property, 
         for (;; position += unit) {
             if (data.bytes.size() - position < unit)
                 fail_at(file(), property, fmt::format("sample {}: a text does not end", sample));
-            const std::uint64_t code = decode(data.bytes.data() + position, unit);
+            const std::uint64_t code = decode_little_endian(data.bytes.subspan(position, unit));
             if (code == 0) break;
             if (wide) {
                 append_utf8(text, static_cast<std::uint32_t>(code));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,24 +18,11 @@ constexpr double radians_per_degree = std::numbers::pi / 180.0;
 
 /// The high half of an operation's code is its type, the low half a hint for the package that wrote it.
 Kind kind_of(const AlembicReader& reader, int object, int code) {
-    switch (code >> 4) {
-        case 0:
-            return Kind::scale;
-        case 1:
-            return Kind::translate;
-        case 2:
-            return Kind::rotate;
-        case 3:
-            return Kind::matrix;
-        case 4:
-            return Kind::rotate_x;
-        case 5:
-            return Kind::rotate_y;
-        case 6:
-            return Kind::rotate_z;
-        default:
-            reader.archive.fail(object, fmt::format("its transform has an operation of unknown type {}", code >> 4));
-    }
+    constexpr std::array kinds{Kind::scale,    Kind::translate, Kind::rotate,  Kind::matrix,
+                               Kind::rotate_x, Kind::rotate_y,  Kind::rotate_z};
+    const auto type = static_cast<std::size_t>(code >> 4);
+    if (type < kinds.size()) return kinds[type];
+    reader.archive.fail(object, fmt::format("its transform has an operation of unknown type {}", code >> 4));
 }
 
 /// Takes one sample's channels as our stack wants them: angles in radians, matrices affine.

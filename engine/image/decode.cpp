@@ -62,15 +62,15 @@ Interleaved<T> decode_with_library(ByteView bytes, ImageFormat format, const std
     return pixels;
 }
 
-Image<std::array<float, 4>> colors_of(const ChannelImage& image, const std::string& name) {
+Image<glm::vec4> colors_of(const ChannelImage& image, const std::string& name) {
     std::array<const Image<float>*, 4> sources{image.find("R"), image.find("G"), image.find("B"), image.find("A")};
     if (const Image<float>* grey = image.find("Y"); grey && !sources[0] && !sources[1] && !sources[2]) {
         sources[0] = sources[1] = sources[2] = grey;
     }
     if (!sources[0] || !sources[1] || !sources[2]) throw InputError(name, "", "the EXR has no channels R, G, B (or Y)");
-    Image<std::array<float, 4>> colours(sources[0]->width, sources[0]->height, {0.0f, 0.0f, 0.0f, 1.0f});
+    Image<glm::vec4> colours(sources[0]->width, sources[0]->height, {0.0f, 0.0f, 0.0f, 1.0f});
     for (std::size_t i = 0; i < colours.size(); ++i) {
-        for (std::size_t c = 0; c < 4; ++c) {
+        for (int c = 0; c < 4; ++c) {
             if (sources[c]) colours.pixels[i][c] = sources[c]->pixels[i];
         }
     }
@@ -78,8 +78,8 @@ Image<std::array<float, 4>> colors_of(const ChannelImage& image, const std::stri
 }
 
 template <class T>
-Image<std::array<T, 4>> colors_of(const Interleaved<T>& pixels, T opaque) {
-    Image<std::array<T, 4>> colours(pixels.width, pixels.height);
+Image<glm::vec<4, T>> colors_of(const Interleaved<T>& pixels, T opaque) {
+    Image<glm::vec<4, T>> colours(pixels.width, pixels.height);
     for (std::size_t i = 0; i < colours.size(); ++i) {
         for (int c = 0; c < 4; ++c) colours.pixels[i][c] = pixels.value(i, c, opaque);
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <glm/gtc/type_precision.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -70,8 +71,8 @@ ChannelImage read_image(const std::filesystem::path& path);
 
 /// One of the two images is filled: `bytes` for PNG and JPEG, else `floats`. Components: R, G, B, A.
 struct DecodedTexture {
-    Image<std::array<std::uint8_t, 4>> bytes;
-    Image<std::array<float, 4>> floats;
+    Image<glm::u8vec4> bytes;
+    Image<glm::vec4> floats;
 };
 
 /// @param name  of the texture in messages

@@ -42,18 +42,9 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
         const std::string& place = text.image_places[i];
         check_regular_file(folder / image.path, file, place);
         try {
-            const DecodedTexture decoded =
-                decode_texture(read_regular_file(folder / image.path, file, place), image.path);
-            image.bytes = Image<glm::u8vec4>(decoded.bytes.width, decoded.bytes.height);
-            for (std::size_t p = 0; p < image.bytes.size(); ++p) {
-                const auto& c = decoded.bytes.pixels[p];
-                image.bytes.pixels[p] = {c[0], c[1], c[2], c[3]};
-            }
-            image.floats = Image<glm::vec4>(decoded.floats.width, decoded.floats.height);
-            for (std::size_t p = 0; p < image.floats.size(); ++p) {
-                const auto& c = decoded.floats.pixels[p];
-                image.floats.pixels[p] = {c[0], c[1], c[2], c[3]};
-            }
+            DecodedTexture decoded = decode_texture(read_regular_file(folder / image.path, file, place), image.path);
+            image.bytes = std::move(decoded.bytes);
+            image.floats = std::move(decoded.floats);
             if (static_cast<int>(i) == text.scene.environment.image) continue;  // rendering leaves out what is no light
             if (const std::size_t changed = clean_texels(image.floats); changed > 0) {
                 text.scene.source.warnings.push_back(
@@ -69,20 +60,16 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
 
 void check_cameras(const Scene& scene, const std::string& file) {
     const CameraNames cameras(scene);
-    if (!scene.film.camera.empty()) {
+    const auto check = [&](const std::string& name, const std::string& place) {
         try {
-            cameras.find(scene.film.camera);
+            cameras.find(name);
         } catch (const InputError& error) {
-            throw InputError(file, "/camera", error.reason());
+            throw InputError(file, place, error.reason());
         }
-    }
-    for (std::size_t i = 0; i < scene.film.camera_keys.size(); ++i) {
-        try {
-            cameras.find(scene.film.camera_keys[i].camera);
-        } catch (const InputError& error) {
-            throw InputError(file, fmt::format("/camera/keys/{}", i), error.reason());
-        }
-    }
+    };
+    if (!scene.film.camera.empty()) check(scene.film.camera, "/camera");
+    for (std::size_t i = 0; i < scene.film.camera_keys.size(); ++i)
+        check(scene.film.camera_keys[i].camera, fmt::format("/camera/keys/{}", i));
 }
 
 SceneText read_text_of(const LoadRequest& request) {

@@ -73,15 +73,14 @@ bool has_steady_tracks(const Element& element, double from, double to) {
     return steady;
 }
 
+template <class Element>
+bool are_steady(const std::vector<Element>& elements, const std::vector<int>& which, double from, double to) {
+    return std::ranges::all_of(which, [&](int i) { return has_steady_tracks(elements[i], from, to); });
+}
+
 bool is_mesh_steady(const Mesh& mesh, double from, double to) {
     return has_steady_tracks(mesh, from, to) &&
            are_samples_steady(mesh.deformation.normal_sampling, mesh.deformation.normal_samples, from, to);
-}
-
-bool is_environment_steady(const Scene& scene, double from, double to) {
-    bool steady = true;
-    visit_tracks(scene.environment, [&](const auto& track) { steady = steady && is_steady(track, from, to); });
-    return steady;
 }
 
 void sort_unique(std::vector<int>& list) {
@@ -121,22 +120,15 @@ SteadySpans::SteadySpans(const Scene& scene, const PosePlan& plan)
 
 bool SteadySpans::is_steady(int camera, double from, double to) const {
     if (!changes_) return true;
-    const auto in_span = [&](const auto& elements) {
-        return [&](int i) { return has_steady_tracks(elements[i], from, to); };
-    };
     const CameraTracks& looks = cameras_[camera];
-    return std::ranges::all_of(looks.nodes, in_span(scene_.nodes)) &&
+    return are_steady(scene_.nodes, looks.nodes, from, to) &&
            has_steady_tracks(scene_.cameras[looks.camera], from, to) && is_world_steady(from, to);
 }
 
 bool SteadySpans::is_world_steady(double from, double to) const {
     if (!changes_) return true;
-    const auto in_span = [&](const auto& elements) {
-        return [&](int i) { return has_steady_tracks(elements[i], from, to); };
-    };
-    return std::ranges::all_of(nodes_, in_span(scene_.nodes)) &&
-           std::ranges::all_of(materials_, in_span(scene_.materials)) &&
-           std::ranges::all_of(lights_, in_span(scene_.lights)) && is_environment_steady(scene_, from, to) &&
+    return are_steady(scene_.nodes, nodes_, from, to) && are_steady(scene_.materials, materials_, from, to) &&
+           are_steady(scene_.lights, lights_, from, to) && has_steady_tracks(scene_.environment, from, to) &&
            std::ranges::all_of(meshes_, [&](int m) { return is_mesh_steady(scene_.meshes[m], from, to); }) &&
            std::ranges::all_of(point_caches_, [&](int c) {
                const PointCache& cache = scene_.point_caches[c];

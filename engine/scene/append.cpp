@@ -2,26 +2,14 @@
 
 #include <iterator>
 
+#include "engine/scene/visit.h"
+
 namespace aleph {
 
 namespace {
 
 void shift(int& index, std::size_t offset) {
     if (index != no_index) index += static_cast<int>(offset);
-}
-
-/// Calls visit(list...) with the scenes' lists of each kind of element.
-template <class Visit, class... Scenes>
-void for_each_list(const Visit& visit, Scenes&... scenes) {
-    visit(scenes.nodes...);
-    visit(scenes.meshes...);
-    visit(scenes.point_caches...);
-    visit(scenes.skins...);
-    visit(scenes.cages...);
-    visit(scenes.materials...);
-    visit(scenes.images...);
-    visit(scenes.lights...);
-    visit(scenes.cameras...);
 }
 
 /// Shifts the part's indices by the number of elements that the scene already has.
@@ -56,19 +44,19 @@ void rebase(Scene& part, const Scene& scene, int parent_node) {
 void append_part(Scene& scene, Scene&& part, int parent_node, int include) {
     rebase(part, scene, parent_node);
     for_each_list(
-        [&](auto& elements) {
+        [&](const char*, auto& elements) {
             for (auto& element : elements) element.include = include;
         },
         part);
     // Reserve memory for all lists first: after that nothing can fail.
-    const auto reserve = [](auto& all, const auto& more) { all.reserve(all.size() + more.size()); };
-    const auto append = [](auto& all, auto& more) {
+    const auto reserve = [](const char*, auto& all, const auto& more) { all.reserve(all.size() + more.size()); };
+    const auto append = [](const char*, auto& all, auto& more) {
         all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     };
     for_each_list(reserve, scene, part);
-    reserve(scene.source.warnings, part.source.warnings);
+    reserve("", scene.source.warnings, part.source.warnings);
     for_each_list(append, scene, part);
-    append(scene.source.warnings, part.source.warnings);
+    append("", scene.source.warnings, part.source.warnings);
 }
 
 bool can_be_copied(const Scene& scene, int begin, int end) {

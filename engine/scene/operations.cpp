@@ -50,20 +50,8 @@ glm::dmat4 make_matrix(Kind kind, const double* channels) {
 }  // namespace
 
 std::size_t channel_count(Kind kind) {
-    switch (kind) {
-        case Kind::translate:
-        case Kind::scale:
-            return 3;
-        case Kind::matrix:
-            return 16;
-        case Kind::rotate:
-            return 4;
-        case Kind::rotate_x:
-        case Kind::rotate_y:
-        case Kind::rotate_z:
-            return 1;
-    }
-    return 0;
+    constexpr std::array<std::size_t, 7> counts{3, 3, 16, 4, 1, 1, 1};  // in the order of Kind
+    return counts[index_of(kind)];
 }
 
 std::size_t channel_count(const OperationStack& stack) {

@@ -69,6 +69,11 @@ glm::dquat safe_normalize(const glm::dquat& q) {
     return scaled / std::sqrt(glm::dot(scaled, scaled));
 }
 
+double turn_between(const glm::dquat& a, const glm::dquat& b) {
+    const glm::dquat nearer = glm::dot(a, b) < 0.0 ? -b : b;
+    return 4.0 * std::atan2(glm::length(a - nearer), glm::length(a + nearer));
+}
+
 double orientation_sign(const glm::dmat4& world) {
     // Columns of length 1: the sign stays, and tiny or uneven scales cannot underflow.
     const glm::dvec3 x = safe_normalize(glm::dvec3(world[0]));

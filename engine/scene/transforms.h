@@ -18,6 +18,9 @@ inline glm::vec3 safe_normalize(const glm::vec3& v) {
 /// q at length 1; unit already (within rounding): the same bits. Identity where q is zero or not finite.
 glm::dquat safe_normalize(const glm::dquat& q);
 
+/// The angle between two rotations, the short way, radians: 0 to pi. Quaternions of length 1.
+double turn_between(const glm::dquat& a, const glm::dquat& b);
+
 /// -1 where the matrix mirrors, so that a triangle's geometric orientation must be flipped; else 1.
 double orientation_sign(const glm::dmat4& world);
 

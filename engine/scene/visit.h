@@ -1,16 +1,27 @@
 #pragma once
-// Visits every track of a scene: to find what is animated, and over which span of time.
+// Visits the lists of a scene, and every track: to find what is animated, and over which span of time.
 
 #include "engine/scene/scene.h"
 
 namespace aleph {
 
-/// Calls visit(track or operation stack) for what pose() reads of a node: its transform and visibility.
+/// Calls visit(kind, list...) with the scenes' lists of each kind of element.
+template <class Visit, class... Scenes>
+void for_each_list(const Visit& visit, Scenes&... scenes) {
+    visit("node", scenes.nodes...);
+    visit("mesh", scenes.meshes...);
+    visit("points", scenes.point_caches...);
+    visit("skin", scenes.skins...);
+    visit("cage", scenes.cages...);
+    visit("material", scenes.materials...);
+    visit("image", scenes.images...);
+    visit("light", scenes.lights...);
+    visit("camera", scenes.cameras...);
+}
+
+/// Calls visit(track or operation stack) for what pose() reads of a transform.
 template <class Visit>
-void visit_tracks(const Node& node, const Visit& visit) {
-    visit(node.visible);
-    visit(node.inherits);
-    const LocalTransform& local = node.transform;
+void visit_tracks(const LocalTransform& local, const Visit& visit) {
     if (local.operations) {
         visit(*local.operations);
     } else if (local.matrix) {
@@ -23,6 +34,13 @@ void visit_tracks(const Node& node, const Visit& visit) {
         else
             visit(local.rotation);
     }
+}
+
+template <class Visit>
+void visit_tracks(const Node& node, const Visit& visit) {
+    visit(node.visible);
+    visit(node.inherits);
+    visit_tracks(node.transform, visit);
 }
 
 template <class Visit>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "engine/scene/transforms.h"
+
 namespace aleph {
 
 namespace {
@@ -16,10 +18,8 @@ constexpr double parts_for_slope = 1024.0;
 double distance_of(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::distance(a, b);
 }
-/// The angle of the turn from a to b.
 double distance_of(const glm::dquat& a, const glm::dquat& b) {
-    const double minus = glm::length(a - b), plus = glm::length(a + b);
-    return 4.0 * std::atan2(std::min(minus, plus), std::max(minus, plus));
+    return turn_between(a, b);
 }
 
 glm::dvec3 halfway_between(const glm::dvec3& a, const glm::dvec3& b) {

@@ -84,12 +84,8 @@ int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     Cage cage;
     cage.name = name;
     if (const auto word = at.find("scheme")) cage.scheme = read_word<Cage::Scheme>(*word, scheme_words);
-    if (const auto word = at.find("boundary")) {
-        cage.boundary = read_word<Cage::Boundary>(*word, boundary_words);
-    }
-    if (const auto word = at.find("uv_rule")) {
-        cage.uv_rule = read_word<Cage::UvRule>(*word, uv_rule_words);
-    }
+    if (const auto word = at.find("boundary")) cage.boundary = read_word<Cage::Boundary>(*word, boundary_words);
+    if (const auto word = at.find("uv_rule")) cage.uv_rule = read_word<Cage::UvRule>(*word, uv_rule_words);
     const PointsUse points = read_points_use(reader, at, name);
     cage.points = points.index;
     const JsonRef faces = at.require("faces");

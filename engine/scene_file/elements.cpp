@@ -146,15 +146,17 @@ int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) 
     return SceneReader::add(std::move(camera), reader.scene.cameras, reader.names.cameras);
 }
 
-/// Calls add(element, name) for the members of one of the root's objects, in the order of the file.
+/// Calls add(reader, element, name) for the members of one of the root's objects, in the order of the file.
 template <class Add>
-void read_named(const JsonRef& root, const KeyOrder& key_order, const char* kind, const Add& add) {
+void read_named(SceneReader& reader, const JsonRef& root, const KeyOrder& key_order, const char* kind, const Add& add) {
     const auto object = root.find(kind);
     if (!object || object->json().empty()) return;
-    for (const std::string& name : key_order.at(kind)) {
-        const JsonRef element = object->require(name);
-        add(element, name);
-    }
+    for (const std::string& name : key_order.at(kind)) add(reader, object->require(name), name);
+}
+
+void add_mesh(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    const JsonRef shape = at.require("shape");
+    read_mesh(reader, shape, at.find("material"), at.find("present"), name);
 }
 
 }  // namespace
@@ -193,19 +195,13 @@ int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& n
 }
 
 void read_elements(SceneReader& reader, const JsonRef& root, const KeyOrder& order) {
-    read_named(root, order, "images", [&](const JsonRef& at, const std::string& name) { add_image(reader, at, name); });
-    read_named(root, order, "materials",
-               [&](const JsonRef& at, const std::string& name) { add_material(reader, at, name); });
-    read_named(root, order, "points",
-               [&](const JsonRef& at, const std::string& name) { read_points(reader, at, name); });
-    read_named(root, order, "cages", [&](const JsonRef& at, const std::string& name) { read_cage(reader, at, name); });
-    read_named(root, order, "meshes", [&](const JsonRef& at, const std::string& name) {
-        const JsonRef shape = at.require("shape");
-        read_mesh(reader, shape, at.find("material"), at.find("present"), name);
-    });
-    read_named(root, order, "lights", [&](const JsonRef& at, const std::string& name) { add_light(reader, at, name); });
-    read_named(root, order, "cameras",
-               [&](const JsonRef& at, const std::string& name) { add_camera(reader, at, name); });
+    read_named(reader, root, order, "images", add_image);
+    read_named(reader, root, order, "materials", add_material);
+    read_named(reader, root, order, "points", read_points);
+    read_named(reader, root, order, "cages", read_cage);
+    read_named(reader, root, order, "meshes", add_mesh);
+    read_named(reader, root, order, "lights", add_light);
+    read_named(reader, root, order, "cameras", add_camera);
 }
 
 }  // namespace aleph

@@ -17,10 +17,7 @@ void for_each_number(const JsonRef& at, std::size_t width, const Visit& visit) {
         if (count % width != 0) {
             at.fail(fmt::format("has {} numbers; they come in groups of {}", count, width));
         }
-        for (std::size_t i = 0; i < count; ++i) {
-            const JsonRef number = at[i];
-            visit(number);
-        }
+        for (std::size_t i = 0; i < count; ++i) visit(at[i]);
         return;
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -28,10 +25,7 @@ void for_each_number(const JsonRef& at, std::size_t width, const Visit& visit) {
         if (group.array_size() != width) {
             group.fail(fmt::format("expected {} numbers, found {}", width, group.array_size()));
         }
-        for (std::size_t k = 0; k < width; ++k) {
-            const JsonRef number = group[k];
-            visit(number);
-        }
+        for (std::size_t k = 0; k < width; ++k) visit(group[k]);
     }
 }
 

@@ -38,10 +38,7 @@ Shape read_shape(const JsonRef& at, Shape::Kind kind) {
         if (const auto value = at.find(field.key)) field.in(shape) = value->number();
     }
     if (const auto value = at.find("profile")) {
-        for (std::size_t i = 0; i < value->array_size(); ++i) {
-            const JsonRef point = (*value)[i];
-            shape.profile.push_back(read_dvec2(point));
-        }
+        for (std::size_t i = 0; i < value->array_size(); ++i) shape.profile.push_back(read_dvec2((*value)[i]));
     }
     if (const auto value = at.find("smooth")) shape.smooth = value->boolean();
     if (const auto value = at.find("uv_scale")) shape.uv_scale = read_dvec2(*value);

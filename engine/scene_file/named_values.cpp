@@ -90,9 +90,7 @@ class NamedValues {
         check_depth(depth, at);
         if (value.is_array()) {
             for (std::size_t i = 0; i < value.size(); ++i) {
-                if (!value[i].is_structured()) continue;
-                const JsonRef inner = at[i];
-                replace(value[i], inner, depth + 1);
+                if (value[i].is_structured()) replace(value[i], at[i], depth + 1);
             }
             return;
         }

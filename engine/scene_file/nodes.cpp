@@ -40,10 +40,7 @@ class NodeReader {
     }
 
     void read_list(const JsonRef& list, int parent) {
-        for (std::size_t i = 0; i < list.array_size(); ++i) {
-            const JsonRef node = list[i];
-            read(node, parent);
-        }
+        for (std::size_t i = 0; i < list.array_size(); ++i) read(list[i], parent);
     }
 
   private:
@@ -124,10 +121,8 @@ class NodeReader {
                 read_mesh(reader_, *shape, material, std::nullopt, reader_.names.meshes.unused(name)));
         if (const auto mesh = at.find("mesh")) node.meshes.push_back(reader_.names.meshes.require(*mesh));
         if (const auto list = at.find("meshes")) {
-            for (std::size_t i = 0; i < list->array_size(); ++i) {
-                const JsonRef mesh = (*list)[i];
-                node.meshes.push_back(reader_.names.meshes.require(mesh));
-            }
+            for (std::size_t i = 0; i < list->array_size(); ++i)
+                node.meshes.push_back(reader_.names.meshes.require((*list)[i]));
         }
     }
 
@@ -254,14 +249,8 @@ void read_includes(SceneReader& reader, const JsonRef& parent, int node) {
         reader.scene.source.includes.back().node = node;
         reader.result.include_places.push_back(at.pointer());
     };
-    if (!include->json().is_array()) {
-        add(*include);
-        return;
-    }
-    for (std::size_t i = 0; i < include->array_size(); ++i) {
-        const JsonRef entry = (*include)[i];
-        add(entry);
-    }
+    if (!include->json().is_array()) return add(*include);
+    for (std::size_t i = 0; i < include->array_size(); ++i) add((*include)[i]);
 }
 
 }  // namespace aleph

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/errors.h"
+#include "engine/scene/visit.h"
 #include "engine/scene_file/scene_text.h"
 
 namespace aleph {
@@ -38,15 +39,7 @@ Scene without_includes(const Scene& scene, const std::string& file) {
     own.source = scene.source;
     own.film = scene.film;
     own.environment = scene.environment;
-    own.nodes = own_part("node", scene.nodes, file);
-    own.meshes = own_part("mesh", scene.meshes, file);
-    own.point_caches = own_part("points", scene.point_caches, file);
-    own.skins = own_part("skin", scene.skins, file);
-    own.cages = own_part("cage", scene.cages, file);
-    own.materials = own_part("material", scene.materials, file);
-    own.images = own_part("image", scene.images, file);
-    own.lights = own_part("light", scene.lights, file);
-    own.cameras = own_part("camera", scene.cameras, file);
+    for_each_list([&](const char* kind, auto& to, const auto& from) { to = own_part(kind, from, file); }, own, scene);
 
     for (std::size_t i = 0; i < own.nodes.size(); ++i) {
         const Node& node = own.nodes[i];

@@ -28,8 +28,7 @@ FrameRate read_frame_rate(const JsonRef& at) {
 }
 
 std::int64_t read_frame(const JsonRef& list, std::size_t i) {
-    const JsonRef frame = list[i];
-    return frame.integer(-1000000000, 1000000000);
+    return list[i].integer(-1000000000, 1000000000);
 }
 
 /// A name, or keys of frames and names. Whether the cameras exist is known when the includes are read.
@@ -58,10 +57,7 @@ void read_header(Scene& scene, const JsonRef& root) {
     if (const auto cuts = root.find("cuts")) {
         for (std::size_t i = 0; i < cuts->array_size(); ++i) {
             scene.film.cuts.push_back(read_frame(*cuts, i));
-            if (i > 0 && scene.film.cuts[i] <= scene.film.cuts[i - 1]) {
-                const JsonRef cut = (*cuts)[i];
-                cut.fail("cuts have to ascend");
-            }
+            if (i > 0 && scene.film.cuts[i] <= scene.film.cuts[i - 1]) (*cuts)[i].fail("cuts have to ascend");
         }
     }
     if (const auto viewing = root.find("viewing")) {

@@ -39,8 +39,7 @@ struct ValueReader {
 
 double read_time(const JsonRef& at, const FrameRate& rate, bool in_frames) {
     const double time = at.number();
-    if (!in_frames) return time;
-    return time * static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
+    return in_frames ? time * static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator) : time;
 }
 
 std::vector<double> read_times(const JsonRef& list, std::size_t count, const FrameRate& rate, bool in_frames,
@@ -55,12 +54,7 @@ std::vector<double> read_times(const JsonRef& list, std::size_t count, const Fra
                 at.fail(fmt::format("times have to ascend: {} is not above the time before", at.json().dump()));
             }
         };
-        if (first_of_key) {
-            const JsonRef time = element[0];
-            check(time);
-        } else {
-            check(element);
-        }
+        first_of_key ? check(element[0]) : check(element);
     }
     return times;
 }
@@ -68,10 +62,8 @@ std::vector<double> read_times(const JsonRef& list, std::size_t count, const Fra
 Interpolation read_interpolation(const JsonRef& at, Interpolation absent) {
     const auto word = at.find_string("interpolation");
     if (!word) return absent;
-    for (std::size_t i = 0; i < interpolation_words.size(); ++i) {
-        if (*word == interpolation_words[i]) return static_cast<Interpolation>(i);
-    }
-    return absent;
+    const auto found = std::ranges::find(interpolation_words, *word);
+    return static_cast<Interpolation>(found - interpolation_words.begin());  // one of them, by the schema
 }
 
 template <class T>
@@ -103,10 +95,8 @@ void read_values(const JsonRef& values, Track<T>& track, const ValueReader<T>& r
         if (!value.json().is_array() || value.array_size() != 3) {
             value.fail("a cubic value is [in-tangent, value, out-tangent]");
         }
-        for (std::size_t part = 0; part < 3; ++part) {
-            const JsonRef inner = value[part];
-            track.values.push_back(part == 1 ? read.read(inner) : read.read_tangent(inner));
-        }
+        for (const std::size_t part : {0u, 1u, 2u})
+            track.values.push_back(part == 1 ? read.read(value[part]) : read.read_tangent(value[part]));
     }
 }
 
@@ -220,12 +210,7 @@ TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::f
     const JsonRef list = keys ? *keys : at.require("values");
     for (std::size_t i = 0; i < list.array_size(); ++i) {
         const JsonRef item = list[i];
-        if (!keys) {
-            visit(item);
-            continue;
-        }
-        const JsonRef value = item[1];
-        visit(value);
+        keys ? visit(item[1]) : visit(item);
     }
     validate(sampling, list.array_size(), at.file(), at.pointer());
     return sampling;

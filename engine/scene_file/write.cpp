@@ -6,6 +6,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/json/format.h"
+#include "engine/scene/visit.h"
 #include "engine/scene_file/operations.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/tracks.h"
@@ -34,14 +35,7 @@ class Writer {
             at_.place = place_of("skin", scene_.skins, 0);
             at_.refuse("a scene file cannot hold skins: keep the mesh in a .glb and include that");
         }
-        check_names("image", scene_.images);
-        check_names("material", scene_.materials);
-        check_names("points", scene_.point_caches);
-        check_names("cage", scene_.cages);
-        check_names("mesh", scene_.meshes);
-        check_names("light", scene_.lights);
-        check_names("camera", scene_.cameras);
-        check_names("node", scene_.nodes);
+        for_each_list([&](const char* kind, const auto& list) { check_names(kind, list); }, scene_);
         write_header();
         write_list("images", scene_.images, [&](const SceneImage& image) { return ordered_json(image.path); });
         write_list("materials", scene_.materials,
@@ -237,13 +231,12 @@ std::string first_difference(const char* kind, const std::vector<Element>& a, co
 }
 
 std::string first_difference(const Scene& a, const Scene& b) {
-    for (const std::string& place :
-         {first_difference("node", a.nodes, b.nodes), first_difference("points", a.point_caches, b.point_caches),
-          first_difference("cage", a.cages, b.cages), first_difference("mesh", a.meshes, b.meshes),
-          first_difference("material", a.materials, b.materials), first_difference("image", a.images, b.images),
-          first_difference("light", a.lights, b.lights), first_difference("camera", a.cameras, b.cameras)}) {
-        if (!place.empty()) return place;
-    }
+    std::string place;
+    const auto compare = [&](const char* kind, const auto& list, const auto& other) {
+        if (place.empty()) place = first_difference(kind, list, other);
+    };
+    for_each_list(compare, a, b);
+    if (!place.empty()) return place;
     return a.source.includes == b.source.includes ? "header" : "includes";
 }
 

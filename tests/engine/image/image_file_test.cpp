@@ -97,7 +97,7 @@ TEST(ImageIo, TexturesKeepTheirPrecision) {
     const DecodedTexture png = decode_texture(read_numbers(folder / "a.png"), "a.png");
     EXPECT_TRUE(png.floats.empty());
     ASSERT_EQ(png.bytes.size(), 2u);
-    EXPECT_EQ(png.bytes(1, 0), (std::array<std::uint8_t, 4>{188, 188, 188, 255}));
+    EXPECT_EQ(png.bytes(1, 0), glm::u8vec4(188, 188, 188, 255));
 
     write_exr(folder / "a.exr", small_image());
     const DecodedTexture exr = decode_texture(read_numbers(folder / "a.exr"), "a.exr");
@@ -108,8 +108,7 @@ TEST(ImageIo, TexturesKeepTheirPrecision) {
 
     ChannelImage grey{{{"Y", Image<float>(1, 1, 7.0f)}}, {}};
     write_exr(folder / "grey.exr", grey);
-    EXPECT_EQ(decode_texture(read_numbers(folder / "grey.exr"), "g").floats(0, 0),
-              (std::array<float, 4>{7.0f, 7.0f, 7.0f, 1.0f}));
+    EXPECT_EQ(decode_texture(read_numbers(folder / "grey.exr"), "g").floats(0, 0), glm::vec4(7.0f, 7.0f, 7.0f, 1.0f));
 }
 
 TEST(ImageIo, RefusesWhatIsNoPicture) {

@@ -28,20 +28,18 @@ TEST(ImageIo, AlphaStaysStraightAndGreyBecomesColour) {
     const ScratchFolder folder;
     save_codes(folder / "rgba.png", 2, 1, 4, {200, 100, 50, 128, 10, 20, 30, 0});
     const DecodedTexture texture = decode_texture(read_numbers(folder / "rgba.png"), "rgba.png");
-    EXPECT_EQ(texture.bytes(0, 0), (std::array<std::uint8_t, 4>{200, 100, 50, 128}));
-    EXPECT_EQ(texture.bytes(1, 0), (std::array<std::uint8_t, 4>{10, 20, 30, 0}));
+    EXPECT_EQ(texture.bytes(0, 0), glm::u8vec4(200, 100, 50, 128));
+    EXPECT_EQ(texture.bytes(1, 0), glm::u8vec4(10, 20, 30, 0));
     const ChannelImage image = read_image(folder / "rgba.png");
     ASSERT_EQ(image.channels.size(), 4u);
     EXPECT_EQ(image.channels[3].name, "A");
     EXPECT_NEAR((*image.find("R"))(0, 0), 200.0f / 255.0f, 1e-6f);
 
     save_codes(folder / "grey.png", 1, 1, 1, {77});
-    EXPECT_EQ(decode_texture(read_numbers(folder / "grey.png"), "g").bytes(0, 0),
-              (std::array<std::uint8_t, 4>{77, 77, 77, 255}));
+    EXPECT_EQ(decode_texture(read_numbers(folder / "grey.png"), "g").bytes(0, 0), glm::u8vec4(77, 77, 77, 255));
     EXPECT_EQ(read_image(folder / "grey.png").channels.size(), 3u);
     save_codes(folder / "grey_alpha.png", 1, 1, 2, {77, 5});
-    EXPECT_EQ(decode_texture(read_numbers(folder / "grey_alpha.png"), "g").bytes(0, 0),
-              (std::array<std::uint8_t, 4>{77, 77, 77, 5}));
+    EXPECT_EQ(decode_texture(read_numbers(folder / "grey_alpha.png"), "g").bytes(0, 0), glm::u8vec4(77, 77, 77, 5));
 }
 
 std::vector<std::uint8_t> flat_jpeg(const ScratchFolder& folder) {
