@@ -13,10 +13,6 @@
 
 namespace aleph {
 
-/// Reads the seconds of --verify.
-/// @throws CLI::ConversionError for what is no number, InputError (--verify) for one that is not above 0
-double parse_verify(const std::string& text);
-
 /// @throws InputError (--verify) for frames that are path traced, as the references are that would judge them
 void refuse_traced(const RenderSettings& settings);
 

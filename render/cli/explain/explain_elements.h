@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/bounds.h"
-#include "engine/scene/scene.h"
+#include "engine/pose/pose.h"
 #include "render/surface/node_paths.h"
 
 namespace aleph {
@@ -12,6 +12,9 @@ namespace aleph {
 nlohmann::ordered_json to_json(const glm::dvec3& v);
 /// null where empty
 nlohmann::ordered_json to_json(const Bounds& bounds);
+
+/// Adds the vertices of an instance, shown or hidden, at the time of the pose.
+void add_instance(Bounds& bounds, const Scene& scene, const ScenePose& posed_scene, const Instance& instance);
 
 /// Names what deforms a mesh; null if nothing does.
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh);

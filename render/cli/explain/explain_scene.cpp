@@ -11,7 +11,6 @@
 #include "engine/scene_file/fields.h"
 #include "render/cli/explain/explain.h"
 #include "render/cli/explain/explain_elements.h"
-#include "render/cli/explain/world_bounds.h"
 #include "render/frame/sequence.h"
 #include "render/frame/shot.h"
 #include "render/surface/node_paths.h"
