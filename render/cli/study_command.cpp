@@ -82,12 +82,6 @@ StudyViewer make_viewer(const std::string& vision) {
     return viewer;
 }
 
-std::vector<std::string> vision_names() {
-    std::vector<std::string> names;
-    for (const VisionModel* const model : vision_list()) names.push_back(model->name());
-    return names;
-}
-
 /// The study of a file, or that of the sweeps of a scene.
 Study make_study(const StudyCommandOptions& options) {
     Study study;
@@ -236,7 +230,7 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
         .add_option("--viewers", options.viewers,
                     "models of vision that judge, such as thesis,castle, on a display that holds its frames")
         ->delimiter(',')
-        ->check(CLI::IsMember(vision_names()));
+        ->check(CLI::IsMember(std::ranges::find(setting_table(), "vision", &Setting::key)->choices));
     study
         .add_option("--judge", options.judges,
                     "maps of visible differences by another program, 1 where a difference is just visible: for each "

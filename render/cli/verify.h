@@ -9,7 +9,7 @@
 #include "render/cli/support/progress.h"
 #include "render/frame/sequence.h"
 #include "render/output/verified_statistics.h"
-#include "render/verify/picture_keeper.h"
+#include "render/verify/probe.h"
 
 namespace aleph {
 

@@ -7,9 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/commands.h"
-#include "render/cli/compare/compare_frames.h"
-#include "render/cli/compare/compare_print.h"
-#include "render/cli/compare/junit_file.h"
+#include "render/cli/compare/compare_command.h"
 #include "render/cli/support/output_conflicts.h"
 
 namespace aleph {

@@ -1,12 +1,10 @@
-#include "render/cli/compare/compare_frames.h"
+#include "render/cli/compare/compare_command.h"
 
 #include <fmt/format.h>
 
 #include <map>
 
 #include "engine/base/errors.h"
-#include "render/cli/compare/compare_print.h"
-#include "render/cli/compare/junit_file.h"
 #include "render/cli/support/options.h"
 #include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/progress.h"

@@ -1,4 +1,4 @@
-#include "render/cli/compare/compare_print.h"
+#include "render/cli/compare/compare_command.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "render/cli/explain/explain_elements.h"
+#include "render/cli/explain/explain.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include "engine/load/warnings.h"
 #include "engine/scene/points.h"
 #include "engine/scene_file/fields.h"
-#include "render/cli/explain/explain.h"
 
 namespace aleph {
 

@@ -7,7 +7,6 @@
 
 #include "engine/image/image_file.h"
 #include "render/cli/farm/farm_job.h"
-#include "render/cli/farm/farm_scripts.h"
 #include "render/settings/fingerprint.h"
 #include "render/settings/frame_list.h"
 #include "tests/render/cli/answers.h"
@@ -151,7 +150,7 @@ TEST_F(FarmTest, WhatCannotBeDividedIsRefused) {
     const auto refused = [&](const Words& words, const std::string& part) { expect_answer(run(words), 2, part); };
     refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "0"}), "--tasks: expected 1 to");
     refused(with({"farm", "slurm"}, {"--tasks", "2"}), "--output: name the files");
-    refused(with({"farm", "slurm"}, {"-o", out_ / "one.exr", "--tasks", "2"}), "--output");
+    refused(with({"farm", "slurm"}, {"-o", out_ / "one.exr", "--tasks", "2"}), "need a number in the name");
     refused(with({"farm", "slurm"}, {"-o", out_ / "a.####.flo", "--command", "maps", "--tasks", "2"}), "--output");
     refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "2", "--taks", "3"}),
             "there is no option --taks; did you mean \"--tasks\"");

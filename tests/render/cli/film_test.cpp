@@ -19,9 +19,9 @@ void write_passing_box(const fs::path& path) {
          "material": {"base_color": [0.1, 0.8, 0.2]}}]})";
 }
 
-class Film : public testing::Test {
+class Films : public testing::Test {
   protected:
-    Film() {
+    Films() {
         write_passing_box(folder_ / "scene.json");
         fs::create_directory(folder_ / "out");
     }
@@ -45,7 +45,7 @@ class Film : public testing::Test {
     const ScratchFolder folder_;
 };
 
-TEST_F(Film, HasTheFramesOfThePictures) {
+TEST_F(Films, HasTheFramesOfThePictures) {
     std::vector<ChannelImage> expected;
     for (const int frame : {4, 5, 6}) expected.push_back(png(frame));
     for (const std::string ending : {"mp4", "webm", "gif"}) {
@@ -69,7 +69,7 @@ TEST_F(Film, HasTheFramesOfThePictures) {
     }
 }
 
-TEST_F(Film, LastsAsLongAsItsFramesWhereSomeAreLeftOut) {
+TEST_F(Films, LastsAsLongAsItsFramesWhereSomeAreLeftOut) {
     ASSERT_EQ(render("film.mp4", {"--frames", "1-9x4"}).code, 0);
     EXPECT_EQ(probe_film(folder_ / "out/film.mp4", "r_frame_rate,avg_frame_rate,nb_read_frames"),
               "7500/1001,7500/1001,3");
@@ -77,7 +77,7 @@ TEST_F(Film, LastsAsLongAsItsFramesWhereSomeAreLeftOut) {
     EXPECT_EQ(probe_film(folder_ / "out/one.mov", "codec_name,r_frame_rate,nb_read_frames"), "h264,30000/1001,1");
 }
 
-TEST_F(Film, OddSizesRepeatTheLastColumnAndRow) {
+TEST_F(Films, OddSizesRepeatTheLastColumnAndRow) {
     const Words odd{"--size", "63x47"};
     const Ended ended = render("film.mp4", {"--frames", "5", "--size", "63x47"});
     ASSERT_EQ(ended.code, 0) << ended.err;
@@ -95,7 +95,7 @@ TEST_F(Film, OddSizesRepeatTheLastColumnAndRow) {
     }
 }
 
-TEST_F(Film, OfMapsHasThePicturesOfMaps) {
+TEST_F(Films, OfMapsHasThePicturesOfMaps) {
     // The last frame has the motion of the one before; their pictures have one size.
     ASSERT_EQ(run(words("maps", "maps.mp4", {"--size", "64x48", "--frames", "8-9"})).code, 0);
     ASSERT_EQ(run(words("maps", "../m.png", {"--size", "64x48", "--frames", "9"})).code, 0);
@@ -105,7 +105,7 @@ TEST_F(Film, OfMapsHasThePicturesOfMaps) {
     EXPECT_EQ(left(), Words{"maps.mp4"});
 }
 
-TEST_F(Film, WhatCannotBeAFilmIsRefusedAndLeavesNothing) {
+TEST_F(Films, WhatCannotBeAFilmIsRefusedAndLeavesNothing) {
     const std::vector<std::tuple<std::string, Words, std::string>> cases{
         {"film.mp5", {}, "the extension .mp5 is not known; possible are .exr, .png and .hdr"},
         {"film.####.mp4", {}, "a film has no frame number"},
@@ -120,7 +120,7 @@ TEST_F(Film, WhatCannotBeAFilmIsRefusedAndLeavesNothing) {
     }
 }
 
-TEST_F(Film, WithoutFfmpegNothingIsRendered) {
+TEST_F(Films, WithoutFfmpegNothingIsRendered) {
     const ScopedPath path(folder_.path());
     expect_answer(render("new/film.mp4"), 1,
                   "film.mp4: films are made by the program ffmpeg, which is not in PATH: install it");
