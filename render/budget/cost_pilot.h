@@ -9,7 +9,7 @@
 
 #include "engine/scene/scene.h"
 #include "render/budget/cost_model.h"
-#include "render/settings/setting_check.h"
+#include "render/settings/setting_table.h"
 #include "render/settings/settings.h"
 
 namespace aleph {

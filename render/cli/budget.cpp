@@ -19,12 +19,6 @@ constexpr double pilot_share = 0.15;  // of the budget
 
 }  // namespace
 
-double parse_budget(const std::string& text) {
-    const double seconds = parse_value<double>(text, "--budget");
-    if (!(seconds > 0.0)) throw InputError("--budget", printable(text), "expected seconds above 0");
-    return seconds;
-}
-
 void refuse_beside_budget(const SceneOptions& options, const std::string& cache) {
     if (options.settings.contains("error")) {
         throw InputError("--budget", "--error", "give one of the two: a budget chooses the error");

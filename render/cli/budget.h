@@ -10,10 +10,6 @@
 
 namespace aleph {
 
-/// Reads the seconds of --budget.
-/// @throws CLI::ConversionError for what is no number, InputError (--budget) for one that is not above 0
-double parse_budget(const std::string& text);
-
 /// @throws InputError (--budget) if the error is asked for as well, or a cache file, which is for one error
 void refuse_beside_budget(const SceneOptions& options, const std::string& cache);
 

@@ -24,10 +24,6 @@ struct ExportOptions {
     bool bake = false, quiet = false;
 };
 
-void print_warnings(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
-}
-
 int export_scene(const ExportOptions& options) {
     require_format(scene_formats(), FormatUse::save, options.output, options.output, "--output");
     const ReadFiles read;

@@ -70,7 +70,7 @@ FilmFrames list_frames(const FrameJob& job, const SceneOptions& options) {
 }
 
 std::string describe_film(const SceneOptions& options, const FilmFrames& frames) {
-    const PictureSize size = read_png_size(frames.files.front());
+    const PictureSize size = read_picture_size(frames.files.front());
     return fmt::format(
         "aleph: wrote {}: {} frame{} of {}x{}, {} a second{}\n", printable(options.film, 400), frames.files.size(),
         frames.files.size() == 1 ? "" : "s", size.width, size.height, describe_rate(frames.rate),

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "render/cli/scene_options.h"
-#include "render/cli/support/copied_frames.h"
 #include "render/cli/support/frame_claims.h"
 #include "render/cli/support/progress.h"
 #include "render/cli/support/render_signals.h"
@@ -58,6 +57,15 @@ class MeanEstimate {
     double sum_ = 0.0;
     int frames_ = 0;
 };
+
+struct FinishedFrame {
+    std::int64_t frame = 0;
+    std::optional<std::int64_t> copy_of;
+};
+
+/// Lines such as "aleph: frames 12-30 are copies of frame 11: nothing changes", one for every frame that others copy,
+/// in the order of `frames`; a last line counts those beyond the fourth. Empty if no frame is a copy.
+std::string describe_copies(const std::vector<FinishedFrame>& frames);
 
 class FrameWriter {
   public:

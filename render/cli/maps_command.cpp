@@ -16,6 +16,7 @@
 #include "render/cli/scene_options.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/write_frames.h"
+#include "render/compare/visible_difference.h"
 #include "render/images/image_sequence.h"
 #include "render/images/picture_frame.h"
 #include "render/settings/fingerprint.h"
@@ -71,24 +72,6 @@ std::string name_of_maps(const std::filesystem::path& pattern) {
     return (name.empty() ? "frame" : name) + maps_suffix;
 }
 
-/// Reads the shot from the first picture: our own frames and those of most programs carry their rate.
-void read_shot(Scene& shot, const ChannelImage& first) {
-    const auto number = [&](const char* key, double& value) {
-        const auto found = first.metadata.find(key);
-        if (found == first.metadata.end()) return;
-        const double* const given = std::get_if<double>(&found->second);
-        if (given != nullptr && *given > 0.0 && *given <= 1e18) value = *given;
-    };
-    number("whiteLuminance", shot.film.viewing.display_white);
-    number("pixelsPerDegree", shot.film.viewing.pixels_per_degree);
-    number("displayPersistence", shot.film.viewing.persistence);
-    const auto rate = first.metadata.find("framesPerSecond");
-    if (rate == first.metadata.end()) return;
-    const auto* const fraction = std::get_if<std::array<int, 2>>(&rate->second);
-    if (fraction != nullptr && (*fraction)[0] > 0 && (*fraction)[1] > 0)
-        shot.film.frame_rate = {(*fraction)[0], (*fraction)[1]};
-}
-
 struct PreparedImages {
     PreparedScene prepared;  ///< a scene without objects: what is known of the shot
     FrameFiles files;
@@ -108,7 +91,10 @@ PreparedImages prepare_images(const MapsOptions& options) {
     shot.source.file = pattern;
     shot.film.exposure = 1.0;
     const ChannelImage first = read_image(images.files.begin()->second);
-    read_shot(shot, first);
+    // Our own frames and those of most programs carry their rate.
+    const ViewingSettings shown = read_viewing(first);
+    shot.film.viewing = shown.viewing;
+    shot.film.frame_rate = shown.frame_rate;
     images.with_motion = read_picture_frame(images.files.begin()->second, options.layers).motion.has_value();
     if (!options.common.fps.empty()) shot.film.frame_rate = parse_fps(options.common.fps);
     SettingMap given = options.common.settings;
@@ -257,11 +243,8 @@ void add_maps_command(CLI::App& app, Command& command) {
     maps->add_option("--cuts", options->cuts, "frames that begin a new shot: no motion from the frame before")
         ->type_name("LIST")
         ->group(group);
-    maps->add_option_function<std::string>(
-            "--exposure",
-            [options](const std::string& text) { options->exposure = parse_value<double>(text, "--exposure"); },
-            "factor on the pictures' values, so that white is 1 (default: 1)")
-        ->type_name("NUMBER")
+    add_number(*maps, "--exposure", options->exposure,
+               "factor on the pictures' values, so that white is 1 (default: 1)")
         ->group(group);
     maps->footer(maps_footer());
     maps->callback([options, &command] {

@@ -71,7 +71,7 @@ void refuse_beside_resume(bool budget, bool verify) {
 void render_within(const std::string& budget, const SceneOptions& options, const FrameRequest& request,
                    const std::string& cache, double verify) {
     Budget chosen;
-    const double seconds = parse_budget(budget);
+    const double seconds = parse_seconds(budget, "--budget");
     refuse_beside_budget(options, cache);
     PreparedScene prepared = prepare_scene(options);
     if (verify > 0.0) refuse_traced(prepared.settings);
@@ -98,7 +98,7 @@ struct RenderOptions {
 
 void render_once(const RenderOptions& options) {
     const FrameRequest request{.frame = true, .maps = options.aovs, .progress = {}};
-    const double check = options.verify ? parse_verify(*options.verify) : 0.0;
+    const double check = options.verify ? parse_seconds(*options.verify, "--verify") : 0.0;
     if (options.budget) return render_within(*options.budget, options.scene, request, options.cache, check);
     PreparedScene prepared = prepare_scene(options.scene);
     if (check > 0.0) refuse_traced(prepared.settings);
@@ -124,11 +124,7 @@ void add_render_command(CLI::App& app, Command& command) {
     render_app
         ->add_option_function<std::string>(
             "--checkpoint",
-            [options](const std::string& text) {
-                options->scene.checkpoint = parse_value<double>(text, "--checkpoint");
-                if (!(options->scene.checkpoint > 0.0))
-                    throw CLI::ValidationError("--checkpoint", "expected seconds above 0");
-            },
+            [options](const std::string& text) { options->scene.checkpoint = parse_seconds(text, "--checkpoint"); },
             "while a frame is made, keep its records and samples in a file every so many seconds, and when a signal "
             "stops it: --resume goes on from there")
         ->type_name("SECONDS");

@@ -18,6 +18,7 @@
 #include "render/settings/frame_list.h"
 #include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
+#include "render/study/prepared_study.h"
 
 namespace aleph {
 
@@ -250,11 +251,7 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     apply_settings(prepared.settings, scene.source.settings, options.scene);
     set_scene_numbers(scene, given, "--set");
     apply_settings(prepared.settings, given, "");
-    if (!options.quiet) {
-        for (const std::string& warning : scene.source.warnings) {
-            std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
-        }
-    }
+    if (!options.quiet) print_warnings(scene.source.warnings);
     const FrameRange range = frame_range(scene);
     if (options.frames.empty()) {
         if (range.last - range.first >= 10000000) {
@@ -265,10 +262,7 @@ PreparedScene prepare_scene(const SceneOptions& options) {
         prepared.frames = parse_frame_list(options.frames);
         if (!options.quiet) warn_of_frames_outside(prepared.frames, range);
     }
-    prepared.name = std::filesystem::path(options.scene).stem().string();
-    if (prepared.name == "scene") {
-        prepared.name = std::filesystem::absolute(options.scene).parent_path().filename().string();
-    }
+    prepared.name = name_scene(options.scene);
     return prepared;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <ranges>
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
@@ -11,7 +12,6 @@
 #include "perception/vision/vision_model.h"
 #include "render/cli/commands.h"
 #include "render/cli/scene_options.h"
-#include "render/cli/search_output.h"
 #include "render/cli/study_output.h"
 #include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/progress.h"
@@ -35,28 +35,31 @@ struct StudyCommandOptions {
     StudyExtras extras;
 };
 
-/// "error=.5,1,2"
-StudyAxis parse_sweep(const std::string& text) {
+/// The parts before and behind '='.
+/// @param expected  in messages
+std::pair<std::string, std::string> split_named(const std::string& text, const char* option, const char* expected) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-        throw InputError("", "--sweep", fmt::format("{}: expected KEY=VALUE,VALUE,...", printable(text)));
-    StudyAxis axis{text.substr(0, equals), {}};
-    for (std::size_t begin = equals + 1; begin <= text.size();) {
-        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        throw InputError("", option, fmt::format("{}: expected {}", printable(text), expected));
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// "error=.5,1,2"
+StudyAxis parse_sweep(const std::string& text) {
+    const auto [key, values] = split_named(text, "--sweep", "KEY=VALUE,VALUE,...");
+    StudyAxis axis{key, {}};
+    for (const auto& part : std::views::split(values, ',')) {
         SettingMap value;
-        parse_setting(fmt::format("{}={}", axis.setting, text.substr(begin, comma - begin)), value);
+        parse_setting(fmt::format("{}={}", key, std::string_view(part.begin(), part.end())), value);
         axis.values.push_back(value.begin()->second);
-        begin = comma + 1;
     }
     return axis;
 }
 
 /// "castle=folder", or for one variant "castle=maps.####.exr"
 StudyJudge parse_judge(const std::string& text) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-        throw InputError("", "--judge", fmt::format("{}: expected NAME=FOLDER or NAME=maps.####.exr", printable(text)));
-    StudyJudge judge{text.substr(0, equals), text.substr(equals + 1)};
+    const auto [name, folder] = split_named(text, "--judge", "NAME=FOLDER or NAME=maps.####.exr");
+    StudyJudge judge{name, folder};
     if (find_number_field(judge.folder.filename().string(), "--judge")) {
         judge.frames = find_frame_files(judge.folder.string(), "--judge");
         return judge;
@@ -68,10 +71,8 @@ StudyJudge parse_judge(const std::string& text) {
 
 /// "other=other.####.exr"
 StudyVariant parse_pictures(const std::string& text) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-        throw InputError("", "--pictures", fmt::format("{}: expected NAME=other.####.exr", printable(text)));
-    return {text.substr(0, equals), {}, find_frame_files(text.substr(equals + 1), "--pictures")};
+    const auto [name, pattern] = split_named(text, "--pictures", "NAME=other.####.exr");
+    return {name, {}, find_frame_files(pattern, "--pictures")};
 }
 
 /// A model of vision by its name, on a display that holds its frames.
@@ -79,12 +80,6 @@ StudyViewer make_viewer(const std::string& vision) {
     StudyViewer viewer{vision, {{"vision", vision}}};
     if (find_vision(vision)->uses_persistence()) viewer.settings["viewing.persistence"] = 1.0;
     return viewer;
-}
-
-std::vector<std::string> vision_names() {
-    std::vector<std::string> names;
-    for (const VisionModel* const model : vision_list()) names.push_back(model->name());
-    return names;
 }
 
 /// The study of a file, or that of the sweeps of a scene.
@@ -172,12 +167,8 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     override_study(options, study);
     const PreparedStudy prepared = prepare_study(std::move(study));
     for (const std::string& variant : options.extras.errors) check_variant_name(prepared, variant);
-    if (!options.quiet) {
-        for (const PreparedStudyScene& scene : prepared.scenes) {
-            for (const std::string& warning : scene.scene.source.warnings)
-                std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
-        }
-    }
+    for (const PreparedStudyScene& scene : prepared.scenes)
+        if (!options.quiet) print_warnings(scene.scene.source.warnings);
     const std::filesystem::path folder =
         options.output.empty() ? study_folder(options.file) : std::filesystem::path(options.output);
     if (!options.part.empty()) {
@@ -239,7 +230,7 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
         .add_option("--viewers", options.viewers,
                     "models of vision that judge, such as thesis,castle, on a display that holds its frames")
         ->delimiter(',')
-        ->check(CLI::IsMember(vision_names()));
+        ->check(CLI::IsMember(std::ranges::find(setting_table(), "vision", &Setting::key)->choices));
     study
         .add_option("--judge", options.judges,
                     "maps of visible differences by another program, 1 where a difference is just visible: for each "

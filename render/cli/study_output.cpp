@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "render/study/pages/error_sheet.h"
 #include "render/study/pages/report_page.h"
 #include "render/study/pages/viewer_page.h"
+#include "render/study/search_study.h"
 
 namespace aleph {
 
@@ -77,6 +79,74 @@ void print_rows(const std::vector<Row>& rows, bool markdown, std::ostream& out) 
     }
 }
 
+void print_table(const PreparedStudy& prepared, const std::vector<VariantResult>& variants, bool markdown,
+                 std::ostream& out) {
+    std::vector<Row> rows{{"variant"}};
+    for (const Metric& metric : prepared.metrics) {
+        if (is_shown(metric, prepared.study)) rows.front().push_back(head_of(metric));
+    }
+    for (const VariantResult& variant : variants) {
+        Row& row = rows.emplace_back();
+        row.push_back(printable(variant.name, 80) + (variant.on_front ? " *" : ""));
+        for (const Metric& metric : prepared.metrics) {
+            if (is_shown(metric, prepared.study)) row.push_back(cell(variant, metric));
+        }
+    }
+    print_rows(rows, markdown, out);
+}
+
+void print_head(const PreparedStudy& prepared, const StudyResults& results, std::ostream& out) {
+    fmt::print(out, "{}\nReference: {}.\n", printable(prepared.study.title, 400),
+               describe_reference(prepared, results));
+}
+
+constexpr std::array shares_seen = {1.0, 5.0};  // percent, for which the best settings are told
+
+/// Without what all candidates have.
+std::string describe_settings(const PreparedStudy& prepared, SettingMap settings) {
+    settings.erase("sampling");
+    settings.erase("error");
+    return name_settings(settings, prepared.study.search->settings);
+}
+
+void print_best(const PreparedStudy& prepared, const SceneSearch& scene, std::ostream& out) {
+    std::vector<CostPoint> points;
+    for (const SearchedPoint& point : scene.front) points.push_back(point.point);
+    fmt::print(out, "Best fixed settings of {}, of {} candidates:\n", printable(scene.scene),
+               prepared.candidates.size());
+    for (const double share : shares_seen) {
+        if (const auto best = find_cheapest(points, share)) {
+            const SearchedPoint& found = scene.front[*best];
+            fmt::print(out, "  at most {:.0f} % seen: {:.3g} s, {:.2g} % seen: {}: {}\n", share, found.point.cost,
+                       found.point.error, found.variant, printable(describe_settings(prepared, found.settings), 400));
+        } else {
+            fmt::print(out, "  at most {:.0f} % seen: none; the best is {}: {:.3g} s, {:.2g} % seen: {}\n", share,
+                       scene.front.back().variant, points.back().cost, points.back().error,
+                       printable(describe_settings(prepared, scene.front.back().settings), 400));
+        }
+    }
+}
+
+void print_against(const AgainstFixed& against, std::ostream& out) {
+    const CostPoint& own = against.own.point;
+    const double seconds = against.fixed.cost, times = seconds / std::max(own.cost, 1e-9);
+    fmt::print(out, "  {}: {:.3g} s, {:.2g} % seen; ", printable(against.own.variant, 80), own.cost, own.error);
+    switch (against.fixed.bound) {
+        case FrontCost::Bound::between:
+            fmt::print(out, "fixed settings take {:.3g} s for as much: {:.2f} times as long\n", seconds, times);
+            break;
+        case FrontCost::Bound::at_most:
+            fmt::print(out, "all fixed settings that were kept show less: at most {:.3g} s, {:.2f} times as long\n",
+                       seconds, times);
+            break;
+        case FrontCost::Bound::more:
+            fmt::print(out,
+                       "no fixed settings that were kept show as little: more than {:.3g} s, {:.2f} times as long\n",
+                       seconds, times);
+            break;
+    }
+}
+
 }  // namespace
 
 std::filesystem::path study_folder(const std::filesystem::path& file) {
@@ -103,32 +173,24 @@ std::string study_command_line() {
     return line;
 }
 
-void print_table(const PreparedStudy& prepared, const std::vector<VariantResult>& variants, bool markdown,
-                 std::ostream& out) {
-    std::vector<Row> rows{{"variant"}};
-    for (const Metric& metric : prepared.metrics) {
-        if (is_shown(metric, prepared.study)) rows.front().push_back(head_of(metric));
-    }
-    for (const VariantResult& variant : variants) {
-        Row& row = rows.emplace_back();
-        row.push_back(printable(variant.name, 80) + (variant.on_front ? " *" : ""));
-        for (const Metric& metric : prepared.metrics) {
-            if (is_shown(metric, prepared.study)) row.push_back(cell(variant, metric));
-        }
-    }
-    print_rows(rows, markdown, out);
-}
-
-void print_head(const PreparedStudy& prepared, const StudyResults& results, std::ostream& out) {
-    fmt::print(out, "{}\nReference: {}.\n", printable(prepared.study.title, 400),
-               describe_reference(prepared, results));
-}
-
 void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out) {
     print_head(prepared, results, out);
     fmt::print(out, "Means over {} frame{}; * no other variant is faster and better.\n\n", results.frames.size(),
                results.frames.size() == 1 ? "" : "s");
     print_table(prepared, results.variants, markdown, out);
+}
+
+void print_search(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out) {
+    print_head(prepared, results, out);
+    fmt::print(out, "Means over the frames of a scene; * no other variant is faster and better in this scene.\n");
+    for (const SceneSearch& scene : summarize_search(prepared, results)) {
+        fmt::print(out, "\n{}\n\n", printable(scene.scene));
+        print_table(prepared, variants_of_scene(results, scene.scene), markdown, out);
+        out << "\n";
+        print_best(prepared, scene, out);
+        if (!scene.against.empty()) out << "The study's variants beside them:\n";
+        for (const AgainstFixed& against : scene.against) print_against(against, out);
+    }
 }
 
 void print_ledger(const std::vector<SceneLedger>& ledgers, bool markdown, std::ostream& out) {

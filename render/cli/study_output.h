@@ -22,15 +22,13 @@ std::vector<OutputFile> study_files(const std::filesystem::path& folder);
 /// This process's command line, for the results to say how they were made.
 std::string study_command_line();
 
-/// The title of a study and what judges it.
-void print_head(const PreparedStudy& prepared, const StudyResults& results, std::ostream& out);
-
-/// A row per variant.
-void print_table(const PreparedStudy& prepared, const std::vector<VariantResult>& variants, bool markdown,
-                 std::ostream& out);
-
-/// The head, and a row per variant with the means over its frames.
+/// The title, what judges, and a row per variant with the means over its frames.
 void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out);
+
+/// For each scene a table of its variants, the best fixed settings, and what these take beside the study's own
+/// variants.
+/// @param results  of search_study
+void print_search(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out);
 
 /// Prints, scene by scene, what each effect costs and what a viewer misses without it.
 void print_ledger(const std::vector<SceneLedger>& ledgers, bool markdown, std::ostream& out);

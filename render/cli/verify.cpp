@@ -20,12 +20,6 @@ std::string number(std::size_t count, const char* what) {
 
 }  // namespace
 
-double parse_verify(const std::string& text) {
-    const double seconds = parse_value<double>(text, "--verify");
-    if (!(seconds > 0.0)) throw InputError("--verify", printable(text), "expected seconds above 0");
-    return seconds;
-}
-
 void refuse_traced(const RenderSettings& settings) {
     if (settings.light.integrator != Integrator::path) return;
     throw InputError("--verify", "--integrator path",

@@ -9,13 +9,9 @@
 #include "render/cli/support/progress.h"
 #include "render/frame/sequence.h"
 #include "render/output/verified_statistics.h"
-#include "render/verify/picture_keeper.h"
+#include "render/verify/probe.h"
 
 namespace aleph {
-
-/// Reads the seconds of --verify.
-/// @throws CLI::ConversionError for what is no number, InputError (--verify) for one that is not above 0
-double parse_verify(const std::string& text);
 
 /// @throws InputError (--verify) for frames that are path traced, as the references are that would judge them
 void refuse_traced(const RenderSettings& settings);

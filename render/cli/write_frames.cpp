@@ -7,11 +7,14 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/pose/pose.h"
+#include "engine/scene/scene_hash.h"
 #include "render/cli/budget.h"
 #include "render/cli/film.h"
 #include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/verify.h"
+#include "render/settings/fingerprint.h"
 
 namespace aleph {
 
@@ -114,6 +117,20 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
         };
     }
     write_frames(job, options, request);
+}
+
+std::string describe_content(const SceneOptions& options, const FrameRequest& request) {
+    return fmt::format("{}{}{}", request.frame ? "picture " : "", request.maps ? "maps " : "",
+                       options.importance ? "importance" : "");
+}
+
+FramePrints fingerprint_frames(const PreparedScene& prepared, const SceneOptions& options,
+                               const FrameRequest& request) {
+    const Fingerprint print =
+        make_fingerprint(prepared.scene, prepared.settings, list_camera_shots(prepared.scene, options.camera));
+    const std::string names = hash_names(prepared.scene), content = describe_content(options, request);
+    return {hash_bytes(fmt::format("{}\n{}\n{}", format_fingerprint(print), names, content)),
+            [=](int frame) { return frame_fingerprint(print, names, content, frame); }};
 }
 
 }  // namespace aleph

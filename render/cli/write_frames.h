@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/frame_prints.h"
 #include "render/cli/frame_writer.h"
 #include "render/cli/scene_options.h"
 #include "render/frame/sequence.h"
@@ -15,6 +14,17 @@
 #include "render/settings/measure.h"
 
 namespace aleph {
+
+struct FramePrints {
+    std::string identity;                      ///< what all files have in common
+    std::function<std::string(int frame)> of;  ///< of a frame's file
+};
+
+/// Of frames of a scene, or of their maps.
+FramePrints fingerprint_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request);
+
+/// What a frame's file holds, for its fingerprint.
+std::string describe_content(const SceneOptions& options, const FrameRequest& request);
 
 /// Checks and tries --output, --stats and --cache, and makes their folders; called before anything is computed.
 /// @param maps  the files have channels of maps, which PNG and HDR cannot hold

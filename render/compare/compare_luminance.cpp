@@ -36,6 +36,12 @@ double variance_at(const Image<float>* variance, std::size_t i) {
 
 }  // namespace
 
+std::optional<double> find_number(const ChannelImage& image, const std::string& key) {
+    const auto found = image.metadata.find(key);
+    const double* const number = found == image.metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    return number && std::isfinite(*number) && *number > 0.0 ? std::optional(*number) : std::nullopt;
+}
+
 Image<Rgb> linear_colour(const ChannelImage& image) {
     const Image<float>*r = image.find("R"), *g = image.find("G"), *b = image.find("B");
     if (!r || !g || !b) return {};
@@ -50,13 +56,8 @@ Image<Rgb> linear_colour(const ChannelImage& image) {
 }
 
 double display_white_of(const ChannelImage& a, const ChannelImage& b) {
-    for (const ChannelImage* image : {&b, &a}) {
-        const auto it = image->metadata.find("whiteLuminance");
-        if (it == image->metadata.end()) continue;
-        const double* white = std::get_if<double>(&it->second);
-        if (white && std::isfinite(*white) && *white > 0.0) return *white;
-    }
-    return ViewingConditions{}.display_white;
+    const double otherwise = find_number(a, "whiteLuminance").value_or(ViewingConditions{}.display_white);
+    return find_number(b, "whiteLuminance").value_or(otherwise);
 }
 
 LuminanceError compute_luminance_error(const ChannelImage& a, const ChannelImage& b) {

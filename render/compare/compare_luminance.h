@@ -1,9 +1,15 @@
 #pragma once
 // Luminance of two pictures: what a viewer compares.
 
+#include <optional>
+#include <string>
+
 #include "engine/image/image_file.h"
 
 namespace aleph {
+
+/// A number that a picture says of itself, above 0; nothing if it has none.
+std::optional<double> find_number(const ChannelImage& image, const std::string& key);
 
 /// Linear R, G, B of a picture, or nothing if it has none. 8-bit pictures count as sRGB.
 Image<Rgb> linear_colour(const ChannelImage& image);

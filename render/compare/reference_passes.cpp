@@ -13,16 +13,10 @@ namespace {
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr const char *variance_name = "variance.Y", *passes_key = "passes", *exposure_key = "exposureFactor";
 
-double number_in(const ChannelImage& image, const char* key) {
-    const auto found = image.metadata.find(key);
-    const double* number = found == image.metadata.end() ? nullptr : std::get_if<double>(&found->second);
-    return number ? *number : 0.0;
-}
-
 }  // namespace
 
 double reference_passes(const ChannelImage& reference) {
-    return number_in(reference, passes_key);
+    return find_number(reference, passes_key).value_or(0.0);
 }
 
 void add_pass(ChannelImage& mean, const ChannelImage& pass) {
@@ -31,7 +25,8 @@ void add_pass(ChannelImage& mean, const ChannelImage& pass) {
         mean = pass;
         const Image<float>& red = pass.channels.front().values;
         mean.channels.push_back({variance_name, Image<float>(red.width, red.height, infinite)});
-        for (const char* name : {"R", "G", "B"}) mean.channels.push_back({std::string("noise.") + name, *pass.find(name)});
+        for (const char* name : {"R", "G", "B"})
+            mean.channels.push_back({std::string("noise.") + name, *pass.find(name)});
         mean.metadata[passes_key] = 1.0;
         return;
     }
@@ -58,12 +53,13 @@ void add_pass(ChannelImage& mean, const ChannelImage& pass) {
 }
 
 ChannelImage with_exposure_of(ChannelImage picture, const ChannelImage& other) {
-    return with_exposure(std::move(picture), number_in(other, exposure_key));
+    const std::optional<double> exposure = find_number(other, exposure_key);
+    return exposure ? with_exposure(std::move(picture), *exposure) : picture;
 }
 
 ChannelImage with_exposure(ChannelImage picture, double exposure) {
-    const double had = number_in(picture, exposure_key);
-    if (!(had > 0.0) || had == exposure) return picture;
+    const double had = find_number(picture, exposure_key).value_or(exposure);
+    if (had == exposure) return picture;
     for (Channel& channel : picture.channels) {
         const double scale = channel.name == "variance.Y" ? exposure / had * exposure / had : exposure / had;
         for (float& value : channel.values.pixels) value = static_cast<float>(value * scale);

@@ -9,6 +9,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/base/pyramid.h"
+#include "render/compare/compare_luminance.h"
 #include "render/compare/visible_signal.h"
 
 namespace aleph {
@@ -30,7 +31,8 @@ std::vector<std::size_t> find_broken(const Image<Rgb>& a, const Image<Rgb>& b) {
 /// The eye is adapted to the mean over about half a degree, and for coarser bands over the band's own pixels: Gaussian
 /// levels of the reference, each at the size of its band's level.
 std::vector<Image<float>> find_background(const Image<float>& achromatic, int levels, double pixels_per_degree) {
-    const int adaptation = static_cast<int>(std::clamp(std::round(std::log2(0.5 * pixels_per_degree)), 1.0, levels + 1.0));
+    const int adaptation =
+        static_cast<int>(std::clamp(std::round(std::log2(0.5 * pixels_per_degree)), 1.0, levels + 1.0));
     const std::vector<LevelSize> sizes = pyramid_sizes(achromatic.width, achromatic.height, levels + 2);
     const std::vector<Image<float>> gaussian = make_gaussian_pyramid(achromatic, levels + 2);
     std::vector<Image<float>> background;
@@ -67,31 +69,25 @@ std::vector<Image<float>> differences(std::vector<Image<float>> a, const std::ve
     return a;
 }
 
-template <class Number>
-void take(const ChannelImage& image, const char* key, Number& value) {
-    const auto found = image.metadata.find(key);
-    const double* number = found == image.metadata.end() ? nullptr : std::get_if<double>(&found->second);
-    if (number && std::isfinite(*number) && *number > 0.0) value = *number;
-}
-
 }  // namespace
 
 ViewingSettings read_viewing(const ChannelImage& maps) {
     ViewingSettings settings;
-    take(maps, "whiteLuminance", settings.viewing.display_white);
-    take(maps, "pixelsPerDegree", settings.viewing.pixels_per_degree);
-    take(maps, "displayPersistence", settings.viewing.persistence);
+    const auto take = [&](const char* key, double& value) { value = find_number(maps, key).value_or(value); };
+    take("whiteLuminance", settings.viewing.display_white);
+    take("pixelsPerDegree", settings.viewing.pixels_per_degree);
+    take("displayPersistence", settings.viewing.persistence);
     const auto rate = maps.metadata.find("framesPerSecond");
     if (rate != maps.metadata.end()) {
         const auto* fraction = std::get_if<std::array<int, 2>>(&rate->second);
-        if (fraction && (*fraction)[0] > 0 && (*fraction)[1] > 0) settings.frame_rate = {(*fraction)[0], (*fraction)[1]};
+        if (fraction && (*fraction)[0] > 0 && (*fraction)[1] > 0)
+            settings.frame_rate = {(*fraction)[0], (*fraction)[1]};
     }
     return settings;
 }
 
 Image<Rgb> read_noise(const ChannelImage& reference) {
-    double passes = 1.0;
-    take(reference, "passes", passes);
+    const double passes = find_number(reference, "passes").value_or(1.0);
     const Image<float>*r = reference.find("noise.R"), *g = reference.find("noise.G"), *b = reference.find("noise.B");
     if (!r || !g || !b || std::fmod(passes, 2.0) != 0.0) return {};
     Image<Rgb> noise(r->width, r->height);
@@ -123,7 +119,8 @@ std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const Pictur
     if (!frames_.empty() && !same_size(frames_.back().motion.u, maps.u))
         throw InputError("", "", fmt::format("frame {} has another size than the frame before", frame));
     const double white = settings_.viewing.display_white;
-    const VisualChannels shown = compute_visual_channels(picture, white), truth = compute_visual_channels(reference, white);
+    const VisualChannels shown = compute_visual_channels(picture, white),
+                         truth = compute_visual_channels(reference, white);
     VisualChannels noisy;
     if (!noise.empty()) noisy = compute_visual_channels(sum_of(reference, noise), white);
     Frame next{frame,
@@ -194,17 +191,18 @@ VisibleMaps VisibleDifference::measure(std::size_t index) const {
                                    frame.background[shape.signal_level]);
             };
             const SignalParts parts = filter(&Frame::error);
-            const Image<float> elevation = masking_elevation(
-                frame.masker[c][b], frame.background[shape.level],
-                shape.level > shape.signal_level ? even_pixels(parts.sensitivity) : parts.sensitivity,
-                static_cast<int>(c));
+            const Image<float> elevation =
+                masking_elevation(frame.masker[c][b], frame.background[shape.level],
+                                  shape.level > shape.signal_level ? even_pixels(parts.sensitivity) : parts.sensitivity,
+                                  static_cast<int>(c));
             sums.add(parts, elevation, shape, sizes, 1.0f);
             if (has_noise) sums.add(filter(&Frame::noise), elevation, shape, sizes, -1.0f);
         }
     }
     VisibleMaps maps = sums.result();
     maps.frame = frame.number;
-    for (const std::size_t i : frame.broken) maps.seen.pixels[i] = maps.lasting.pixels[i] = std::numeric_limits<float>::infinity();
+    for (const std::size_t i : frame.broken)
+        maps.seen.pixels[i] = maps.lasting.pixels[i] = std::numeric_limits<float>::infinity();
     return maps;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The maps of a frame as one picture that people can look at.
+// The maps of a frame as one picture that people can look at, and its motion drawn on a picture.
 
 #include <filesystem>
 
@@ -13,5 +13,13 @@ namespace aleph {
 /// same for all frames, so that pictures can be compared.
 /// @throws OutputError naming the file
 void write_map_preview(const std::filesystem::path& path, const FrameOutput& output, const PictureTexts& texts = {});
+
+/// Frames that each line takes at its pixel's present speed.
+inline constexpr int motion_line_frames = 4;
+
+/// Draws lines from every 12th pixel in both directions to where its surface point is after so many frames; a square of
+/// 2 pixels is at their beginning. Pixels without motion have none.
+/// @param picture  linear RGB, of the motion's size
+void draw_motion(Image<Rgb>& picture, const MotionField& motion);
 
 }  // namespace aleph

@@ -1,20 +1,10 @@
 #include "render/plan/effects_json.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace aleph {
 
 using nlohmann::ordered_json;
-
-namespace {
-
-/// JSON has no infinity.
-ordered_json finite_or_null(double value) {
-    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
-}  // namespace
 
 ordered_json to_json(const PlannedEffect& planned) {
     ordered_json json = {{"effect", planned.name},
@@ -22,8 +12,7 @@ ordered_json to_json(const PlannedEffect& planned) {
                          {"reason", planned.reason},
                          {"bound", nullptr}};
     if (planned.bound) {
-        json["bound"] = {{"luminance", finite_or_null(planned.bound->luminance)},
-                         {"thresholds", finite_or_null(planned.bound->thresholds)}};
+        json["bound"] = {{"luminance", planned.bound->luminance}, {"thresholds", planned.bound->thresholds}};
     }
     return json;
 }

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "engine/scene_file/fields.h"
 #include "render/python/arrays.h"
 #include "render/python/bindings.h"
 #include "render/python/elements.h"
@@ -38,91 +39,50 @@ void bind_materials(py::module_& module) {
     auto m = bind_elements<Material>(module, "Material", "Materials",
                                      "A material. Properties have the names and units of scene files; colours are "
                                      "linear Rec.709, (3,); all but the flags may be a Track.");
-    add_track(
-        m, "base_color", "Base colour.", [](Material & x) -> auto& { return x.base_color; });
-    add_track(
-        m, "alpha", "Coverage, 0 to 1.", [](Material & x) -> auto& { return x.opacity.alpha; });
-    add_track(
-        m, "emission", "Radiance that it sends out, cd/m2 before exposure, times emission_strength.",
-        [](Material & x) -> auto& { return x.glow.color; });
-    add_track(
-        m, "emission_strength", "Factor on emission.", [](Material & x) -> auto& { return x.glow.strength; });
-    add_track(
-        m, "metallic", "0 to 1.", [](Material & x) -> auto& { return x.gloss.metallic; });
-    add_track(
-        m, "roughness", "0 to 1.", [](Material & x) -> auto& { return x.gloss.roughness; });
-    add_track(
-        m, "specular", "0 to 1; 0 is Lambert's surface.", [](Material & x) -> auto& { return x.gloss.specular; });
-    add_track(
-        m, "specular_color", "Colour of the dielectric reflection.",
-        [](Material & x) -> auto& { return x.gloss.specular_color; });
-    add_track(
-        m, "ior", "Index of refraction.", [](Material & x) -> auto& { return x.gloss.ior; });
-    add_track(
-        m, "transmission", "Share of light that passes.", [](Material & x) -> auto& { return x.glass.transmission; });
-    add_track(
-        m, "thickness", "Metres; above 0 the mesh encloses a volume.",
-        [](Material & x) -> auto& { return x.glass.thickness; });
-    add_track(
-        m, "attenuation_distance", "Metres.", [](Material & x) -> auto& { return x.glass.attenuation_distance; });
-    add_track(
-        m, "attenuation_color", "Colour of white after that distance.",
-        [](Material & x) -> auto& { return x.glass.attenuation_color; });
-    add_track(
-        m, "clearcoat", "Strength of the coat.", [](Material & x) -> auto& { return x.layers.clearcoat; });
-    add_track(
-        m, "clearcoat_roughness", "0 to 1.", [](Material & x) -> auto& { return x.layers.clearcoat_roughness; });
-    add_track(
-        m, "sheen_color", "Colour of the sheen.", [](Material & x) -> auto& { return x.layers.sheen_color; });
-    add_track(
-        m, "sheen_roughness", "0 to 1.", [](Material & x) -> auto& { return x.layers.sheen_roughness; });
-    add_track(
-        m, "anisotropy", "Strength, 0 to 1.", [](Material & x) -> auto& { return x.layers.anisotropy; });
-    add_track(
-        m, "anisotropy_rotation", "Degrees.", [](Material & x) -> auto& { return x.layers.anisotropy_rotation; },
-        degree);
-    add_field(
-        m, "unlit", "Shows its base colour, takes and gives no light.", [](Material & x) -> auto& { return x.unlit; });
-    add_field(
-        m, "double_sided", "Lit and shining on both sides.", [](Material & x) -> auto& { return x.double_sided; });
+    add_track<&Material::base_color>(m, "base_color", "Base colour.");
+    add_track<&Material::opacity, &Opacity::alpha>(m, "alpha", "Coverage, 0 to 1.");
+    add_track<&Material::glow, &Glow::color>(
+        m, "emission", "Radiance that it sends out, cd/m2 before exposure, times emission_strength.");
+    add_track<&Material::glow, &Glow::strength>(m, "emission_strength", "Factor on emission.");
+    add_track<&Material::gloss, &Gloss::metallic>(m, "metallic", "0 to 1.");
+    add_track<&Material::gloss, &Gloss::roughness>(m, "roughness", "0 to 1.");
+    add_track<&Material::gloss, &Gloss::specular>(m, "specular", "0 to 1; 0 is Lambert's surface.");
+    add_track<&Material::gloss, &Gloss::specular_color>(m, "specular_color", "Colour of the dielectric reflection.");
+    add_track<&Material::gloss, &Gloss::ior>(m, "ior", "Index of refraction.");
+    add_track<&Material::glass, &Glass::transmission>(m, "transmission", "Share of light that passes.");
+    add_track<&Material::glass, &Glass::thickness>(m, "thickness", "Metres; above 0 the mesh encloses a volume.");
+    add_track<&Material::glass, &Glass::attenuation_distance>(m, "attenuation_distance", "Metres.");
+    add_track<&Material::glass, &Glass::attenuation_color>(m, "attenuation_color",
+                                                           "Colour of white after that distance.");
+    add_track<&Material::layers, &Layers::clearcoat>(m, "clearcoat", "Strength of the coat.");
+    add_track<&Material::layers, &Layers::clearcoat_roughness>(m, "clearcoat_roughness", "0 to 1.");
+    add_track<&Material::layers, &Layers::sheen_color>(m, "sheen_color", "Colour of the sheen.");
+    add_track<&Material::layers, &Layers::sheen_roughness>(m, "sheen_roughness", "0 to 1.");
+    add_track<&Material::layers, &Layers::anisotropy>(m, "anisotropy", "Strength, 0 to 1.");
+    add_track<&Material::layers, &Layers::anisotropy_rotation>(m, "anisotropy_rotation", "Degrees.", degree);
+    add_field(m, "unlit", "Shows its base colour, takes and gives no light.", &Material::unlit);
+    add_field(m, "double_sided", "Lit and shining on both sides.", &Material::double_sided);
 }
 
 void bind_lights_and_cameras(py::module_& module) {
     auto light = bind_elements<Light>(module, "Light", "Lights", "A point, directional or spot light.");
     light.def_property_readonly(
-        "kind",
-        [](const Element<Light>& e) {
-            constexpr const char* kinds[] = {"point", "directional", "spot"};
-            return kinds[static_cast<int>(e.get().kind)];
-        },
+        "kind", [](const Element<Light>& e) { return light_words[static_cast<std::size_t>(e.get().kind)]; },
         "\"point\", \"directional\" or \"spot\".");
-    add_track(
-        light, "color", "Linear colour.", [](Light & x) -> auto& { return x.color; });
-    add_track(
-        light, "intensity", "Candela; of a directional light lux.", [](Light & x) -> auto& { return x.intensity; });
-    add_track(
-        light, "range", "Metres; 0: unlimited.", [](Light & x) -> auto& { return x.range; });
-    add_track(
-        light, "inner_cone", "Degrees from the axis.", [](Light & x) -> auto& { return x.inner_cone; }, degree);
-    add_track(
-        light, "outer_cone", "Degrees from the axis.", [](Light & x) -> auto& { return x.outer_cone; }, degree);
+    add_track<&Light::color>(light, "color", "Linear colour.");
+    add_track<&Light::intensity>(light, "intensity", "Candela; of a directional light lux.");
+    add_track<&Light::range>(light, "range", "Metres; 0: unlimited.");
+    add_track<&Light::inner_cone>(light, "inner_cone", "Degrees from the axis.", degree);
+    add_track<&Light::outer_cone>(light, "outer_cone", "Degrees from the axis.", degree);
 
     auto camera = bind_elements<Camera>(module, "Camera", "Cameras", "A camera; it looks along -z of its node.");
-    add_field(
-        camera, "orthographic", "True: half_height counts, and not fov.",
-        [](Camera & x) -> auto& { return x.orthographic; });
-    add_track(
-        camera, "fov", "Degrees, vertical.", [](Camera & x) -> auto& { return x.fov; }, degree);
-    add_track(
-        camera, "half_height", "Metres, of an orthographic view.", [](Camera & x) -> auto& { return x.half_height; });
-    add_track(
-        camera, "shift_x", "Heights of the picture.", [](Camera & x) -> auto& { return x.shift_x; });
-    add_track(
-        camera, "shift_y", "Heights of the picture.", [](Camera & x) -> auto& { return x.shift_y; });
-    add_track(
-        camera, "aperture", "Radius of the lens, metres.", [](Camera & x) -> auto& { return x.aperture; });
-    add_track(
-        camera, "focus_distance", "Metres.", [](Camera & x) -> auto& { return x.focus_distance; });
+    add_field(camera, "orthographic", "True: half_height counts, and not fov.", &Camera::orthographic);
+    add_track<&Camera::fov>(camera, "fov", "Degrees, vertical.", degree);
+    add_track<&Camera::half_height>(camera, "half_height", "Metres, of an orthographic view.");
+    add_track<&Camera::shift_x>(camera, "shift_x", "Heights of the picture.");
+    add_track<&Camera::shift_y>(camera, "shift_y", "Heights of the picture.");
+    add_track<&Camera::aperture>(camera, "aperture", "Radius of the lens, metres.");
+    add_track<&Camera::focus_distance>(camera, "focus_distance", "Metres.");
     camera.def_property(
         "shutter", [](const Element<Camera>& e) { return std::pair(e.get().shutter.x, e.get().shutter.y); },
         [](const Element<Camera>& e, std::pair<double, double> times) {
@@ -153,8 +113,7 @@ void bind_nodes_and_meshes(py::module_& module) {
                 e.get().material = static_cast<int>(material.index);
             },
             "Its material; None: white and rough.");
-    add_track(
-        mesh, "present", "0 where it is not there; step.", [](Mesh & x) -> auto& { return x.present; });
+    add_track<&Mesh::present>(mesh, "present", "0 where it is not there; step.");
 
     auto node = bind_elements<Node>(module, "Node", "Nodes",
                                     "A node of the scene. From its space to its parent's: `matrix` where set, else "
@@ -176,13 +135,9 @@ void bind_nodes_and_meshes(py::module_& module) {
         .def_property_readonly(
             "light", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::lights, e.get().light); },
             "Its light, or None.");
-    add_track(
-        node, "translation", "Metres, (3,).", [](Node & x) -> auto& { return x.transform.translation; });
-    add_track(
-        node, "scale", "Factors, (3,).", [](Node & x) -> auto& { return x.transform.scale; });
-    add_track(
-        node, "visible", "1: as its parent; 0: hidden, with all below; step.",
-        [](Node & x) -> auto& { return x.visible; });
+    add_track<&Node::transform, &LocalTransform::translation>(node, "translation", "Metres, (3,).");
+    add_track<&Node::transform, &LocalTransform::scale>(node, "scale", "Factors, (3,).");
+    add_track<&Node::visible>(node, "visible", "1: as its parent; 0: hidden, with all below; step.");
     node.def_property(
         "rotation",
         [](const Element<Node>& e) -> py::object {

@@ -41,10 +41,6 @@ std::shared_ptr<Scene> load(const py::object& source, const py::object& folder) 
 
 namespace {
 
-double frames_per_second(const FrameRate& rate) {
-    return static_cast<double>(rate.numerator) / static_cast<double>(rate.denominator);
-}
-
 /// A number, "30000/1001" or a Fraction.
 void set_frame_rate(Scene& scene, const py::object& value) {
     FrameRate rate{0, 1};
@@ -105,7 +101,7 @@ degrees, linear Rec.709.)")
             "warnings", [](const Scene& s) { return s.source.warnings; },
             "What was read and has no effect, and other notes of loading.")
         .def_property(
-            "fps", [](const Scene& s) { return frames_per_second(s.film.frame_rate); }, &set_frame_rate,
+            "fps", [](const Scene& s) { return s.film.frame_rate.per_second(); }, &set_frame_rate,
             "Frames per second: a number, a fractions.Fraction or text such as '30000/1001'.")
         .def_property(
             "frames",

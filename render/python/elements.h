@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/base/errors.h"
+#include "engine/scene/place.h"
 #include "engine/scene/scene.h"
 #include "render/python/track_values.h"
 
@@ -90,27 +91,26 @@ py::class_<Element<E>> bind_elements(py::module_& module, const char* name, cons
     return element;
 }
 
-/// Adds a track as a property. @param field  gives a reference to the element's track
-template <class E, class Field>
-void add_track(py::class_<Element<E>>& element, const char* name, const char* doc, Field field, double unit = 1.0) {
-    using Value = std::remove_cvref_t<decltype(field(std::declval<E&>()).values.front())>;
+/// Adds a track as a property. @param path  of members, from the element to the track
+template <auto... path, class E>
+void add_track(py::class_<Element<E>>& element, const char* name, const char* doc, double unit = 1.0) {
+    using Value = std::remove_cvref_t<decltype(at<path...>(std::declval<E&>()).values.front())>;
     const std::string kind = py::str(element.attr("__name__"));
     element.def_property(
-        name, [=](const Element<E>& e) { return track_to_python(field(e.get()), unit); },
-        [=, property = std::string(name)](const Element<E>& e, const py::object& value) {
+        name, [unit](const Element<E>& e) { return track_to_python(at<path...>(e.get()), unit); },
+        [unit, kind, property = std::string(name)](const Element<E>& e, const py::object& value) {
             const std::string place = fmt::format("{} '{}': {}", kind, e.get().name, property);
-            field(e.get()) = track_from_python<Value>(value, place, unit);
+            at<path...>(e.get()) = track_from_python<Value>(value, place, unit);
         },
         doc);
 }
 
 /// Adds a plain field as a property.
-template <class E, class Field>
-void add_field(py::class_<Element<E>>& element, const char* name, const char* doc, Field field) {
-    using Value = std::remove_cvref_t<std::invoke_result_t<Field, E&>>;
+template <class E, class Value>
+void add_field(py::class_<Element<E>>& element, const char* name, const char* doc, Value E::*field) {
     element.def_property(
-        name, [=](const Element<E>& e) { return Value(field(e.get())); },
-        [=](const Element<E>& e, const Value& value) { field(e.get()) = value; }, doc);
+        name, [field](const Element<E>& e) { return e.get().*field; },
+        [field](const Element<E>& e, const Value& value) { e.get().*field = value; }, doc);
 }
 
 }  // namespace aleph::python

@@ -4,6 +4,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
+#include "engine/scene/place.h"
 #include "render/output/frame_files.h"
 #include "render/python/arrays.h"
 #include "render/python/bindings.h"
@@ -36,72 +37,56 @@ ChannelImage frame_channels(const Frame& frame) {
 namespace {
 
 /// A property whose array shares the frame's memory; None where the frame has no such map.
-template <class Number, class Field>
-void add_map(py::class_<Frame, std::shared_ptr<Frame>>& frame, const char* name, const char* doc, Field field) {
-    frame.def_property_readonly(
-        name,
-        [=](const py::object& self) { return share_image<Number>(field(self.cast<const Frame&>().output), self); },
-        doc);
+/// @param path  of members, from the frame to the map
+template <class Number, auto... path>
+void add_map(py::class_<Frame, std::shared_ptr<Frame>>& frame, const char* name, const char* doc) {
+    const auto share = [](const py::object& self) {
+        return share_image<Number>(at<path...>(self.cast<const Frame&>().output), self);
+    };
+    frame.def_property_readonly(name, share, doc);
 }
 
-using Out = const FrameOutput&;
-
 void add_pictures(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
-    add_map<float>(
-        frame, "color", "Linear RGB with exposure, (h, w, 3).", [](Out o) -> auto& { return o.shaded.color; });
-    add_map<float>(
-        frame, "estimate", "The quick estimate that the model of vision sees, (h, w, 3).",
-        [](Out o) -> auto& { return o.estimate; });
-    add_map<float>(
-        frame, "samples", "Samples of each pixel.", [](Out o) -> auto& { return o.shaded.samples; });
-    add_map<float>(
-        frame, "error", "Estimated standard error, in visible thresholds.",
-        [](Out o) -> auto& { return o.shaded.errors.total; });
-    add_map<float>(
-        frame, "variance", "Of the mean luminance, with exposure; of traced paths.",
-        [](Out o) -> auto& { return o.shaded.variance; });
-    add_map<float>(
-        frame, "depth", "Planar, metres; 1e30 for background.", [](Out o) -> auto& { return o.surface.depth; });
-    add_map<float>(
-        frame, "normal", "World space, towards the viewer, (h, w, 3).",
-        [](Out o) -> auto& { return o.surface.normal; });
-    add_map<float>(
-        frame, "albedo", "Base of what is reflected, (h, w, 3).", [](Out o) -> auto& { return o.surface.albedo; });
+    add_map<float, &FrameOutput::shaded, &ShadedFrame::color>(frame, "color", "Linear RGB with exposure, (h, w, 3).");
+    add_map<float, &FrameOutput::estimate>(frame, "estimate",
+                                           "The quick estimate that the model of vision sees, (h, w, 3).");
+    add_map<float, &FrameOutput::shaded, &ShadedFrame::samples>(frame, "samples", "Samples of each pixel.");
+    add_map<float, &FrameOutput::shaded, &ShadedFrame::errors, &ErrorMaps::total>(
+        frame, "error", "Estimated standard error, in visible thresholds.");
+    add_map<float, &FrameOutput::shaded, &ShadedFrame::variance>(
+        frame, "variance", "Of the mean luminance, with exposure; of traced paths.");
+    add_map<float, &FrameOutput::surface, &SurfaceMaps::depth>(frame, "depth", "Planar, metres; 1e30 for background.");
+    add_map<float, &FrameOutput::surface, &SurfaceMaps::normal>(frame, "normal",
+                                                                "World space, towards the viewer, (h, w, 3).");
+    add_map<float, &FrameOutput::surface, &SurfaceMaps::albedo>(frame, "albedo",
+                                                                "Base of what is reflected, (h, w, 3).");
 }
 
 void add_motion(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
-    add_map<double>(
-        frame, "motion", "To the next frame, pixels, x right, y down, (h, w, 2).",
-        [](Out o) -> auto& { return o.motion.displacement; });
-    add_map<std::int8_t>(
+    add_map<double, &FrameOutput::motion, &MotionField::displacement>(
+        frame, "motion", "To the next frame, pixels, x right, y down, (h, w, 2).");
+    add_map<std::int8_t, &FrameOutput::motion, &MotionField::validity>(
         frame, "motion_valid",
         "1: valid; 0: background; -1: behind the camera; -2: leaves the picture; -3: no counterpart; "
-        "-4: hidden there.",
-        [](Out o) -> auto& { return o.motion.validity; });
-    add_map<double>(
-        frame, "backward", "To the frame before, as `motion`.", [](Out o) -> auto& { return o.backward.displacement; });
-    add_map<std::int8_t>(
-        frame, "backward_valid", "As `motion_valid`.", [](Out o) -> auto& { return o.backward.validity; });
-    add_map<float>(
-        frame, "velocity", "Image velocity, degrees per second.", [](Out o) -> auto& { return o.velocity; });
+        "-4: hidden there.");
+    add_map<double, &FrameOutput::backward, &MotionField::displacement>(frame, "backward",
+                                                                        "To the frame before, as `motion`.");
+    add_map<std::int8_t, &FrameOutput::backward, &MotionField::validity>(frame, "backward_valid", "As `motion_valid`.");
+    add_map<float, &FrameOutput::velocity>(frame, "velocity", "Image velocity, degrees per second.");
 }
 
 void add_perception(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
-    add_map<float>(
-        frame, "aleph", "The Aleph map: how many times the least visible contrast goes unnoticed.",
-        [](Out o) -> auto& { return o.perception.aleph; });
-    add_map<float>(
-        frame, "threshold", "Least visible luminance difference that lasts, cd/m2.",
-        [](Out o) -> auto& { return o.limits.threshold; });
-    add_map<float>(
-        frame, "threshold_noise", "Standard deviation of noise of single pixels that goes unseen, cd/m2.",
-        [](Out o) -> auto& { return o.limits.threshold_noise; });
-    add_map<float>(
-        frame, "accuracy", "Ambient accuracy of cached light.", [](Out o) -> auto& { return o.limits.alpha; });
-    add_map<float>(
-        frame, "saliency", "Where viewers look, 0 to 1.", [](Out o) -> auto& { return o.perception.saliency; });
-    add_map<float>(
-        frame, "retinal_velocity", "Degrees per second.", [](Out o) -> auto& { return o.perception.retinal_velocity; });
+    add_map<float, &FrameOutput::perception, &PerceptionMaps::aleph>(
+        frame, "aleph", "The Aleph map: how many times the least visible contrast goes unnoticed.");
+    add_map<float, &FrameOutput::limits, &ErrorLimits::threshold>(
+        frame, "threshold", "Least visible luminance difference that lasts, cd/m2.");
+    add_map<float, &FrameOutput::limits, &ErrorLimits::threshold_noise>(
+        frame, "threshold_noise", "Standard deviation of noise of single pixels that goes unseen, cd/m2.");
+    add_map<float, &FrameOutput::limits, &ErrorLimits::alpha>(frame, "accuracy", "Ambient accuracy of cached light.");
+    add_map<float, &FrameOutput::perception, &PerceptionMaps::saliency>(frame, "saliency",
+                                                                        "Where viewers look, 0 to 1.");
+    add_map<float, &FrameOutput::perception, &PerceptionMaps::retinal_velocity>(frame, "retinal_velocity",
+                                                                                "Degrees per second.");
 }
 
 /// By the ending of the name.

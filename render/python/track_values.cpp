@@ -4,25 +4,24 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <array>
 
+#include "engine/scene_file/fields.h"
 #include "render/python/bindings.h"
 
 namespace aleph::python {
 
 namespace {
 
-constexpr std::array words{"step", "linear", "nearest", "cubic"};  // in the order of Interpolation
-
 KeyedTrack make_track(const std::vector<double>& times, const py::array_t<double>& values, const std::string& word) {
-    const auto found = std::ranges::find(words, word);
-    if (found == words.end()) throw InputError("", "Track", "interpolation is one of step, linear, nearest and cubic");
+    const auto found = std::ranges::find(interpolation_words, word);
+    if (found == interpolation_words.end())
+        throw InputError("", "Track", "interpolation is one of step, linear, nearest and cubic");
     if (values.ndim() == 0 || values.shape(0) != static_cast<py::ssize_t>(times.size()) || times.empty())
         throw InputError("", "Track", fmt::format("{} times need as many values along the first axis", times.size()));
     KeyedTrack track;
     track.sampling.kind = TimeSampling::Kind::acyclic;
     track.sampling.times = times;
-    track.interpolation = static_cast<Interpolation>(found - words.begin());
+    track.interpolation = static_cast<Interpolation>(found - interpolation_words.begin());
     if (times.size() > 1) validate(track.sampling, times.size(), "", "Track");
     track.values = py::array_t<double>(values.attr("copy")());
     track.values.attr("flags").attr("writeable") = false;
@@ -76,12 +75,12 @@ value and out-tangent, per second, as in glTF.)")
             "values", [](const KeyedTrack& track) { return track.values; }, "Values of the keys.")
         .def_property_readonly(
             "interpolation",
-            [](const KeyedTrack& track) { return words[static_cast<std::size_t>(track.interpolation)]; },
+            [](const KeyedTrack& track) { return interpolation_words[static_cast<std::size_t>(track.interpolation)]; },
             "\"step\", \"linear\", \"nearest\" or \"cubic\".")
         .def("__len__", [](const KeyedTrack& track) { return track.values.shape(0); })
         .def("__repr__", [](const KeyedTrack& track) {
             return fmt::format("<aleph.Track of {} keys, {}>", track.values.shape(0),
-                               words[static_cast<std::size_t>(track.interpolation)]);
+                               interpolation_words[static_cast<std::size_t>(track.interpolation)]);
         });
 }
 

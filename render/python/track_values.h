@@ -4,7 +4,11 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cstring>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "engine/base/errors.h"
@@ -24,50 +28,35 @@ struct KeyedTrack {
 
 namespace track_parts {
 
-/// Axes of a value.
-inline std::vector<py::ssize_t> axes(const double&) {
-    return {};
-}
-inline std::vector<py::ssize_t> axes(const glm::dvec3&) {
-    return {3};
-}
-inline std::vector<py::ssize_t> axes(const glm::dquat&) {
-    return {4};
-}
-inline std::vector<py::ssize_t> axes(const glm::dmat4&) {
-    return {4, 4};
+/// Numbers of a value, which lie one behind the other.
+template <class T>
+inline constexpr std::size_t count = sizeof(T) / sizeof(double);
+
+template <class T>
+std::vector<py::ssize_t> axes() {
+    if constexpr (std::is_same_v<T, double>) return {};
+    if constexpr (std::is_same_v<T, glm::dmat4>) return {4, 4};
+    return {count<T>};
 }
 
-inline void put(const double& value, double* out) {
-    *out = value;
-}
-inline void put(const glm::dvec3& value, double* out) {
-    for (int i = 0; i < 3; ++i) out[i] = value[i];
-}
-inline void put(const glm::dquat& value, double* out) {
-    out[0] = value.x, out[1] = value.y, out[2] = value.z, out[3] = value.w;
-}
-inline void put(const glm::dmat4& value, double* out) {
-    for (int i = 0; i < 16; ++i) out[i] = value[i % 4][i / 4];
+/// Matrices row by row, or from that; other values are as numpy has them.
+template <class T>
+T transposed(const T& value) {
+    if constexpr (std::is_same_v<T, glm::dmat4>) return glm::transpose(value);
+    return value;
 }
 
-inline void take(const double* in, double& value) {
-    value = *in;
-}
-inline void take(const double* in, glm::dvec3& value) {
-    value = {in[0], in[1], in[2]};
-}
-inline void take(const double* in, glm::dquat& value) {
-    value = glm::dquat(in[3], in[0], in[1], in[2]);
-}
-inline void take(const double* in, glm::dmat4& value) {
-    for (int i = 0; i < 16; ++i) value[i % 4][i / 4] = in[i];
+template <class T>
+void put(const T& value, double* out) {
+    const T rows = transposed(value);
+    std::memcpy(out, &rows, sizeof rows);
 }
 
-inline py::ssize_t count(const std::vector<py::ssize_t>& axes) {
-    py::ssize_t product = 1;
-    for (const py::ssize_t axis : axes) product *= axis;
-    return product;
+template <class T>
+T take(const double* in) {
+    T rows;
+    std::memcpy(static_cast<void*>(&rows), in, sizeof rows);
+    return transposed(rows);
 }
 
 /// @throws InputError with the place, unless the array has these axes; an empty list is a number
@@ -79,8 +68,8 @@ py::array_t<double, py::array::c_style> to_doubles(const py::handle& object, con
 /// @param unit  of C++ in one of Python's: pi / 180 for degrees
 template <class T>
 py::object track_to_python(const Track<T>& track, double unit = 1.0) {
-    const std::vector<py::ssize_t> axes = track_parts::axes(T{});
-    const auto parts = static_cast<std::size_t>(track_parts::count(axes));
+    const std::vector<py::ssize_t> axes = track_parts::axes<T>();
+    constexpr std::size_t parts = track_parts::count<T>;
     std::vector<double> numbers(track.values.size() * parts);
     for (std::size_t i = 0; i < track.values.size(); ++i) track_parts::put(track.values[i], &numbers[i * parts]);
     for (double& number : numbers) number /= unit;
@@ -98,8 +87,7 @@ py::object track_to_python(const Track<T>& track, double unit = 1.0) {
 /// @throws InputError
 template <class T>
 Track<T> track_from_python(const py::handle& object, const std::string& place, double unit = 1.0) {
-    std::vector<py::ssize_t> axes = track_parts::axes(T{});
-    const auto parts = static_cast<std::size_t>(track_parts::count(axes));
+    std::vector<py::ssize_t> axes = track_parts::axes<T>();
     Track<T> track;
     py::object values = py::reinterpret_borrow<py::object>(object);
     if (py::isinstance<KeyedTrack>(object)) {
@@ -111,12 +99,10 @@ Track<T> track_from_python(const py::handle& object, const std::string& place, d
         axes.insert(axes.begin(), keyed.values.ndim() > 0 ? keyed.values.shape(0) : 0);
     }
     const auto numbers = track_parts::to_doubles(values, axes, place);
-    track.values.resize(static_cast<std::size_t>(numbers.size()) / parts);
-    for (std::size_t i = 0; i < track.values.size(); ++i) {
-        std::vector<double> value(numbers.data() + i * parts, numbers.data() + (i + 1) * parts);
-        for (double& number : value) number *= unit;
-        track_parts::take(value.data(), track.values[i]);
-    }
+    std::vector<double> in_unit(numbers.data(), numbers.data() + numbers.size());
+    for (double& number : in_unit) number *= unit;
+    for (std::size_t i = 0; i < in_unit.size(); i += track_parts::count<T>)
+        track.values.push_back(track_parts::take<T>(&in_unit[i]));
     validate(track, "", place);
     return track;
 }

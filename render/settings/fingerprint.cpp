@@ -4,10 +4,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/files.h"
 #include "engine/scene/scene_hash.h"
-#include "render/settings/program_build.h"
 
 namespace aleph {
+
+const std::string& program_build() {
+    static const std::string build = [] {
+        const Bytes bytes = read_regular_file(code_file(), "this program", "");
+        return std::string(ALEPH_VERSION " ") + hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }();
+    return build;
+}
 
 Fingerprint make_fingerprint(const Scene& scene, const RenderSettings& settings, const std::vector<CameraShot>& shots) {
     Fingerprint fingerprint{program_build(), hash_scene(scene), setting_map(settings)};

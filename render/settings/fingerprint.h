@@ -12,6 +12,10 @@ namespace aleph {
 /// The EXR attribute, or the text of a PNG or HDR file, with the fingerprint of a frame.
 inline constexpr const char* fingerprint_key = "aleph:fingerprint";
 
+/// The version and the SHA-1 of the file that holds this code: the program, or the Python module.
+/// @throws InputError if the file cannot be read
+const std::string& program_build();
+
 /// Everything that the light of a scene depends on.
 struct Fingerprint {
     std::string build;    ///< program_build

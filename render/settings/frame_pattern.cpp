@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 
 namespace aleph {
 
@@ -45,12 +46,8 @@ std::optional<std::string_view> text_of_number(std::string_view name, const std:
 }
 
 bool is_picture(const fs::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    for (const char* known : {".exr", ".png", ".jpg", ".jpeg", ".hdr"}) {
-        if (extension == known) return true;
-    }
-    return false;
+    constexpr const char* known[] = {".exr", ".png", ".jpg", ".jpeg", ".hdr"};
+    return std::ranges::find(known, lower_extension(path)) != std::end(known);
 }
 
 struct NumberedName {

@@ -1,7 +1,5 @@
 // Which values a setting may have.
 
-#include "render/settings/setting_check.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -4,7 +4,6 @@
 
 #include "perception/vision/vision_model.h"
 #include "render/settings/make_setting.h"
-#include "render/settings/setting_check.h"
 
 namespace aleph {
 

@@ -3,6 +3,7 @@
 // command line come from it; tests compare scenes/scene.schema.json and scenes/AUTHORING.md with it.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,13 @@ const std::vector<Setting>& setting_table();
 /// Adds a model of vision of a program's own: the setting `vision` takes its name. As add_to_vision_list.
 /// @throws InputError
 void add_vision(const VisionModel& model);
+
+struct PictureSize {
+    int width = 0, height = 0;  ///< pixels
+};
+
+/// "640x480": two numbers of any range.
+std::optional<PictureSize> parse_picture_size(const std::string& text);
 
 /// The allowed values in words: "a number from 0 to 1", "one of flat, direct".
 std::string describe_values(const Setting& setting);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/frame/sequence.h"
+#include "render/study/search_study.h"
 
 namespace aleph {
 
@@ -18,27 +19,9 @@ std::string variant_without(const char* effect) {
     return std::string("without ") + effect;
 }
 
-/// The mean over the frames of a scene of a metric that every study measures.
-MeasuredValue scene_mean(const VariantResult& variant, const std::string& scene, const char* metric) {
-    double sum = 0.0, squares = 0.0, count = 0.0;
-    bool uncertain = true;
-    for (const FrameResult& frame : variant.frames) {
-        if (frame.scene != scene) continue;
-        const MeasuredValue& value = frame.metrics.at(metric);
-        sum += value.value;
-        squares += std::pow(value.error.value_or(0.0), 2.0);
-        uncertain = uncertain && value.error.has_value();
-        count += 1.0;
-    }
-    MeasuredValue mean{sum / count, std::nullopt};
-    if (uncertain) mean.error = std::sqrt(squares) / count;
-    return mean;
-}
-
 /// The decision of a scene's frames about an effect, and their largest bound.
-void add_decision(const VariantResult& all, const std::string& scene, std::size_t effect, LedgerEntry& entry) {
+void add_decision(const VariantResult& all, std::size_t effect, LedgerEntry& entry) {
     for (const FrameResult& frame : all.frames) {
-        if (frame.scene != scene) continue;
         const Json plan = Json::parse(frame.plan);
         if (effect >= plan.size()) continue;
         const std::string decision = plan[effect].at("decision");
@@ -91,24 +74,25 @@ std::vector<StudyVariant> list_ledger_variants(const std::vector<PreparedStudySc
 }
 
 std::vector<SceneLedger> make_ledger(const PreparedStudy& prepared, const StudyResults& results) {
-    const auto find = [&](const std::string& name) {
-        return std::ranges::find(results.variants, name, &VariantResult::name);
-    };
-    const auto all = find(complete);
     std::vector<SceneLedger> ledgers;
     for (const PreparedStudyScene& scene : prepared.scenes) {
+        const std::vector<VariantResult> variants = variants_of_scene(results, scene.name);
+        const auto find = [&](const std::string& name) {
+            return std::ranges::find(variants, name, &VariantResult::name);
+        };
+        const VariantResult& all = *find(complete);
         SceneLedger& ledger = ledgers.emplace_back();
         ledger.scene = scene.name;
-        ledger.seconds = scene_mean(*all, scene.name, "processor_seconds");
-        ledger.seen = scene_mean(*all, scene.name, "share_seen");
+        ledger.seconds = all.metrics.at("processor_seconds");
+        ledger.seen = all.metrics.at("share_seen");
         for (std::size_t i = 0; i < effect_count; ++i) {
             LedgerEntry& entry = ledger.entries.emplace_back();
             entry.effect = effect_list[i].name;
-            add_decision(*all, scene.name, i, entry);
+            add_decision(all, i, entry);
             const auto without = find(variant_without(effect_list[i].name));
-            if (without == results.variants.end() || entry.decision == "skip") continue;
-            entry.seen = scene_mean(*without, scene.name, "share_seen");
-            MeasuredValue& saved = entry.seconds.emplace(scene_mean(*without, scene.name, "processor_seconds"));
+            if (without == variants.end() || entry.decision == "skip") continue;
+            entry.seen = without->metrics.at("share_seen");
+            MeasuredValue& saved = entry.seconds.emplace(without->metrics.at("processor_seconds"));
             saved.value = ledger.seconds.value - saved.value;
             if (saved.error) saved.error = std::hypot(*saved.error, ledger.seconds.error.value_or(0.0));
         }
@@ -123,7 +107,7 @@ Json to_json(const std::vector<SceneLedger>& ledgers) {
         for (const LedgerEntry& entry : ledger.entries) {
             effects.push_back({{"effect", entry.effect},
                                {"decision", entry.decision},
-                               {"bound", std::isfinite(entry.bound) ? Json(entry.bound) : Json()},
+                               {"bound", entry.bound},
                                {"seconds", to_json(entry.seconds)},
                                {"seen", to_json(entry.seen)}});
         }

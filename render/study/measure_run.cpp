@@ -42,14 +42,8 @@ ChannelImage indirect_of(const ChannelImage& picture) {
 
 }  // namespace
 
-ChannelImage expose_like(const ChannelImage& picture, const ChannelImage& reference) {
-    const auto found = picture.metadata.find("exposureFactor");
-    const double* exposure = found == picture.metadata.end() ? nullptr : std::get_if<double>(&found->second);
-    return exposure ? with_exposure(reference, *exposure) : reference;
-}
-
 MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth, const std::vector<Metric>& metrics) {
-    const ChannelImage reference = expose_like(picture, truth.reference);
+    const ChannelImage reference = with_exposure_of(truth.reference, picture);
     MetricValues all;
     const LuminanceError error = compute_luminance_error(picture, reference);
     for (const Metric& metric : metrics) {

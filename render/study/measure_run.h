@@ -16,9 +16,6 @@ struct FrameTruth {
     std::vector<Image<float>> thresholds;  ///< cd/m2, of each viewer
 };
 
-/// The reference at the picture's exposure, if the picture says which.
-ChannelImage expose_like(const ChannelImage& picture, const ChannelImage& reference);
-
 using MetricValues = std::map<std::string, double>;
 
 /// The metrics of errors; those that do not apply (indirect light of a traced picture) are absent.

@@ -9,7 +9,7 @@
 #include "engine/scene/scene_hash.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
-#include "render/settings/program_build.h"
+#include "render/settings/fingerprint.h"
 #include "render/settings/reference_settings.h"
 
 namespace aleph {

@@ -9,7 +9,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/scene/scene_hash.h"
-#include "render/settings/program_build.h"
+#include "render/settings/fingerprint.h"
 
 namespace aleph {
 

@@ -48,15 +48,9 @@ class StudyRunner {
         for (const PreparedStudyScene& scene : prepared_.scenes) truths_.push_back(prepare_truths(scene));
         std::vector<std::vector<std::vector<MeasuredRun>>> runs(
             prepared_.variants.size(), std::vector<std::vector<MeasuredRun>>(prepared_.scenes.size()));
-        for (int repeat = 0; repeat < study_.runs.repeats; ++repeat) {
-            for (const std::uint32_t seed : study_.runs.seeds) {
-                for (std::size_t v = 0; v < runs.size(); ++v) {
-                    for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
-                        if (is_made(v) || runs[v][s].empty())
-                            runs[v][s].push_back(find_or_make(v, s, seed, repeat, repeat == 0));
-                }
-            }
-        }
+        for_each_run([&](std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
+            if (is_made(v) || runs[v][s].empty()) runs[v][s].push_back(find_or_make(v, s, seed, repeat, repeat == 0));
+        });
         for (std::size_t v = 0; v < runs.size(); ++v) {
             VariantResult result{prepared_.variants[v].name, prepared_.variants[v].settings, {}, {}, false};
             for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
@@ -81,18 +75,23 @@ class StudyRunner {
                 if (is_ours()) find_or_make_reference(scene, frame);
             }
         }
+        for_each_run([&](std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
+            if (is_made(v) && is_ours()) find_or_make(v, s, seed, repeat, false);
+        });
+    }
+
+  private:
+    /// Calls visit(variant, scene, seed, repeat) for every run.
+    void for_each_run(const auto& visit) const {
         for (int repeat = 0; repeat < study_.runs.repeats; ++repeat) {
             for (const std::uint32_t seed : study_.runs.seeds) {
                 for (std::size_t v = 0; v < prepared_.variants.size(); ++v) {
-                    for (std::size_t s = 0; s < prepared_.scenes.size(); ++s) {
-                        if (is_made(v) && is_ours()) find_or_make(v, s, seed, repeat, false);
-                    }
+                    for (std::size_t s = 0; s < prepared_.scenes.size(); ++s) visit(v, s, seed, repeat);
                 }
             }
         }
     }
 
-  private:
     /// Lists the pictures of a seed, by its number, in all scenes.
     static std::vector<std::string> pictures_of(const std::vector<std::vector<MeasuredRun>>& scenes, std::size_t seed) {
         std::vector<std::string> pictures;
@@ -246,7 +245,7 @@ class StudyRunner {
         const std::vector<VisibleErrors> errors =
             measure_visible(std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
                 ChannelImage picture = read_image(run.pictures[i]);
-                ChannelImage reference = expose_like(picture, truths[i].reference);
+                ChannelImage reference = with_exposure_of(truths[i].reference, picture);
                 return std::pair(std::move(picture), std::move(reference));
             });
         for (std::size_t i = 0; i < errors.size(); ++i) add_visible_metrics(errors[i], run.errors[i]);

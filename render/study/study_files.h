@@ -25,11 +25,6 @@ std::string study_date();
 nlohmann::ordered_json study_json(const PreparedStudy& prepared, const StudyResults& results,
                                   const StudyContext& context);
 
-/// What a search tried in each round and found, scene by scene: the front of fixed settings, and what they take to show
-/// as little as each variant of the study.
-/// @param prepared  with a search
-nlohmann::ordered_json search_json(const PreparedStudy& prepared, const StudyResults& results);
-
 /// A row per variant and frame: scene, frame, variant, its settings, then every metric with its standard error. Fields
 /// with commas, quotes or line ends are quoted (RFC 4180). Numbers have a decimal point in every locale; a value that
 /// is not known is empty.

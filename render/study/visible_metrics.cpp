@@ -67,7 +67,7 @@ void add_seed_metrics(const std::vector<JudgingFrame>& frames, const std::vector
                       const std::vector<std::string>& other, VariantResult& variant) {
     const std::vector<VisibleErrors> errors = measure_visible(frames, [&](std::size_t i) {
         ChannelImage picture = read_image(one.at(i));
-        ChannelImage reference = expose_like(picture, read_image(other.at(i)));
+        ChannelImage reference = with_exposure_of(read_image(other.at(i)), picture);
         return std::pair(std::move(picture), std::move(reference));
     });
     for (std::size_t i = 0; i < errors.size(); ++i) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/compare/visible_shares.h"
+#include "render/compare/compare_sequence.h"
 #include "render/study/run_study.h"
 
 namespace aleph {

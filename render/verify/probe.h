@@ -2,11 +2,12 @@
 // Pictures checked in random places: what a viewer sees of their difference from what they converge to.
 
 #include <functional>
+#include <list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/output/verified_statistics.h"
-#include "render/verify/picture_keeper.h"
 #include "render/verify/probe_reference.h"
 
 namespace aleph {
@@ -15,17 +16,36 @@ namespace aleph {
 struct ProbeResult {
     ProbePlace place;
     double pixels = 0.0;
-    double beyond = 0.0;  ///< by more than the error asked for
+    double beyond = 0.0;                              ///< by more than the error asked for
     double seen = 0.0, flicker = 0.0, lasting = 0.0;  ///< by at least one just visible difference
-    double noise = 0.0;      ///< of the reference: mean square, just visible differences
-    int samples = 0;         ///< of the reference, by pixel and frame
-    std::size_t window = 0;  ///< frames it is judged over
+    double noise = 0.0;                               ///< of the reference: mean square, just visible differences
+    int samples = 0;                                  ///< of the reference, by pixel and frame
+    std::size_t window = 0;                           ///< frames it is judged over
     bool operator==(const ProbeResult&) const = default;
 };
 
-/// Largest mean square of the reference's own noise in a block, in just visible differences. Its energy is taken off, so
-/// that what remains is scatter of differences that are barely seen or barely not.
+/// Largest mean square of the reference's own noise in a block, in just visible differences. Its energy is taken off,
+/// so that what remains is scatter of differences that are barely seen or barely not.
 inline constexpr double settled_noise = 0.1;
+
+/// Pictures of frames that were rendered already, so that they need not be rendered again.
+class PictureKeeper {
+  public:
+    using Make = std::function<Image<Rgb>(std::int64_t frame)>;
+
+    /// @param make  renders a frame that is not kept
+    /// @param most  bytes that are kept; beyond them the pictures that were not used for longest are dropped
+    PictureKeeper(Make make, std::size_t most) : make_(std::move(make)), most_(most) {}
+
+    void keep(std::int64_t frame, Image<Rgb> picture);
+    /// The picture of a frame, valid until the next call.
+    const Image<Rgb>& find(std::int64_t frame);
+
+  private:
+    Make make_;
+    std::size_t most_, bytes_ = 0;
+    std::list<std::pair<std::int64_t, Image<Rgb>>> pictures_;  ///< used last first
+};
 
 /// Measures probes. A probe is a function of scene, settings, frames and its number.
 class Prober {
@@ -37,8 +57,8 @@ class Prober {
     Prober(Scene scene, const RenderSettings& settings, const std::string& camera, std::vector<std::int64_t> frames,
            PictureKeeper& pictures);
 
-    /// The reference takes as many samples as settle its noise: for each pixel at least 64 in each frame, at most 12,288
-    /// in all frames of the window.
+    /// The reference takes as many samples as settle its noise: for each pixel at least 64 in each frame, at most
+    /// 12,288 in all frames of the window.
     ProbeResult measure(std::size_t number);
 
   private:

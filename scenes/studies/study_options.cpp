@@ -19,7 +19,7 @@ void add_study_program_options(CLI::App& app, StudyOptions& options) {
 RenderSettings scene_settings(const Scene& scene, const std::string& file, const StudyOptions& options) {
     RenderSettings settings;
     apply_settings(settings, scene.source.settings, file);
-    parse_size(options.size, "--size", settings.picture.width, settings.picture.height);
+    apply_settings(settings, {{"size", options.size}}, "");
     settings = with_settings(settings, options.sets);
     validate(settings);
     return settings;

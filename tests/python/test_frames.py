@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -117,29 +118,18 @@ def test_ctrl_c_ends_a_render(tmp_path):
 
 def test_several_python_threads_render_at_once(ball):
     expected = aleph.render(ball, 3, **QUICK).color
-    results = []
-    threads = [threading.Thread(target=lambda: results.append(aleph.render(ball, 3, **QUICK).color)) for _ in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert len(results) == 4 and all(np.array_equal(color, expected) for color in results)
+    with ThreadPoolExecutor(4) as pool:
+        results = list(pool.map(lambda _: aleph.render(ball, 3, **QUICK).color, range(4)))
+    assert all(np.array_equal(color, expected) for color in results)
 
 
 def test_python_threads_share_a_sequence(ball):
     sequence = aleph.Sequence(ball, **QUICK)
     expected = [sequence.render(number).color for number in range(6)]
-    results = {}
-
-    def render(number):
-        results[number] = sequence.render(number, on_progress=lambda share, stage: None).color
-
-    threads = [threading.Thread(target=render, args=(number,)) for number in range(6)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert all(np.array_equal(results[number], expected[number]) for number in range(6))
+    with ThreadPoolExecutor(6) as pool:
+        results = list(pool.map(lambda number: sequence.render(number, on_progress=lambda share, stage: None).color,
+                                range(6)))
+    assert all(map(np.array_equal, results, expected))
 
 
 def test_memory_does_not_grow(ball):

@@ -7,10 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/commands.h"
-#include "render/cli/compare/compare_frames.h"
-#include "render/cli/compare/compare_print.h"
-#include "render/cli/compare/junit_file.h"
-#include "render/cli/compare/seen_file.h"
+#include "render/cli/compare/compare_command.h"
 #include "render/cli/support/output_conflicts.h"
 
 namespace aleph {
@@ -80,26 +77,15 @@ int compare(CompareOptions options) {
     return first ? compare_frames(options) : compare_pictures(options);
 }
 
-/// An option without a default.
-void add_limit(CLI::App& app, const std::string& option, const std::string& help,
-               const std::function<void(double)>& set) {
-    app.add_option_function<std::string>(
-           option, [set, option](const std::string& text) { set(parse_value<double>(text, option)); }, help)
-        ->type_name("NUMBER");
-}
-
 void add_limits(CLI::App& app, CompareSettings& s) {
-    add_limit(app, "--max-error", "largest difference of any value, whatever --share allows",
-              [&s](double value) { s.max_error = value; });
-    add_limit(app, "--max-rms", "largest RMS difference of any channel", [&s](double value) { s.max_rms = value; });
-    add_limit(app, "--max-relative-mse",
-              "largest relative MSE of luminance, less what the reference's noise adds (variance.Y)",
-              [&s](double value) { s.max_relative_mse = value; });
-    add_limit(app, "--max-bias", "largest difference of the mean luminances, percent of the reference's",
-              [&s](double value) { s.max_bias = value; });
-    add_limit(app, "--standard-errors",
-              "judge luminance, in place of the channels, and allow this many standard errors (variance.Y) in addition",
-              [&s](double value) { s.standard_errors = value; });
+    add_number(app, "--max-error", s.max_error, "largest difference of any value, whatever --share allows");
+    add_number(app, "--max-rms", s.max_rms, "largest RMS difference of any channel");
+    add_number(app, "--max-relative-mse", s.max_relative_mse,
+               "largest relative MSE of luminance, less what the reference's noise adds (variance.Y)");
+    add_number(app, "--max-bias", s.max_bias, "largest difference of the mean luminances, percent of the reference's");
+    add_number(
+        app, "--standard-errors", s.standard_errors,
+        "judge luminance, in place of the channels, and allow this many standard errors (variance.Y) in addition");
 }
 
 constexpr const char* compare_footer =

@@ -1,13 +1,10 @@
-#include "render/cli/compare/compare_frames.h"
+#include "render/cli/compare/compare_command.h"
 
 #include <fmt/format.h>
 
 #include <map>
 
 #include "engine/base/errors.h"
-#include "render/cli/compare/compare_frames_print.h"
-#include "render/cli/compare/junit_file.h"
-#include "render/cli/compare/seen_file.h"
 #include "render/cli/support/options.h"
 #include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/progress.h"
@@ -26,37 +23,22 @@ SequenceFiles find_sequence(const std::string& argument, const std::string& opti
                                                           : find_frame_files(argument, option);
 }
 
-std::vector<std::int64_t> frames_without(const SequenceFiles& files, const SequenceFiles& others) {
-    std::vector<std::int64_t> frames;
+std::vector<int> frames_without(const SequenceFiles& files, const SequenceFiles& others) {
+    std::vector<int> frames;
     for (const auto& [frame, file] : files) {
-        if (!others.contains(frame)) frames.push_back(frame);
+        if (!others.contains(frame)) frames.push_back(static_cast<int>(frame));
     }
     return frames;
-}
-
-/// "3, 7-9": at most ten runs of frames.
-std::string format_frames(const std::vector<std::int64_t>& frames) {
-    std::string text;
-    int runs = 0;
-    for (std::size_t i = 0; i < frames.size();) {
-        std::size_t end = i + 1;
-        while (end < frames.size() && frames[end] == frames[end - 1] + 1) ++end;
-        if (++runs > 10) return text + ", and more";
-        text += (text.empty() ? "" : ", ") + fmt::format("{}", frames[i]);
-        if (end > i + 1) text += fmt::format("-{}", frames[end - 1]);
-        i = end;
-    }
-    return text;
 }
 
 void check_partners(const CompareOptions& options, const SequenceFiles& first, const SequenceFiles& second,
                     const std::vector<std::pair<std::string, SequenceFiles>>& maps) {
     std::string missing;
     const auto add = [&](const SequenceFiles& files, const SequenceFiles& others, const std::string& where) {
-        const std::vector<std::int64_t> frames = frames_without(files, others);
+        const std::vector<int> frames = frames_without(files, others);
         if (frames.empty()) return;
         missing += fmt::format("{}'{}' has no frame {}", missing.empty() ? "" : "; ", printable(where, 200),
-                               format_frames(frames));
+                               printable(format_frame_list(frames), 200));
     };
     add(first, second, options.second);
     add(second, first, options.first);

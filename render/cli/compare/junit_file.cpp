@@ -1,4 +1,4 @@
-#include "render/cli/compare/junit_file.h"
+#include "render/cli/compare/compare_command.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
-#include "render/cli/compare/compare_print.h"
 
 namespace aleph {
 

@@ -1,14 +1,15 @@
 #pragma once
 // The description of a scene by `aleph explain`: as JSON, and as text made from that JSON. Metres, seconds, degrees.
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "engine/json/load_limits.h"
+#include "engine/base/bounds.h"
+#include "engine/pose/pose.h"
 #include "engine/scene/scene.h"
 #include "render/frame/sequence.h"
+#include "render/surface/node_paths.h"
 
 namespace aleph {
 
@@ -45,5 +46,26 @@ nlohmann::ordered_json explain_moment(const Scene& scene, double seconds);
 
 /// @param max_objects  number of objects listed; 0: all
 std::string explain_text(const nlohmann::ordered_json& explained, std::size_t max_objects);
+
+nlohmann::ordered_json to_json(const glm::dvec3& v);
+/// null where empty
+nlohmann::ordered_json to_json(const Bounds& bounds);
+
+/// Adds the vertices of an instance, shown or hidden, at the time of the pose.
+void add_instance(Bounds& bounds, const Scene& scene, const ScenePose& posed_scene, const Instance& instance);
+
+/// Names what deforms a mesh; null if nothing does.
+const char* how_it_deforms(const Scene& scene, const Mesh& mesh);
+
+/// Returns whether a mesh of the node has a material that gives light at some time.
+bool is_area_light(const Scene& scene, const Node& node);
+
+nlohmann::ordered_json describe_node(const Scene& scene, std::size_t index, const NodePaths& paths);
+nlohmann::ordered_json describe_materials(const Scene& scene);
+nlohmann::ordered_json describe_images(const Scene& scene);
+
+/// Radiance (or factor on the picture) at the first key, picture and its size, whether the picture turns; null for a
+/// scene without an environment.
+nlohmann::ordered_json describe_environment(const Scene& scene);
 
 }  // namespace aleph

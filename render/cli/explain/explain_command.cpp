@@ -42,39 +42,9 @@ Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
     }
 }
 
-/// Lines after the first with more spaces before them.
-std::string indented(const std::string& text, std::size_t spaces) {
-    std::string out;
-    for (const char c : text) {
-        out += c;
-        if (c == '\n') out.append(spaces, ' ');
-    }
-    return out;
-}
-
 /// Names that are not UTF-8 are written with replacement characters.
-std::string to_text(const nlohmann::ordered_json& value) {
-    return value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
-
-/// Prints an object as to_text of all of it, with the text of one element of its lists at a time in memory.
 void print_json(const nlohmann::ordered_json& object) {
-    const char* before = "{";
-    for (const auto& [key, value] : object.items()) {
-        std::cout << before << "\n " << to_text(key) << ": ";
-        before = ",";
-        if (!value.is_array() || value.empty()) {
-            std::cout << indented(to_text(value), 1);
-            continue;
-        }
-        const char* between = "[";
-        for (const auto& element : value) {
-            std::cout << between << "\n  " << indented(to_text(element), 2);
-            between = ",";
-        }
-        std::cout << "\n ]";
-    }
-    std::cout << "\n}\n";
+    std::cout << object.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
 }
 
 int explain(const ExplainOptions& options) {
@@ -103,8 +73,6 @@ int explain(const ExplainOptions& options) {
             std::cout << explain_text(explained, options.objects);
         }
     }
-    std::cout.flush();
-    if (!std::cout) throw OutputError("standard output", "could not be written");
     return exit_done;
 }
 

@@ -1,4 +1,4 @@
-#include "render/cli/explain/explain_elements.h"
+#include "render/cli/explain/explain.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include "engine/load/warnings.h"
 #include "engine/scene/points.h"
 #include "engine/scene_file/fields.h"
-#include "render/cli/explain/explain.h"
 
 namespace aleph {
 
@@ -40,6 +39,17 @@ ordered_json to_json(const glm::dvec3& v) {
 ordered_json to_json(const Bounds& bounds) {
     if (bounds.empty()) return nullptr;
     return {{"min", to_json(bounds.low)}, {"max", to_json(bounds.high)}};
+}
+
+void add_instance(Bounds& bounds, const Scene& scene, const ScenePose& posed_scene, const Instance& instance) {
+    const glm::dmat4& world = posed_scene.world[instance.node];
+    const auto add = [&](const glm::dvec3& point) { bounds.add(glm::dvec3(world * glm::dvec4(point, 1.0))); };
+    const PosedMesh& posed = posed_scene.meshes[instance.mesh];
+    if (!posed.positions.empty()) {
+        for (const glm::dvec3& point : posed.positions) add(point);
+    } else {
+        for (const glm::vec3& point : scene.meshes[instance.mesh].positions) add(glm::dvec3(point));
+    }
 }
 
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh) {
@@ -86,8 +96,7 @@ ordered_json describe_node(const Scene& scene, std::size_t index, const NodePath
     if (is_area_light(scene, node)) out["area_light"] = true;
     if (node.light != no_index) {
         const Light& light = scene.lights[node.light];
-        constexpr const char* kinds[] = {"point", "directional", "spot"};
-        out["light"] = {{"kind", kinds[static_cast<int>(light.kind)]}, {"animated", list_tracks(light)}};
+        out["light"] = {{"kind", light_words[static_cast<std::size_t>(light.kind)]}, {"animated", list_tracks(light)}};
     }
     if (node.camera != no_index) {
         const Camera& camera = scene.cameras[node.camera];

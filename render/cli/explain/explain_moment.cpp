@@ -2,12 +2,8 @@
 
 #include <map>
 
-#include "engine/pose/pose.h"
 #include "engine/scene/points.h"
 #include "render/cli/explain/explain.h"
-#include "render/cli/explain/explain_elements.h"
-#include "render/cli/explain/world_bounds.h"
-#include "render/surface/node_paths.h"
 
 namespace aleph {
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "engine/pose/pose.h"
@@ -36,7 +37,8 @@ void join(PlannedFrames& frames, int frame, const PlannedEffect& planned) {
 std::string bound_text(const ordered_json& bound) {
     if (bound.is_null()) return "not known";
     const auto number = [](const ordered_json& value) {
-        return value.is_null() ? std::string("not known") : fmt::format("{:.2g}", value.get<double>());
+        const double known = value.get<double>();
+        return std::isfinite(known) ? fmt::format("{:.2g}", known) : std::string("not known");
     };
     if (bound["luminance"] == 0.0) return "0";
     return fmt::format("{} cd/m2, {} thresholds", number(bound["luminance"]), number(bound["thresholds"]));

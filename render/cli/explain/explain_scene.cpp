@@ -10,11 +10,8 @@
 #include "engine/scene/points.h"
 #include "engine/scene_file/fields.h"
 #include "render/cli/explain/explain.h"
-#include "render/cli/explain/explain_elements.h"
-#include "render/cli/explain/world_bounds.h"
 #include "render/frame/sequence.h"
 #include "render/frame/shot.h"
-#include "render/surface/node_paths.h"
 
 namespace aleph {
 

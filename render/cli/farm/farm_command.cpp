@@ -10,8 +10,6 @@
 #include "engine/base/errors.h"
 #include "render/cli/commands.h"
 #include "render/cli/farm/farm_job.h"
-#include "render/cli/farm/farm_scripts.h"
-#include "render/cli/farm/farm_status.h"
 #include "render/cli/study_output.h"
 #include "render/cli/support/output_path.h"
 #include "render/settings/frame_list.h"

@@ -1,7 +1,9 @@
 #pragma once
-// Frames or a study divided into tasks for a scheduler: what the tasks are, kept in a folder `farm` beside the results.
+// Frames or a study divided into tasks for a scheduler: what the tasks are, kept in a folder `farm` beside the results;
+// their scripts, for Slurm and for GNU parallel; and which frames are finished, missing, damaged or of something else.
 
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -53,5 +55,38 @@ void write_farm_job(const FarmJob& job);
 /// Reads the job of a folder of results, or of the folder `farm` in it.
 /// @throws InputError
 FarmJob read_farm_job(const std::filesystem::path& folder);
+
+/// Words as one shell command.
+std::string quote_words(const std::vector<std::string>& words);
+
+/// Writes the next round of a job's tasks: a list of what each is to do, the script that runs one of them, and the
+/// script that submits all of them and then collates. Adds 1 to the job's rounds, and writes the job.
+/// @param parts    what each task is to do: a list of frames, or a part of a study such as 3/8
+/// @param program  path of `aleph`
+/// @return the script that submits
+/// @throws OutputError
+std::filesystem::path write_farm_scripts(FarmJob& job, const std::vector<std::string>& parts,
+                                         const std::string& program);
+
+struct FarmStatus {
+    std::vector<int> finished, missing;
+    std::vector<int> damaged;  ///< cut, or not to be decoded
+    std::vector<int> other;    ///< of another scene, other settings or another program
+
+    /// All frames that are not finished.
+    std::vector<int> left() const;
+};
+
+/// Finds the state of all frames by their files.
+/// @param decode  every pixel is read
+/// @throws InputError
+FarmStatus find_status(const FarmJob& job, bool decode);
+
+/// "750 frames: 738 finished; missing: 12-23", in lines.
+void print_status(const FarmStatus& status, std::ostream& out);
+
+/// Joins the statistics of all tasks in the job's file, in the order of frames.
+/// @throws OutputError
+void join_statistics(const FarmJob& job, const FarmStatus& status);
 
 }  // namespace aleph

@@ -1,4 +1,4 @@
-#include "render/cli/farm/farm_scripts.h"
+#include "render/cli/farm/farm_job.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

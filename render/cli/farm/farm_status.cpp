@@ -1,4 +1,4 @@
-#include "render/cli/farm/farm_status.h"
+#include "render/cli/farm/farm_job.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
-#include "render/cli/frame_prints.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/support/statistics_file.h"
+#include "render/cli/write_frames.h"
 #include "render/frame/sequence.h"
 #include "render/settings/fingerprint.h"
 #include "render/settings/frame_list.h"

@@ -7,6 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "engine/image/image_file.h"
 #include "render/cli/support/film_program.h"
 #include "render/settings/fingerprint.h"
 
@@ -104,13 +105,10 @@ std::string mark_text(const std::string& ending, const std::string& fingerprint)
 
 }  // namespace
 
-PictureSize read_png_size(const fs::path& file) {
-    const Bytes bytes = read_regular_file(file, file.string(), "");
-    if (bytes.size() < 24) throw InputError(file.string(), "", "this is not a PNG file");
-    const auto number = [&](std::size_t at) {
-        return bytes[at] << 24 | bytes[at + 1] << 16 | bytes[at + 2] << 8 | bytes[at + 3];
-    };
-    return {number(16), number(20)};
+PictureSize read_picture_size(const fs::path& file) {
+    const ChannelImage picture = read_image(file);
+    const Image<float>& first = picture.channels.front().values;
+    return {first.width, first.height};
 }
 
 bool is_padded(const std::string& ending, const PictureSize& size) {
@@ -135,7 +133,7 @@ void encode_film(const fs::path& ffmpeg, const fs::path& film, const FilmFrames&
     } else {
         run_pass(ffmpeg,
                  joined({input,
-                         {"-vf", filters_420(read_png_size(frames.files.front()))},
+                         {"-vf", filters_420(read_picture_size(frames.files.front()))},
                          {"-threads", std::to_string(frames.threads)},
                          codec_words(frames.ending),
                          {file_word(film)}}),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "render/settings/setting_table.h"
 
 namespace aleph {
 
@@ -18,11 +19,8 @@ struct FilmFrames {
     int threads = 0;     ///< of the encoder; 0: its choice
 };
 
-/// Size of a PNG file's picture.
-struct PictureSize {
-    int width = 0, height = 0;
-};
-PictureSize read_png_size(const std::filesystem::path& file);
+/// Size of a file's picture.
+PictureSize read_picture_size(const std::filesystem::path& file);
 
 /// Returns whether a film of this size has one more column or row, as its pixels are stored: H.264 and VP9 hold
 /// colours for squares of 2 x 2 pixels.

@@ -143,13 +143,14 @@ template CLI::Option* add_value<int>(CLI::App&, const std::string&, int&, const 
 template CLI::Option* add_value<std::uint32_t>(CLI::App&, const std::string&, std::uint32_t&, const std::string&);
 template CLI::Option* add_value<double>(CLI::App&, const std::string&, double&, const std::string&);
 
-void parse_size(std::string_view text, const std::string& option, int& width, int& height) {
-    const std::size_t x = text.find('x');
-    if (x == std::string_view::npos) {
-        throw CLI::ConversionError(fmt::format("{}: '{}' is not a size such as 640x480", option, printable(text)));
-    }
-    width = parse_value<int>(text.substr(0, x), option);
-    height = parse_value<int>(text.substr(x + 1), option);
+double parse_seconds(const std::string& text, const std::string& option) {
+    const double seconds = parse_value<double>(text, option);
+    if (!(seconds > 0.0)) throw InputError(option, printable(text), "expected seconds above 0");
+    return seconds;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
 }
 
 int run_command(const Command& command, std::ostream& errors) {

@@ -34,9 +34,19 @@ T parse_value(std::string_view text, const std::string& option);
 template <class T>
 CLI::Option* add_value(CLI::App& app, const std::string& option, T& value, const std::string& help);
 
-/// Reads a size such as "640x480".
-/// @throws CLI::ConversionError naming the option
-void parse_size(std::string_view text, const std::string& option, int& width, int& height);
+/// A time of a clock.
+/// @throws CLI::ConversionError for what is no number, InputError (the option) for one that is not above 0
+double parse_seconds(const std::string& text, const std::string& option);
+
+/// Adds an option without a default that fills `value`, a double or an optional one.
+template <class T>
+CLI::Option* add_number(CLI::App& app, const std::string& option, T& value, const std::string& help) {
+    const auto read = [&value, option](const std::string& text) { value = parse_value<double>(text, option); };
+    return app.add_option_function<std::string>(option, read, help)->type_name("NUMBER");
+}
+
+/// Prints each as a line on standard error.
+void print_warnings(const std::vector<std::string>& warnings);
 
 /// Reads the command line, which sets `command`, and runs the command. An error is reported in one line on `errors`.
 /// @return the command's exit code, 2 for wrong usage and InputError, 1 for any other error

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <system_error>
 
@@ -16,17 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& pattern, const std::string& reason) {
+[[noreturn]] void refuse_pattern(const std::string& pattern, const std::string& reason) {
     throw InputError("", "--output", fmt::format("'{}': {}", printable(pattern, 400), reason));
 }
 
 std::optional<OutputFormat> find_format(const fs::path& path) {
     const std::string extension = lower_extension(path);
-    if (extension == ".exr") return OutputFormat::exr;
-    if (extension == ".png") return OutputFormat::png;
-    if (extension == ".hdr") return OutputFormat::hdr;
-    if (extension == ".flo") return OutputFormat::flow;
-    return std::nullopt;
+    constexpr const char* known[] = {".exr", ".png", ".hdr", ".flo"};  // in the order of OutputFormat
+    const auto found = std::ranges::find(known, extension);
+    return found == std::end(known) ? std::nullopt : std::optional(static_cast<OutputFormat>(found - known));
 }
 
 bool is_folder(const fs::path& path) {
@@ -38,20 +37,22 @@ bool is_folder(const fs::path& path) {
 
 /// The pattern with its file name.
 fs::path full_pattern(const std::string& pattern, const std::string& scene_name) {
-    if (pattern == "-") refuse(pattern, "frames are not written to standard output; name a file or a folder");
+    if (pattern == "-") refuse_pattern(pattern, "frames are not written to standard output; name a file or a folder");
     const fs::path path(pattern);
     if (is_folder(path)) return path / (scene_name + ".####.exr");
     find_number_field(path.filename().string(), "--output");  // its reasons come before the extension's
     if (find_format(path)) return path;
     if (names_film(pattern))
-        refuse(pattern, "films are written by `aleph render`, `maps` and `preview`; name .exr, .png or .hdr files");
+        refuse_pattern(pattern,
+                       "films are written by `aleph render`, `maps` and `preview`; name .exr, .png or .hdr files");
     const std::string extension = path.extension().string();
-    refuse(pattern,
-           fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/', for motion .flo, and "
-                       "films: .mp4, .mov, .webm and .gif",
-                       extension.find_first_of("#%") == std::string::npos && !extension.empty()
-                           ? fmt::format("the extension {} is not known", printable(extension))
-                           : "the name has no extension"));
+    refuse_pattern(
+        pattern,
+        fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/', for motion .flo, and "
+                    "films: .mp4, .mov, .webm and .gif",
+                    extension.find_first_of("#%") == std::string::npos && !extension.empty()
+                        ? fmt::format("the extension {} is not known", printable(extension))
+                        : "the name has no extension"));
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ fs::path output_path(const std::string& pattern, const std::string& scene_name, 
 void prepare_output(const std::string& pattern, const std::string& scene_name, const std::vector<int>& frames) {
     const fs::path path = full_pattern(pattern, scene_name);
     if (!find_number_field(path.filename().string(), "--output") && frames.size() > 1) {
-        refuse(pattern, fmt::format("{} frames need a number in the name, as in name.####.exr", frames.size()));
+        refuse_pattern(pattern, fmt::format("{} frames need a number in the name, as in name.####.exr", frames.size()));
     }
     for (const int frame : frames) try_output(output_path(pattern, scene_name, frame));
 }

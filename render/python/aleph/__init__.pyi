@@ -2,7 +2,7 @@
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence as _Sequence
 from fractions import Fraction
-from typing import Any, Generic, TypeVar, Union, overload
+from typing import Any, Final, Generic, TypeVar, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -29,19 +29,14 @@ class OutputError(OSError): ...
 
 class Track:
     def __init__(self, times: npt.ArrayLike, values: npt.ArrayLike, interpolation: str = "linear") -> None: ...
-    @property
-    def times(self) -> _Doubles: ...
-    @property
-    def values(self) -> _Doubles: ...
-    @property
-    def interpolation(self) -> str: ...
+    times: Final[_Doubles]
+    values: Final[_Doubles]
+    interpolation: Final[str]
     def __len__(self) -> int: ...
 
 class _Element:
-    @property
-    def name(self) -> str: ...
-    @property
-    def index(self) -> int: ...
+    name: Final[str]
+    index: Final[int]
 
 class _Elements(Generic[_E]):
     def __len__(self) -> int: ...
@@ -76,8 +71,7 @@ class Material(_Element):
     double_sided: bool
 
 class Light(_Element):
-    @property
-    def kind(self) -> str: ...
+    kind: Final[str]
     color: _Vector
     intensity: _Number
     range: _Number
@@ -96,20 +90,15 @@ class Camera(_Element):
 
 class Mesh(_Element):
     positions: npt.NDArray[np.float32]
-    @property
-    def triangles(self) -> npt.NDArray[np.uint32]: ...
+    triangles: Final[npt.NDArray[np.uint32]]
     material: Material | None
     present: _Number
 
 class Node(_Element):
-    @property
-    def parent(self) -> Node | None: ...
-    @property
-    def meshes(self) -> list[Mesh]: ...
-    @property
-    def camera(self) -> Camera | None: ...
-    @property
-    def light(self) -> Light | None: ...
+    parent: Final[Node | None]
+    meshes: Final[list[Mesh]]
+    camera: Final[Camera | None]
+    light: Final[Light | None]
     translation: _Vector
     rotation: Any
     scale: _Vector
@@ -117,22 +106,14 @@ class Node(_Element):
     visible: _Number
 
 class Scene:
-    @property
-    def nodes(self) -> _Elements[Node]: ...
-    @property
-    def materials(self) -> _Elements[Material]: ...
-    @property
-    def meshes(self) -> _Elements[Mesh]: ...
-    @property
-    def lights(self) -> _Elements[Light]: ...
-    @property
-    def cameras(self) -> _Elements[Camera]: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def warnings(self) -> list[str]: ...
-    @property
-    def settings(self) -> dict[str, bool | float | str]: ...
+    nodes: Final[_Elements[Node]]
+    materials: Final[_Elements[Material]]
+    meshes: Final[_Elements[Mesh]]
+    lights: Final[_Elements[Light]]
+    cameras: Final[_Elements[Camera]]
+    name: Final[str]
+    warnings: Final[list[str]]
+    settings: Final[dict[str, bool | float | str]]
     fps: float | str | Fraction
     frames: tuple[int, int]
     camera: str
@@ -145,52 +126,29 @@ class Scene:
     def copy(self) -> Scene: ...
 
 class Frame:
-    @property
-    def color(self) -> _Floats | None: ...
-    @property
-    def estimate(self) -> _Floats | None: ...
-    @property
-    def samples(self) -> _Floats | None: ...
-    @property
-    def error(self) -> _Floats | None: ...
-    @property
-    def variance(self) -> _Floats | None: ...
-    @property
-    def depth(self) -> _Floats | None: ...
-    @property
-    def normal(self) -> _Floats | None: ...
-    @property
-    def albedo(self) -> _Floats | None: ...
-    @property
-    def motion(self) -> _Doubles | None: ...
-    @property
-    def motion_valid(self) -> _Bytes | None: ...
-    @property
-    def backward(self) -> _Doubles | None: ...
-    @property
-    def backward_valid(self) -> _Bytes | None: ...
-    @property
-    def velocity(self) -> _Floats | None: ...
-    @property
-    def aleph(self) -> _Floats | None: ...
-    @property
-    def threshold(self) -> _Floats | None: ...
-    @property
-    def threshold_noise(self) -> _Floats | None: ...
-    @property
-    def accuracy(self) -> _Floats | None: ...
-    @property
-    def saliency(self) -> _Floats | None: ...
-    @property
-    def retinal_velocity(self) -> _Floats | None: ...
-    @property
-    def number(self) -> int: ...
-    @property
-    def exposure(self) -> float: ...
-    @property
-    def statistics(self) -> dict[str, Any]: ...
-    @property
-    def plan(self) -> list[dict[str, Any]]: ...
+    color: Final[_Floats | None]
+    estimate: Final[_Floats | None]
+    samples: Final[_Floats | None]
+    error: Final[_Floats | None]
+    variance: Final[_Floats | None]
+    depth: Final[_Floats | None]
+    normal: Final[_Floats | None]
+    albedo: Final[_Floats | None]
+    motion: Final[_Doubles | None]
+    motion_valid: Final[_Bytes | None]
+    backward: Final[_Doubles | None]
+    backward_valid: Final[_Bytes | None]
+    velocity: Final[_Floats | None]
+    aleph: Final[_Floats | None]
+    threshold: Final[_Floats | None]
+    threshold_noise: Final[_Floats | None]
+    accuracy: Final[_Floats | None]
+    saliency: Final[_Floats | None]
+    retinal_velocity: Final[_Floats | None]
+    number: Final[int]
+    exposure: Final[float]
+    statistics: Final[dict[str, Any]]
+    plan: Final[list[dict[str, Any]]]
     def save(self, path: _Path) -> None: ...
 
 class Sequence:
@@ -198,10 +156,8 @@ class Sequence:
                  **settings: _Setting) -> None: ...
     def render(self, frame: int, *, maps: bool = True, picture: bool = True, on_progress: _Progress = None) -> Frame: ...
     def edit(self, change: Callable[[Scene], object]) -> None: ...
-    @property
-    def frames(self) -> tuple[int, int]: ...
-    @property
-    def exposure(self) -> float: ...
+    frames: Final[tuple[int, int]]
+    exposure: Final[float]
 
 class Table(dict[str, list[Any]]):
     results: dict[str, Any] | None

@@ -46,7 +46,7 @@ void write_error_sheet(const std::filesystem::path& path, const PreparedStudy& p
             const auto found = std::ranges::find(results.variants, variant, &VariantResult::name);
             const ChannelImage picture = read_image(found->frames.at(i).picture);
             const LuminanceError error =
-                compute_luminance_error(picture, expose_like(picture, read_image(frame.reference)));
+                compute_luminance_error(picture, with_exposure_of(read_image(frame.reference), picture));
             const std::string name = variants.size() > 1 ? ": " + variant : "";
             panels.push_back(
                 color_panel(fmt::format("{}, frame {}{}", frame.scene, frame.frame, name), linear_colour(picture)));

@@ -1,6 +1,8 @@
 #pragma once
 // JSON inside a page.
 
+#include <OpenImageIO/strutil.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -8,15 +10,8 @@ namespace aleph {
 
 /// JSON for a script element, which a "</script>" in a text must not end.
 inline std::string script_json(const nlohmann::ordered_json& json) {
-    std::string text;
-    for (const char c : json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
-        if (c == '<') {
-            text += "\\u003c";
-        } else {
-            text += c;
-        }
-    }
-    return text;
+    const std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return OIIO::Strutil::replace(text, "<", "\\u003c", true);
 }
 
 }  // namespace aleph

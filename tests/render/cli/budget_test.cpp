@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "render/cli/budget.h"
+#include "tests/render/cli/answers.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/run_command.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -21,18 +21,16 @@ class Budgets : public RenderCommand {
 TEST_F(Budgets, WrongOnesAreRefused) {
     for (const char* text : {"0", "-1", "nan", "inf", "", "1 s", "1e-400x"}) {
         EXPECT_EQ(run({"--frames", "0", "-o", file("a.exr"), "--budget", text}), exit_bad_input) << text;
-        EXPECT_NE(errors.find("--budget"), std::string::npos) << errors;
+        EXPECT_THAT(errors, HasSubstr("--budget"));
         EXPECT_FALSE(fs::exists(file("a.exr"))) << text;
     }
 }
 
 TEST_F(Budgets, ChooseTheErrorAlone) {
-    for (const std::vector<std::string>& beside :
-         {std::vector<std::string>{"--error", "1"}, {"--set", "error=1"}, {"--cache", file("light")}}) {
-        std::vector<std::string> words = {"--frames", "0", "-o", file("a.exr"), "--budget", "5"};
-        words.insert(words.end(), beside.begin(), beside.end());
-        EXPECT_EQ(run(words), exit_bad_input) << beside.front();
-        EXPECT_NE(errors.find("give one of the two"), std::string::npos) << errors;
+    for (const Words& beside : {Words{"--error", "1"}, {"--set", "error=1"}, {"--cache", file("light")}}) {
+        EXPECT_EQ(run(joined({"--frames", "0", "-o", file("a.exr"), "--budget", "5"}, beside)), exit_bad_input)
+            << beside.front();
+        EXPECT_THAT(errors, HasSubstr("give one of the two"));
         EXPECT_FALSE(fs::exists(file("a.exr")));
     }
 }
@@ -58,9 +56,9 @@ TEST_F(Budgets, TheErrorMakesTheSameBytesAgain) {
 TEST(BudgetText, SaysWhatWasPredictedAndWhatItTook) {
     BudgetStatistics budget{60.0, 1.3, 55.0, 58.0, 2.1};
     EXPECT_EQ(describe_budget(budget), "aleph: budget 60 s: error 1.3 chosen, predicted 55 s, took 58 s\n");
-    EXPECT_EQ(describe_choice(budget).find("warning"), std::string::npos);
+    EXPECT_THAT(describe_choice(budget), Not(HasSubstr("warning")));
     budget.predicted = 90.0;
-    EXPECT_NE(describe_choice(budget).find("predicted to take 90 s"), std::string::npos);
+    EXPECT_THAT(describe_choice(budget), HasSubstr("predicted to take 90 s"));
 }
 
 }  // namespace

@@ -1,51 +1,25 @@
 // The built program: exit codes, messages, and the files it leaves.
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/sampling.h"
-#include "engine/image/image_file.h"
-#include "render/cli/support/options.h"
+#include "tests/render/cli/answers.h"
+#include "tests/support/film_programs.h"
 #include "tests/support/german_locale.h"
 #include "tests/support/grey_image.h"
-#include "tests/support/paths.h"
-#include "tests/support/read_bytes.h"
-#include "tests/support/scratch_folder.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
-struct Outcome {
-    int code = -1;  ///< -1 if a signal ended it
-    std::string out, err;
-};
-
-/// Runs the program. @param file_limit  largest size of a file it may write, bytes
-Outcome run_aleph(std::vector<std::string> arguments, rlim_t file_limit = RLIM_INFINITY) {
+/// Runs the program. @return what it prints on standard error, and its exit code
+Ended run_aleph(const Words& words) {
     const ScratchFolder folder;
-    const std::string out = folder / "out", err = folder / "err";
-    arguments.insert(arguments.begin(), program_path("aleph"));
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
-        ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
-        rlimit limit{};
-        ::getrlimit(RLIMIT_FSIZE, &limit);
-        limit.rlim_cur = std::min(limit.rlim_max, file_limit);
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-        ::execv(argv.front(), argv.data());
-        ::_exit(127);
-    }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(out), read_bytes(err)};
+    return StartedProgram(words, folder / "log").wait();
+}
+
+/// What the program prints on standard output. @param words  of the shell
+std::string printed_by_aleph(const std::string& words) {
+    return output_of(fmt::format("'{}' {}", program_path("aleph"), words));
 }
 
 /// Two pictures, .5 apart by `step` in one green pixel.
@@ -61,70 +35,46 @@ struct TwoPictures {
     }
 };
 
-void expect_one_error_line(const Outcome& outcome, const std::string& part) {
-    EXPECT_TRUE(outcome.err.starts_with("aleph: error: ")) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
+void expect_one_error_line(const Ran& ran, int code, const std::string& part) {
+    expect_answer(ran, code, part);
+    EXPECT_TRUE(ran.errors.starts_with("aleph: error: ")) << ran.errors;
+    EXPECT_EQ(std::ranges::count(ran.errors, '\n'), 1) << ran.errors;
+    EXPECT_EQ(ran.out, "");
 }
 
 TEST(CommandLine, EverySettingHasAnOptionThatCounts) {
     // In the settings of one name, in the fingerprint of a frame: as with --set, and not as without.
-    const auto fingerprint = [](std::vector<std::string> words) {
-        words.insert(words.begin(),
-                     {"explain", (source_folder() / "scenes/cornell/scene.json").string(), "--fingerprint"});
-        const Outcome outcome = run_aleph(words);
-        EXPECT_EQ(outcome.code, 0) << outcome.err;
-        return outcome.out;
+    const auto fingerprint = [scene = source_folder() / "scenes/cornell/scene.json"](const std::string& words) {
+        return printed_by_aleph(fmt::format("explain '{}' --fingerprint {}", scene.string(), words));
     };
-    const std::string plain = fingerprint({});
+    const std::string plain = fingerprint("");
     for (const auto& [key, value] : {std::pair("stopping", "pixel"), std::pair("adapter_k", "3"), std::pair("spp", "7"),
                                      std::pair("forbid", "caustics")}) {
         std::string option = key;
         std::ranges::replace(option, '_', '-');
-        const std::string given = fingerprint({"--" + option, value});
+        const std::string given = fingerprint(fmt::format("--{} {}", option, value));
         EXPECT_NE(given, plain) << option;
-        EXPECT_EQ(given, fingerprint({"--set", std::string(key) + "=" + value})) << option;
+        EXPECT_EQ(given, fingerprint(fmt::format("--set {}={}", key, value))) << option;
     }
 }
 
-TEST(CommandLine, HelpAndVersion) {
-    const Outcome version = run_aleph({"--version"});
-    EXPECT_EQ(version.code, 0);
-    EXPECT_TRUE(version.out.starts_with("aleph ")) << version.out;
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"compare", "--help"}}) {
-        const Outcome help = run_aleph(arguments);
-        EXPECT_EQ(help.code, 0);
-        EXPECT_NE(help.out.find("compare"), std::string::npos);
-        EXPECT_EQ(help.err, "");
-    }
-}
-
-TEST(CommandLine, BadUsageIsExitCode2) {
-    const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-        {{}, "farm; aleph --help"},
-        {{"fly"}, "fly (commands: "},
-        {{"compare", "a.exr", "b.exr", "--fast"}, "--fast (aleph compare --help"},
-        {{"compare", "a.exr", "b.exr", "--share", "much"}, "--share: 'much' is not a number"},
-        {{"compare", "a.exr", "b.exr", "--share", "101"}, "--share lies in 0 to 100"}};
-    for (const auto& [arguments, part] : cases) {
-        const Outcome outcome = run_aleph(arguments);
-        EXPECT_EQ(outcome.code, 2);
-        expect_one_error_line(outcome, part);
-    }
+TEST(CommandLine, HelpVersionAndUsage) {
+    EXPECT_TRUE(printed_by_aleph("--version").starts_with("aleph "));
+    for (const char* words : {"--help", "compare --help"}) EXPECT_THAT(printed_by_aleph(words), HasSubstr("compare"));
+    expect_answer(run_aleph({}), 2, "farm; aleph --help");
+    expect_answer(run_aleph({"fly"}), 2, "fly (commands: ");
 }
 
 TEST(CommandLine, CompareTellsSameFromDifferent) {
     const TwoPictures files(0.25f);
-    const Outcome different = run_aleph({"compare", files.a, files.b});
+    const Ran different = run_command({"compare", files.a, files.b});
     EXPECT_EQ(different.code, 1);
-    EXPECT_NE(different.out.find("4,7"), std::string::npos) << different.out;
+    EXPECT_THAT(different.out, HasSubstr("4,7"));
     EXPECT_TRUE(different.out.ends_with("different\n"));
-    EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--tolerance", "0.25"}).code, 0);
-    EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--relative", "0.49"}).code, 1);
-    EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--share", "0.5"}).code, 0);
-    EXPECT_EQ(run_aleph({"compare", "--channels", "R,B", files.a, files.b}).code, 0);
-    const Outcome quiet = run_aleph({"compare", "-q", files.a, files.b});
+    const std::vector<std::pair<Words, int>> cases{
+        {{"--tolerance", "0.25"}, 0}, {{"--relative", "0.49"}, 1}, {{"--share", "0.5"}, 0}, {{"--channels", "R,B"}, 0}};
+    for (const auto& [more, code] : cases) EXPECT_EQ(run_command({"compare", files.a, files.b}, more).code, code);
+    const Ran quiet = run_command({"compare", "-q", files.a, files.b});
     EXPECT_EQ(quiet.code, 1);
     EXPECT_EQ(quiet.out, "");
 }
@@ -135,11 +85,10 @@ TEST(CommandLine, CompareNeverPassesNan) {
     write_exr(folder / "clean.exr", image);
     image.channels[0].values(1, 1) = float_nan;
     write_exr(folder / "nan.exr", image);
-    const std::string clean = folder / "clean.exr", nan = folder / "nan.exr";
-    for (const auto& [a, b] : {std::pair{nan, clean}, {nan, nan}}) {
-        const Outcome outcome = run_aleph({"compare", a, b, "--share", "100"});
-        EXPECT_EQ(outcome.code, 1);
-        EXPECT_NE(outcome.out.find("NaN: "), std::string::npos);
+    for (const char* other : {"clean.exr", "nan.exr"}) {
+        const Ran ran = run_command({"compare", folder / "nan.exr", folder / other, "--share", "100"});
+        EXPECT_EQ(ran.code, 1);
+        EXPECT_THAT(ran.out, HasSubstr("NaN: "));
     }
 }
 
@@ -151,34 +100,16 @@ TEST(CommandLine, MapsOfPicturesWithNanWarnOnce) {
     write_exr(folder / "f.0002.exr", image);
     write_exr(folder / "f.0003.exr", image);
     const std::string pattern = folder / "f.####.exr";
-    const Outcome outcome = run_aleph({"maps", "--images", pattern, "-o", folder / "maps/"});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("warning: 2 pixels of the pictures, the first in frame 2, are NaN"), std::string::npos)
-        << outcome.err;
+    expect_answer(run_aleph({"maps", "--images", pattern, "-o", folder / "maps/"}), 0,
+                  "warning: 2 pixels of the pictures, the first in frame 2, are NaN");
     EXPECT_EQ(run_aleph({"maps", "--images", pattern, "-q", "-o", folder / "maps/"}).err, "");
-}
-
-TEST(CommandLine, CompareOfOtherShapesIsExitCode2) {
-    const ScratchFolder folder;
-    write_exr(folder / "a.exr", grey_image(4, 4, 0.5f));
-    write_exr(folder / "wide.exr", grey_image(5, 4, 0.5f));
-    ChannelImage more = grey_image(4, 4, 0.5f);
-    more.channels.push_back({"Z", Image<float>(4, 4)});
-    write_exr(folder / "more.exr", more);
-    std::ofstream(folder / "text.exr") << "no picture";
-    const std::string a = folder / "a.exr";
-    for (const char* other : {"wide.exr", "more.exr", "text.exr", "missing.exr"}) {
-        const Outcome outcome = run_aleph({"compare", a, folder / other});
-        EXPECT_EQ(outcome.code, 2) << other;
-        expect_one_error_line(outcome, "");
-    }
 }
 
 TEST(CommandLine, CompareAgainstAThresholdMapAsJson) {
     const TwoPictures files(0.02f);  // 1.43 cd/m2 at a white of 100
     const std::string map = files.folder / "maps.exr";
     write_exr(map, {{{"threshold.Y", Image<float>(20, 10, 1.0f)}}, {}});
-    const Outcome outcome = run_aleph({"compare", files.a, files.b, "--threshold", map, "--json"});
+    const Ran outcome = run_command({"compare", files.a, files.b, "--threshold", map, "--json"});
     EXPECT_EQ(outcome.code, 1);
     const auto json = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(json["same"], false);
@@ -188,7 +119,7 @@ TEST(CommandLine, CompareAgainstAThresholdMapAsJson) {
     EXPECT_EQ(json["channels"].size(), 3u);
     EXPECT_EQ(json["size"], nlohmann::json({20, 10}));
     write_exr(map, {{{"threshold.Y", Image<float>(20, 10, 1.5f)}}, {}});
-    EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--threshold", map}).code, 0);
+    EXPECT_EQ(run_command({"compare", files.a, files.b, "--threshold", map}).code, 0);
 }
 
 /// The median of the picture, cd/m2, where every threshold of vision is above it or below.
@@ -208,12 +139,12 @@ TEST(CommandLine, CS14_AnUnlikelyUnitOfLightGivesAWarning) {
                                            << median * 0.02 << "}}], \"viewing\": {\"display_white\": 100}}";
         std::vector<std::string> render{"render", folder / "lit.json",  "--size", "8x6", "--spp", "1",
                                         "-o",     folder / "f.####.exr"};
-        const Outcome outcome = run_aleph(render);
+        const Ended outcome = run_aleph(render);
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         const std::string warning = "warning: frame 0: the median luminance is " + said + " cd/m2, outside 1e-3 to 1e4";
         EXPECT_EQ(outcome.err.find("the median luminance") != std::string::npos, !said.empty()) << outcome.err;
         if (said.empty()) continue;
-        EXPECT_NE(outcome.err.find(warning), std::string::npos) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(warning));
         EXPECT_EQ(outcome.err.find("median"), outcome.err.rfind("median")) << "once for both frames";
         render.emplace_back("-q");
         EXPECT_EQ(run_aleph(render).err, "");
@@ -229,17 +160,11 @@ TEST(CommandLine, OU03_WhatHdrFilesCannotHoldIsCounted) {
          "material": {"base_color": [0, 0, 0], "emission": [1e18, 1, 1], "emission_strength": 1e10}}]})";
     const std::vector<std::string> render{"render", folder / "bright.json", "--size", "8x6", "--spp", "1",
                                           "-o",     folder / "f.####.hdr"};
-    const Outcome said = run_aleph(render);
-    EXPECT_EQ(said.code, 0) << said.err;
-    EXPECT_NE(said.err.find("warning: 96 values were"), std::string::npos) << said.err;
+    expect_answer(run_aleph(render), 0, "warning: 96 values were");
     const ChannelImage image = read_image(folder / "f.0001.hdr");
     EXPECT_EQ(image.find("R")->pixels[7], 0xffp119f);
-    std::vector<std::string> quiet = render;
-    quiet.emplace_back("-q");
-    EXPECT_EQ(run_aleph(quiet).err, "");
-    const Outcome refused = run_aleph({"maps", folder / "bright.json", "-o", folder / "m.####.hdr"});
-    EXPECT_EQ(refused.code, 2);
-    expect_one_error_line(refused, "write .exr");
+    EXPECT_EQ(run_aleph(joined(render, {"-q"})).err, "");
+    expect_one_error_line(run_command({"maps", folder / "bright.json", "-o", folder / "m.####.hdr"}), 2, "write .exr");
 }
 
 TEST(CommandLine, OU05_FullDiskIsExitCode1AndLeavesNothing) {
@@ -252,9 +177,11 @@ TEST(CommandLine, OU05_FullDiskIsExitCode1AndLeavesNothing) {
     write_exr(folder / "a.exr", a);
     write_exr(folder / "b.exr", grey_image(300, 200, 0.5f));
     const std::string picture = folder / "diff.png";
-    const Outcome outcome = run_aleph({"compare", "-q", folder / "a.exr", folder / "b.exr", "--diff", picture}, 20'000);
-    EXPECT_EQ(outcome.code, 1);
-    expect_one_error_line(outcome, picture + ": cannot write: File too large");
+    const std::string command =
+        fmt::format("(ulimit -f 40; '{0}' compare -q '{1}/a.exr' '{1}/b.exr' --diff '{2}' 2>&1)", program_path("aleph"),
+                    folder.path().string(), picture);
+    EXPECT_EQ(output_of(command + "; [ $? = 1 ]"),
+              fmt::format("aleph: error: {}: cannot write: File too large\n", picture));
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
         EXPECT_EQ(entry.path().extension(), ".exr") << entry.path();
     }
@@ -263,32 +190,29 @@ TEST(CommandLine, OU05_FullDiskIsExitCode1AndLeavesNothing) {
 TEST(CommandLine, OU05_ResultsThatCannotBePrintedAreAnError) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
     const TwoPictures files(0.0f);
-    const std::string command = std::string("'") + program_path("aleph") + "' compare '" + files.a + "' '" + files.a +
-                                "' >/dev/full 2>/dev/null";
-    EXPECT_EQ(WEXITSTATUS(::system(command.c_str())), 1);
+    const std::string command =
+        fmt::format("'{0}' compare '{1}' '{1}' >/dev/full 2>/dev/null", program_path("aleph"), files.a);
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
 }
 
 TEST(CommandLine, OU06_DifferenceIntoAMissingFolder) {
     const TwoPictures files(0.25f);
-    const Outcome outcome = run_aleph({"compare", "-q", files.a, files.b, "--diff", files.folder / "no/diff.png"});
-    EXPECT_EQ(outcome.code, 1);
-    expect_one_error_line(outcome, "does not exist");
+    expect_one_error_line(run_command({"compare", "-q", files.a, files.b, "--diff", files.folder / "no/diff.png"}), 1,
+                          "does not exist");
 }
 
 TEST(CommandLine, DT09_NumbersDoNotFollowTheLocale) {
     const TwoPictures files(0.25f);
-    const std::vector<std::string> arguments{"compare", files.a, files.b, "--json", "--relative", "0.75"};
-    const Outcome plain = run_aleph(arguments);
-    EXPECT_EQ(plain.code, 0) << plain.err;
-    const Outcome plain_table = run_aleph({"compare", files.a, files.b});
+    const auto compare = [&](const std::string& more) {
+        return printed_by_aleph(fmt::format("compare '{}' '{}' {}", files.a, files.b, more));
+    };
+    const std::string json = compare("--json --relative 0.75"), table = compare("--relative 0.75");
     const GermanLocale german;
     if (!german.available()) GTEST_SKIP() << "no locale de_DE.UTF-8, and localedef cannot make one";
     EXPECT_EQ(parse_value<double>("0.5", "--x"), 0.5);
     EXPECT_THROW(parse_value<double>("0,5", "--x"), CLI::ConversionError);
-    const Outcome outcome = run_aleph(arguments);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.out, plain.out);
-    EXPECT_EQ(run_aleph({"compare", files.a, files.b}).out, plain_table.out);
+    EXPECT_EQ(compare("--json --relative 0.75"), json);
+    EXPECT_EQ(compare("--relative 0.75"), table);
     EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--relative", "0,75"}).code, 2);
     // The same inside a program that has set its locale.
     ChannelImage image = read_image(files.a);

@@ -4,11 +4,8 @@
 
 #include "engine/image/image_file.h"
 #include "render/settings/frame_pattern.h"
+#include "tests/render/cli/answers.h"
 #include "tests/support/grey_image.h"
-#include "tests/support/read_bytes.h"
-#include "tests/support/run_command.h"
-#include "tests/support/scratch_folder.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -44,15 +41,14 @@ TEST(CompareFrames, PatternsAndFoldersArePairedByNumber) {
     for (const auto& [first, second] : {std::pair{s.pattern_a, s.pattern_b}, {s.a, s.b}, {s.a, s.pattern_b}}) {
         const Ran outcome = run_command({"compare"}, {first, second});
         EXPECT_EQ(outcome.code, 1) << outcome.errors;
-        EXPECT_NE(outcome.out.find("1 of 3 frames differ; the largest difference is in frame 9"), std::string::npos)
-            << outcome.out;
+        EXPECT_THAT(outcome.out, HasSubstr("1 of 3 frames differ; the largest difference is in frame 9"));
         EXPECT_TRUE(outcome.out.ends_with("different\n"));
     }
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "--tolerance", "0.25"}).code, 0);
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "--tolerance", "0.25", "--max-rms", "0.2"}).code, 1);
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q"}).out, "");
     const Ran limits = run_command({"compare"}, {s.a, s.b, "--share", "100", "--max-error", "0.2"});
-    EXPECT_NE(limits.out.find("different (--max-error)"), std::string::npos) << limits.out;
+    EXPECT_THAT(limits.out, HasSubstr("different (--max-error)"));
 }
 
 TEST(CompareFrames, ResultsAsJunit) {
@@ -62,35 +58,31 @@ TEST(CompareFrames, ResultsAsJunit) {
     const std::string text = read_bytes(file);
     EXPECT_TRUE(text.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"3\" failures=\"1\">"))
         << text;
-    EXPECT_NE(
-        text.find("new.0009.exr\">\n      <failure message=\"100 % of the pixels are beyond the tolerance, allowed 0 "
-                  "%; largest difference 0.25 in B at 0,0\"/>"),
-        std::string::npos)
-        << text;
-    EXPECT_NE(text.find("new.0010.exr\"/>"), std::string::npos) << text;
+    EXPECT_THAT(
+        text,
+        HasSubstr("new.0009.exr\">\n      <failure message=\"100 % of the pixels are beyond the tolerance, allowed 0 "
+                  "%; largest difference 0.25 in B at 0,0\"/>"));
+    EXPECT_THAT(text, HasSubstr("new.0010.exr\"/>"));
     EXPECT_EQ(run_command({"compare"}, {s.a + "/new.0008.exr", s.b + "/old.0008.exr", "-q", "--junit", file}).code, 0);
-    EXPECT_NE(read_bytes(file).find("tests=\"1\" failures=\"0\""), std::string::npos);
+    EXPECT_THAT(read_bytes(file), HasSubstr("tests=\"1\" failures=\"0\""));
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--junit", s.a + "/new.0008.exr"}).code, 2) << "an input";
     // A speck on one pixel, which a viewer sees.
     ChannelImage speck = grey(0.9f);
     for (Channel& channel : speck.channels) channel.values(3, 2) = 0.1f;
     write_exr(s.a + "/new.0009.exr", speck);
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--seen", s.maps, "--share", "1", "--junit", file}).code, 1);
-    EXPECT_NE(read_bytes(file).find("100 % of the pixels are seen to differ, allowed 1 %"), std::string::npos);
+    EXPECT_THAT(read_bytes(file), HasSubstr("100 % of the pixels are seen to differ, allowed 1 %"));
 }
 
 TEST(CompareFrames, MissingPartnersAreNamed) {
     const Sequences s({1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0});
     for (const char* gone : {"a/new.0005.exr", "b/old.0001.exr", "b/old.0002.exr", "b/old.0004.exr", "maps/m.0003.exr"})
         fs::remove(s.folder / gone);
-    Ran outcome = run_command({"compare"}, {s.a, s.b});
-    EXPECT_EQ(outcome.code, 2);
-    EXPECT_NE(outcome.errors.find("b' has no frame 1-2, 4; '"), std::string::npos) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("a' has no frame 5"), std::string::npos) << outcome.errors;
+    const Ran outcome = run_command({"compare"}, {s.a, s.b});
+    expect_answer(outcome, 2, "b' has no frame 1-2,4; '");
+    EXPECT_THAT(outcome.errors, HasSubstr("a' has no frame 5"));
     EXPECT_EQ(outcome.out, "");
-    outcome = run_command({"compare"}, {s.b, s.b, "--threshold", s.pattern_maps});
-    EXPECT_EQ(outcome.code, 2);
-    EXPECT_NE(outcome.errors.find("m.####.exr' has no frame 3"), std::string::npos) << outcome.errors;
+    expect_answer(run_command({"compare"}, {s.b, s.b, "--threshold", s.pattern_maps}), 2, "m.####.exr' has no frame 3");
 }
 
 TEST(CompareFrames, VisibleDifferencesAsJsonTextAndPictures) {
@@ -112,12 +104,12 @@ TEST(CompareFrames, VisibleDifferencesAsJsonTextAndPictures) {
     EXPECT_NE(seen.find("flicker.Y"), nullptr);
     EXPECT_NE(seen.find("lasting.Y"), nullptr);
     const Ran text = run_command({"compare"}, {s.a, s.b, "--seen", s.maps});
-    EXPECT_NE(text.out.find("seen   flicker   lasting   noticed"), std::string::npos) << text.out;
+    EXPECT_THAT(text.out, HasSubstr("seen   flicker   lasting   noticed"));
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "--seen", s.maps, "--share", "100"}).code, 0);
     const std::string a = s.a + "/new.0004.exr", b = s.b + "/old.0004.exr", maps = s.maps + "/m.0004.exr";
     const Ran one = run_command({"compare"}, {a, b, "--seen", maps, "--seen-out", s.folder / "seen.png"});
     EXPECT_EQ(one.code, 1);
-    EXPECT_NE(one.out.find("a difference is seen in  100 % of the pixels"), std::string::npos) << one.out;
+    EXPECT_THAT(one.out, HasSubstr("a difference is seen in  100 % of the pixels"));
     EXPECT_TRUE(fs::exists(s.folder / "seen.png"));
 }
 
@@ -137,16 +129,14 @@ TEST(CompareFrames, WrongKindsAreRefused) {
         {{s.a, s.folder / "none.####.exr"}, "no file fits"},
         {{s.a, s.folder.path().string()}, "holds no numbered pictures"},
         {{s.a, s.b, "--max-rms", "-1"}, "--max-rms"},
+        {{s.a, s.b, "--share", "101"}, "--share lies in 0 to 100"},
+        {{picture, s.b + "/notes.txt"}, "notes.txt"},
         {{s.a, s.b, "--standard-errors", "3"}, "variance.Y"}};
     for (const auto& [arguments, part] : cases) {
-        const Ran outcome = run_command({"compare"}, arguments);
-        EXPECT_EQ(outcome.code, 2) << part;
-        EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
+        expect_answer(run_command({"compare"}, arguments), 2, part);
     }
     write_exr(s.b + "/old.0002.exr", grey(0.5f, 7, 5));
-    const Ran outcome = run_command({"compare"}, {s.a, s.b});
-    EXPECT_EQ(outcome.code, 2);
-    EXPECT_NE(outcome.errors.find("new.0002.exr: the pictures differ in size"), std::string::npos) << outcome.errors;
+    expect_answer(run_command({"compare"}, {s.a, s.b}), 2, "new.0002.exr: the pictures differ in size");
 }
 
 TEST(CompareFrames, ExistingFilesArePicturesWhateverTheirName) {
@@ -155,7 +145,7 @@ TEST(CompareFrames, ExistingFilesArePicturesWhateverTheirName) {
     write_exr(odd, grey(0.5f));
     const Ran outcome = run_command({"compare"}, {odd, odd});
     EXPECT_EQ(outcome.code, 0) << outcome.errors;
-    EXPECT_EQ(outcome.out.find("frames"), std::string::npos) << outcome.out;
+    EXPECT_THAT(outcome.out, Not(HasSubstr("frames")));
 }
 
 TEST(CompareFrames, DifferencesOfEveryFrame) {
@@ -175,9 +165,8 @@ TEST(CompareFrames, NoiseOfTheReferenceIsPrinted) {
     const Ran outcome =
         run_command({"compare"}, {folder / "a.exr", folder / "b.exr", "--threshold", folder / "maps.exr"});
     EXPECT_EQ(outcome.code, 1);
-    EXPECT_NE(outcome.out.find("0 % by more than 3 standard errors; by noise alone 61.7"), std::string::npos)
-        << outcome.out;
-    EXPECT_NE(outcome.out.find("bias 4 %"), std::string::npos) << outcome.out;
+    EXPECT_THAT(outcome.out, HasSubstr("0 % by more than 3 standard errors; by noise alone 61.7"));
+    EXPECT_THAT(outcome.out, HasSubstr("bias 4 %"));
     EXPECT_EQ(run_command({"compare"}, {folder / "a.exr", folder / "b.exr", "--standard-errors", "2"}).code, 0);
 }
 
@@ -196,7 +185,7 @@ TEST(FramePattern, FoldersHoldOneSequence) {
     fs::remove(folder / "s.1.exr");
     touch("t.0001.exr");
     const std::string message = find_refusal([&] { find_folder_frames(path, "first"); }).message;
-    EXPECT_NE(message.find("s.#.exr and t.#.exr"), std::string::npos) << message;
+    EXPECT_THAT(message, HasSubstr("s.#.exr and t.#.exr"));
     const ScratchFolder dashes;
     std::ofstream(dashes / "shot-0007.png") << "x";
     EXPECT_EQ(find_folder_frames(dashes.path().string(), "first").begin()->first, 7);

@@ -1,15 +1,20 @@
 // `aleph explain` on scenes whose description is known.
 
-#include "render/cli/explain/explain.h"
+#include <gmock/gmock.h>
+
 #include "engine/load/load_scene.h"
 #include "engine/surface/shapes.h"
 #include "render/cli/commands.h"
-#include "render/surface/node_paths.h"
+#include "render/cli/explain/explain.h"
+#include "tests/render/expect_fields.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 using nlohmann::ordered_json;
 
@@ -65,29 +70,10 @@ ordered_json explain(const Scene& scene) {
     return explain_scene(scene, settings, "", choose_planned_frames(scene));
 }
 
-TEST(Explain, PathsTellObjectsApart) {
-    const Scene scene = make_scene();
-    const NodePaths paths(scene);
-    const std::vector<std::string> expected = {"/carrier",        "/carrier/box", "/carrier/box#2",
-                                               "/carrier/hidden", "/eye",         "/lamp"};
-    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(paths[i], expected[i]);
-}
-
 TEST(Explain, CountsFramesAndExposure) {
-    const ordered_json explained = explain(make_scene());
-    const ordered_json& counts = explained["counts"];
-    EXPECT_EQ(counts["objects"], 6);
-    EXPECT_EQ(counts["animated_objects"], 1);
-    EXPECT_EQ(counts["hidden_objects"], 1);
-    EXPECT_EQ(counts["triangles"], 12);
-    EXPECT_EQ(counts["instanced_triangles"], 36);
-    EXPECT_EQ(counts["deforming_meshes"], 0);
-    EXPECT_EQ(explained["frames"]["first"], 0);
-    EXPECT_EQ(explained["frames"]["last"], 48);
-    EXPECT_EQ(explained["frames"]["from"], "keys");
-    EXPECT_EQ(explained["exposure"]["factor"], 2.0);
-    EXPECT_EQ(explained["camera"], "eye");
-    EXPECT_EQ(explained["unused"], ordered_json::array({"material \"spare\""}));
+    expect_fields(explain(make_scene()), R"({"counts": {"objects": 6, "animated_objects": 1, "hidden_objects": 1,
+        "triangles": 12, "instanced_triangles": 36, "deforming_meshes": 0}, "exposure": {"factor": 2}, "camera": "eye",
+        "frames": {"first": 0, "last": 48, "from": "keys"}, "unused": ["material \"spare\""]})");
 }
 
 TEST(Explain, BoundsAreThoseOfWhatIsShown) {
@@ -101,12 +87,8 @@ TEST(Explain, KeyedPropertiesWithTheirSamplings) {
     const ordered_json explained = explain(make_scene());
     const ordered_json& tracks = explained["objects"][0]["animated"];
     ASSERT_EQ(tracks.size(), 2u);
-    EXPECT_EQ(tracks[0]["property"], "translation");
-    EXPECT_EQ(tracks[0]["sampling"], "acyclic");
-    EXPECT_EQ(tracks[0]["keys"], 3);
-    EXPECT_EQ(tracks[0]["last"], 2.0);
-    EXPECT_EQ(tracks[1]["property"], "rotation.degrees");
-    EXPECT_EQ(tracks[1]["sampling"], "uniform");
+    expect_fields(tracks[0], R"({"property": "translation", "sampling": "acyclic", "keys": 3, "last": 2})");
+    expect_fields(tracks[1], R"({"property": "rotation.degrees", "sampling": "uniform"})");
     EXPECT_FALSE(tracks[1].contains("constant"));
     const ordered_json& dimming = explained["objects"][5]["light"]["animated"];
     ASSERT_EQ(dimming.size(), 1u);
@@ -165,39 +147,36 @@ TEST(Explain, TextNamesWhatMovesEvenWhereTheTreeIsCut) {
          {"frames    0 to 48 at 24 a second", "exposure  2, as the scene says",
           "carrier: animated translation (3 acyclic", "12 triangles of paint", "point light", "material \"spare\"",
           "camera, 45 degrees high", "12 triangles in 1 mesh; 36 triangles in 3 instances", "1 light, 1 camera\n"}) {
-        EXPECT_NE(whole.find(expected), std::string::npos) << expected << "\n" << whole;
+        EXPECT_THAT(whole, HasSubstr(expected));
     }
     std::rotate(scene.nodes.begin(), scene.nodes.begin() + 5, scene.nodes.end());  // the lamp first
     for (Node& node : scene.nodes)
         if (node.parent != no_index) ++node.parent;
     const std::string cut = explain_text(explain(scene), 1);
-    EXPECT_NE(cut.find("... and 5 more"), std::string::npos) << cut;
-    EXPECT_NE(cut.find("/carrier: translation (3 acyclic"), std::string::npos) << cut;
+    EXPECT_THAT(cut, HasSubstr("... and 5 more"));
+    EXPECT_THAT(cut, HasSubstr("/carrier: translation (3 acyclic"));
 }
 
 TEST(Explain, TheEnvironmentAndItsPicture) {
     Scene scene = make_scene();
     EXPECT_TRUE(explain(scene)["environment"].is_null());
-    EXPECT_EQ(explain_text(explain(scene), 0).find("light     environment"), std::string::npos);
+    EXPECT_THAT(explain_text(explain(scene), 0), Not(HasSubstr("light     environment")));
 
     scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0));
     ordered_json explained = explain(scene);
     EXPECT_EQ(explained["environment"]["radiance"], ordered_json::array({0.5, 1.0, 2.0}));
     EXPECT_FALSE(explained["environment"].contains("image"));
-    EXPECT_NE(explain_text(explained, 0).find("light     environment of radiance (0.5, 1, 2)\n"), std::string::npos);
+    EXPECT_THAT(explain_text(explained, 0), HasSubstr("light     environment of radiance (0.5, 1, 2)\n"));
 
     scene.images.push_back({.name = "sky", .path = "lib/sky.exr", .bytes = {}, .floats = Image<glm::vec4>(4, 2)});
     scene.environment.image = 0;
     explained = explain(scene);
-    EXPECT_EQ(explained["environment"]["factor"], ordered_json::array({0.5, 1.0, 2.0}));
-    EXPECT_EQ(explained["environment"]["image"], "lib/sky.exr");
-    EXPECT_EQ(explained["environment"]["size"], ordered_json::array({4, 2}));
-    EXPECT_EQ(explained["environment"]["rotates"], false);
+    expect_fields(explained["environment"],
+                  R"({"factor": [0.5, 1, 2], "image": "lib/sky.exr", "size": [4, 2], "rotates": false})");
     EXPECT_EQ(explained["images"][0]["channel"], "float");
     EXPECT_EQ(explained["unused"], ordered_json::array({"material \"spare\""})) << "the picture is used";
-    EXPECT_NE(explain_text(explained, 0)
-                  .find("light     environment picture lib/sky.exr, 4 x 2, not rotating, times (0.5, 1, 2)\n"),
-              std::string::npos);
+    EXPECT_THAT(explain_text(explained, 0),
+                HasSubstr("light     environment picture lib/sky.exr, 4 x 2, not rotating, times (0.5, 1, 2)\n"));
 
     const std::size_t samplings = explained["time_samplings"].size();
     scene.environment.axis_rotation = AxisRotation{{0, 1, 0}, {}};
@@ -208,11 +187,9 @@ TEST(Explain, TheEnvironmentAndItsPicture) {
     EXPECT_EQ(explained["environment"]["rotates"], true);
     EXPECT_EQ(explained["environment"]["animated"][0]["property"], "environment_rotation.degrees");
     EXPECT_EQ(explained["time_samplings"].size(), samplings + 1);
-    EXPECT_NE(explain_text(explained, 0)
-                  .find("4 x 2, rotating, times (0.5, 1, 2); animated environment_rotation.degrees "
-                        "(2 acyclic keys, 0 to 1.5 s, linear)\n"),
-              std::string::npos)
-        << explain_text(explained, 0);
+    EXPECT_THAT(explain_text(explained, 0),
+                HasSubstr("4 x 2, rotating, times (0.5, 1, 2); animated environment_rotation.degrees "
+                          "(2 acyclic keys, 0 to 1.5 s, linear)\n"));
 }
 
 TEST(Explain, TexturesAndKeysOfEveryPropertyOfAMaterial) {
@@ -229,7 +206,7 @@ TEST(Explain, TexturesAndKeysOfEveryPropertyOfAMaterial) {
     std::vector<std::string> keyed;
     for (const ordered_json& track : material["animated"]) keyed.push_back(track["property"]);
     EXPECT_EQ(keyed, (std::vector<std::string>{"sheen_color", "thickness", "anisotropy_rotation"}));
-    EXPECT_NE(explain_text(explain(scene), 0).find("  paint: sheen_color (2 uniform keys"), std::string::npos);
+    EXPECT_THAT(explain_text(explain(scene), 0), HasSubstr("  paint: sheen_color (2 uniform keys"));
 }
 
 TEST(Explain, AreaLightsAreLights) {
@@ -237,12 +214,11 @@ TEST(Explain, AreaLightsAreLights) {
     EXPECT_EQ(explain(scene)["counts"]["lights"], 1);
     scene.materials[0].glow.color = glm::dvec3(1.0);
     const ordered_json explained = explain(scene);
-    EXPECT_EQ(explained["counts"]["lights"], 4) << "three nodes show the mesh";
-    EXPECT_EQ(explained["counts"]["area_lights"], 3);
+    expect_fields(explained["counts"], R"({"lights": 4, "area_lights": 3})");  // three nodes show the mesh
     EXPECT_EQ(explained["objects"][1]["area_light"], true);
     const std::string text = explain_text(explained, 0);
-    EXPECT_NE(text.find("4 lights (3 of area)"), std::string::npos) << text;
-    EXPECT_NE(text.find("area light"), std::string::npos);
+    EXPECT_THAT(text, HasSubstr("4 lights (3 of area)"));
+    EXPECT_THAT(text, HasSubstr("area light"));
 }
 
 TEST(Explain, ObjectsHaveTheirNamesAndNumbersAndStandBelowTheirParents) {
@@ -253,10 +229,8 @@ TEST(Explain, ObjectsHaveTheirNamesAndNumbersAndStandBelowTheirParents) {
     late.meshes = {0};
     scene.nodes.push_back(late);
     const ordered_json objects = explain(scene)["objects"];
-    EXPECT_EQ(objects[1]["name"], "box");
-    EXPECT_EQ(objects[1]["object_ids"], ordered_json::array({0}));
-    EXPECT_EQ(objects[2]["path"], "/carrier/box/late");
-    EXPECT_EQ(objects[2]["object_ids"], ordered_json::array({3}));
+    expect_fields(objects[1], R"({"name": "box", "object_ids": [0]})");
+    expect_fields(objects[2], R"({"path": "/carrier/box/late", "object_ids": [3]})");
     EXPECT_FALSE(objects[0].contains("object_ids"));
 }
 
@@ -268,7 +242,7 @@ TEST(Explain, SaysWhatRenderingWouldRefuse) {
     EXPECT_EQ(explained["camera"], "eye");
     ASSERT_EQ(explained["warnings"].size(), 1u);
     const std::string warning = explained["warnings"][0];
-    EXPECT_NE(warning.find("rendering is refused: camera of node eye"), std::string::npos) << warning;
+    EXPECT_THAT(warning, HasSubstr("rendering is refused: camera of node eye"));
 }
 
 TEST(Explain, ASceneWithoutACamera) {
@@ -277,7 +251,7 @@ TEST(Explain, ASceneWithoutACamera) {
     const ordered_json explained = explain(scene);
     EXPECT_TRUE(explained["camera"].is_null());
     EXPECT_EQ(explained["warnings"].size(), 1u);
-    EXPECT_NE(explain_text(explained, 0).find("objects"), std::string::npos);
+    EXPECT_THAT(explain_text(explained, 0), HasSubstr("objects"));
 }
 
 }  // namespace

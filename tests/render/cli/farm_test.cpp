@@ -7,18 +7,14 @@
 
 #include "engine/image/image_file.h"
 #include "render/cli/farm/farm_job.h"
-#include "render/cli/farm/farm_scripts.h"
 #include "render/settings/fingerprint.h"
 #include "render/settings/frame_list.h"
-#include "tests/support/scratch_folder.h"
-#include "tests/support/started_program.h"
+#include "tests/render/cli/answers.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Words = std::vector<std::string>;
 
 TEST(FrameList, IsWrittenAsItIsRead) {
     for (const char* text : {"7", "1-4", "1-3,7,9-10", "-5--3,-1-2", "4,3,2"})
@@ -71,16 +67,8 @@ class FarmTest : public testing::Test {
         words_ = {scene_, "--frames", "1-10", "--size", "32x24", "--gather", "16", "--spp", "1", "--checkpoint", "60"};
     }
 
-    Ended run(const std::string& command, Words more) const {
-        Words all = command == "farm" ? Words{"farm"} : Words{command};
-        all.insert(all.end(), more.begin(), more.end());
-        return StartedProgram(all, folder_ / "log").wait();
-    }
-    Words with(Words begin, const Words& end) const {
-        begin.insert(begin.end(), words_.begin(), words_.end());
-        begin.insert(begin.end(), end.begin(), end.end());
-        return begin;
-    }
+    Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
+    Words with(const Words& begin, const Words& end) const { return joined(joined(begin, words_), end); }
     /// Runs a task of the first round as a scheduler does.
     int run_task(int task, const std::string& round = "1") const {
         const std::string command = "cd / && SLURM_ARRAY_TASK_ID=" + std::to_string(task) + " bash " +
@@ -101,9 +89,9 @@ class FarmTest : public testing::Test {
 };
 
 TEST_F(FarmTest, WhateverTheTasksTheFramesAreThoseOfOneProcess) {
-    ASSERT_EQ(run("render", with({}, {"-o", folder_ / "whole/", "-q"})).code, 0);
+    ASSERT_EQ(run(with({"render"}, {"-o", folder_ / "whole/", "-q"})).code, 0);
     const fs::path stats = folder_ / "stats.json";
-    const Ended written = run("farm", with({"slurm"}, {"-o", out_ / "", "--stats", stats, "--tasks", "4"}));
+    const Ended written = run(with({"farm", "slurm"}, {"-o", out_ / "", "--stats", stats, "--tasks", "4"}));
     ASSERT_EQ(written.code, 0) << written.err;
     EXPECT_EQ(status(), "frames: 0 of 10 finished\nmissing: 10 (1-10)\n");
     EXPECT_EQ(code_, 1);
@@ -135,8 +123,8 @@ TEST_F(FarmTest, WhateverTheTasksTheFramesAreThoseOfOneProcess) {
 }
 
 TEST_F(FarmTest, MapsAndStudiesAreDividedToo) {
-    const Ended written = run("farm", {"slurm", scene_, "--frames", "1-4", "--size", "32x24", "-o", out_ / "",
-                                       "--tasks", "2", "--command", "maps"});
+    const Ended written = run({"farm", "slurm", scene_, "--frames", "1-4", "--size", "32x24", "-o", out_ / "",
+                               "--tasks", "2", "--command", "maps"});
     ASSERT_EQ(written.code, 0) << written.err;
     EXPECT_EQ(run_task(0), 0);
     EXPECT_EQ(run_task(1), 0);
@@ -146,7 +134,7 @@ TEST_F(FarmTest, MapsAndStudiesAreDividedToo) {
     const fs::path file = folder_ / "study.json", study = folder_ / "study";
     std::ofstream(file) << R"({"scenes": [{"scene": ")" << scene_.string() << R"(", "frames": "1,2"}], "size": "16x12",
         "reference": {"passes": 2, "spp": 1}, "sweep": {"spp": [1, 2]}})";
-    ASSERT_EQ(run("farm", {"slurm", file, "-o", study, "--tasks", "3", "-t", "1"}).code, 0);
+    ASSERT_EQ(run({"farm", "slurm", file, "-o", study, "--tasks", "3", "-t", "1"}).code, 0);
     for (const int task : {2, 1, 0}) {
         const std::string command = "bash " + (study / "farm/task.1.sh").string() + " " + std::to_string(task);
         EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << task;
@@ -159,14 +147,10 @@ TEST_F(FarmTest, MapsAndStudiesAreDividedToo) {
 }
 
 TEST_F(FarmTest, WhatCannotBeDividedIsRefused) {
-    const auto refused = [&](const Words& words, const std::string& part) {
-        const Ended ended = StartedProgram(words, folder_ / "log").wait();
-        EXPECT_EQ(ended.code, 2) << ended.err;
-        EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
-    };
+    const auto refused = [&](const Words& words, const std::string& part) { expect_answer(run(words), 2, part); };
     refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "0"}), "--tasks: expected 1 to");
     refused(with({"farm", "slurm"}, {"--tasks", "2"}), "--output: name the files");
-    refused(with({"farm", "slurm"}, {"-o", out_ / "one.exr", "--tasks", "2"}), "--output");
+    refused(with({"farm", "slurm"}, {"-o", out_ / "one.exr", "--tasks", "2"}), "need a number in the name");
     refused(with({"farm", "slurm"}, {"-o", out_ / "a.####.flo", "--command", "maps", "--tasks", "2"}), "--output");
     refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "2", "--taks", "3"}),
             "there is no option --taks; did you mean \"--tasks\"");

@@ -1,14 +1,12 @@
 // Films whose render is stopped or killed, is divided among processes, or whose ffmpeg fails.
 
+#include "tests/render/cli/answers.h"
 #include "tests/support/film_programs.h"
-#include "tests/support/started_program.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Words = std::vector<std::string>;
 
 class StoppedFilm : public testing::Test {
   protected:
@@ -18,10 +16,8 @@ class StoppedFilm : public testing::Test {
     }
 
     Words words(const std::string& output, const Words& more = {}) const {
-        Words words{"render", folder_ / "scene.json", "-o", folder_ / "out" / output, "-t", "1", "--frames", "1-6"};
-        words.insert(words.end(), {"--size", "32x24", "--gather", "16", "--spp", "1"});
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
+        const Words words{"render", folder_ / "scene.json", "-o", folder_ / "out" / output, "-t", "1"};
+        return joined(joined(words, {"--frames", "1-6", "--size", "32x24", "--gather", "16", "--spp", "1"}), more);
     }
     Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
 
@@ -62,9 +58,7 @@ TEST_F(StoppedFilm, KilledAnywhereAResumedRenderCompletesIt) {
         EXPECT_EQ(names_in(folder_ / "out"), Words{"film.mp4"});
     }
     const ino_t before = inode_of(folder_ / "out/film.mp4");
-    const Ended again = run(words("film.mp4", {"--resume"}));
-    EXPECT_EQ(again.code, 0);
-    EXPECT_NE(again.err.find("film.mp4 is finished"), std::string::npos) << again.err;
+    expect_answer(run(words("film.mp4", {"--resume"})), 0, "film.mp4 is finished");
     EXPECT_EQ(inode_of(folder_ / "out/film.mp4"), before);
     EXPECT_EQ(names_in(folder_ / "out"), Words{"film.mp4"});
     // A film that is cut is made again.
@@ -87,9 +81,7 @@ TEST_F(StoppedFilm, ProcessesDivideTheFramesAndMakeOneFilm) {
     ASSERT_EQ(run(words("whole.gif", {"-q"})).code, 0);
     const Words both = words("film.gif", {"-q", "--resume"});
     StartedProgram one(both, folder_ / "log1"), other(both, folder_ / "log2");
-    const Ended first = one.wait(), second = other.wait();
-    EXPECT_EQ(first.code, 0) << first.err;
-    EXPECT_EQ(second.code, 0) << second.err;
+    for (StartedProgram* each : {&one, &other}) EXPECT_EQ(each->wait().code, 0);
     EXPECT_TRUE(read_bytes(folder_ / "out/film.gif") == read_bytes(folder_ / "out/whole.gif"));
     Words left = names_in(folder_ / "out");
     std::erase(left, ".film.gif.frames");  // empty: whether it stays depends on who ends last
@@ -109,7 +101,7 @@ TEST_F(StoppedFilm, AnFfmpegThatFailsIsQuotedAndTheFramesAreKept) {
         const ScopedPath path(folder_ / "bin");
         const Ended ended = run(words("film.mp4", {"-q"}));
         EXPECT_EQ(ended.code, 1);
-        EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(part));
         EXPECT_LT(ended.err.size(), 5000u);
         EXPECT_EQ(ended.err.find('\033'), std::string::npos);
         EXPECT_EQ(names_in(folder_ / "out"), Words{".film.mp4.frames"});
@@ -131,9 +123,7 @@ TEST_F(StoppedFilm, AnFfmpegThatHangsIsKilledByASignal) {
     const pid_t ffmpeg = std::stoi(read_bytes(folder_ / "started/id"));
     EXPECT_EQ(::kill(ffmpeg, 0), 0);
     program.send(SIGINT);
-    const Ended ended = program.wait();
-    EXPECT_EQ(ended.code, 130);
-    EXPECT_NE(ended.err.find("all frames are finished, the film is not"), std::string::npos) << ended.err;
+    expect_answer(program.wait(), 130, "all frames are finished, the film is not");
     EXPECT_NE(::kill(ffmpeg, 0), 0);
     EXPECT_EQ(names_in(folder_ / "out"), Words{".film.mp4.frames"});
 }

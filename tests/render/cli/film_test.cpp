@@ -1,14 +1,12 @@
 // Films: their frames, rate, size and colours; what is refused, and what is left behind.
 
+#include "tests/render/cli/answers.h"
 #include "tests/support/film_programs.h"
-#include "tests/support/started_program.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Words = std::vector<std::string>;
 
 /// A coloured box that passes coloured walls in nine frames.
 void write_passing_box(const fs::path& path) {
@@ -21,32 +19,25 @@ void write_passing_box(const fs::path& path) {
          "material": {"base_color": [0.1, 0.8, 0.2]}}]})";
 }
 
-class Film : public testing::Test {
+class Films : public testing::Test {
   protected:
-    Film() {
+    Films() {
         write_passing_box(folder_ / "scene.json");
         fs::create_directory(folder_ / "out");
     }
 
     Words words(const std::string& command, const std::string& output, const Words& more = {}) const {
-        Words words{command, folder_ / "scene.json", "-o", folder_ / "out" / output, "-t", "2"};
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
-    }
-    Words render_words(const std::string& output, const Words& more = {}) const {
-        Words words = this->words("render", output, {"--size", "64x48", "--gather", "16", "--spp", "4"});
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
+        return joined({command, folder_ / "scene.json", "-o", folder_ / "out" / output, "-t", "2"}, more);
     }
     Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
-    Ended render(const std::string& output, const Words& more = {}) const { return run(render_words(output, more)); }
+    Ended render(const std::string& output, const Words& more = {}) const {
+        return run(words("render", output, joined({"--size", "64x48", "--gather", "16", "--spp", "4"}, more)));
+    }
 
     /// The frame as a PNG file of the same command.
     ChannelImage png(int frame, const Words& more = {}) const {
         const std::string name = fmt::format("../f{}.png", frame);
-        Words with = more;
-        with.insert(with.end(), {"--frames", std::to_string(frame)});
-        EXPECT_EQ(render(name, with).code, 0);
+        EXPECT_EQ(render(name, joined(more, {"--frames", std::to_string(frame)})).code, 0);
         return read_image(folder_ / "out" / name);
     }
     Words left() const { return names_in(folder_ / "out"); }
@@ -54,15 +45,13 @@ class Film : public testing::Test {
     const ScratchFolder folder_;
 };
 
-TEST_F(Film, HasTheFramesOfThePictures) {
+TEST_F(Films, HasTheFramesOfThePictures) {
     std::vector<ChannelImage> expected;
     for (const int frame : {4, 5, 6}) expected.push_back(png(frame));
     for (const std::string ending : {"mp4", "webm", "gif"}) {
         SCOPED_TRACE(ending);
         const std::string name = "film." + ending;
-        const Ended ended = render(name, {"--frames", "4-6"});
-        ASSERT_EQ(ended.code, 0) << ended.err;
-        EXPECT_NE(ended.err.find(": 3 frames of 64x48, 30000/1001 a second\n"), std::string::npos) << ended.err;
+        expect_answer(render(name, {"--frames", "4-6"}), 0, ": 3 frames of 64x48, 30000/1001 a second\n");
         EXPECT_EQ(left(), Words{name});
         const fs::path film = folder_ / "out" / name;
         const std::vector<ChannelImage> frames = decode_film(film);
@@ -80,7 +69,7 @@ TEST_F(Film, HasTheFramesOfThePictures) {
     }
 }
 
-TEST_F(Film, LastsAsLongAsItsFramesWhereSomeAreLeftOut) {
+TEST_F(Films, LastsAsLongAsItsFramesWhereSomeAreLeftOut) {
     ASSERT_EQ(render("film.mp4", {"--frames", "1-9x4"}).code, 0);
     EXPECT_EQ(probe_film(folder_ / "out/film.mp4", "r_frame_rate,avg_frame_rate,nb_read_frames"),
               "7500/1001,7500/1001,3");
@@ -88,11 +77,11 @@ TEST_F(Film, LastsAsLongAsItsFramesWhereSomeAreLeftOut) {
     EXPECT_EQ(probe_film(folder_ / "out/one.mov", "codec_name,r_frame_rate,nb_read_frames"), "h264,30000/1001,1");
 }
 
-TEST_F(Film, OddSizesRepeatTheLastColumnAndRow) {
+TEST_F(Films, OddSizesRepeatTheLastColumnAndRow) {
     const Words odd{"--size", "63x47"};
     const Ended ended = render("film.mp4", {"--frames", "5", "--size", "63x47"});
     ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_NE(ended.err.find("63x47, 30000/1001 a second; the last column or row stands twice"), std::string::npos);
+    EXPECT_THAT(ended.err, HasSubstr("63x47, 30000/1001 a second; the last column or row stands twice"));
     const std::vector<ChannelImage> frames = decode_film(folder_ / "out/film.mp4");
     ASSERT_EQ(frames.size(), 1u);
     ASSERT_EQ(frames[0].find("R")->width, 64);
@@ -106,7 +95,7 @@ TEST_F(Film, OddSizesRepeatTheLastColumnAndRow) {
     }
 }
 
-TEST_F(Film, OfMapsHasThePicturesOfMaps) {
+TEST_F(Films, OfMapsHasThePicturesOfMaps) {
     // The last frame has the motion of the one before; their pictures have one size.
     ASSERT_EQ(run(words("maps", "maps.mp4", {"--size", "64x48", "--frames", "8-9"})).code, 0);
     ASSERT_EQ(run(words("maps", "../m.png", {"--size", "64x48", "--frames", "9"})).code, 0);
@@ -116,7 +105,7 @@ TEST_F(Film, OfMapsHasThePicturesOfMaps) {
     EXPECT_EQ(left(), Words{"maps.mp4"});
 }
 
-TEST_F(Film, WhatCannotBeAFilmIsRefusedAndLeavesNothing) {
+TEST_F(Films, WhatCannotBeAFilmIsRefusedAndLeavesNothing) {
     const std::vector<std::tuple<std::string, Words, std::string>> cases{
         {"film.mp5", {}, "the extension .mp5 is not known; possible are .exr, .png and .hdr"},
         {"film.####.mp4", {}, "a film has no frame number"},
@@ -126,20 +115,15 @@ TEST_F(Film, WhatCannotBeAFilmIsRefusedAndLeavesNothing) {
         {"film.mp4", {"--stats", folder_ / "out/film.mp4"}, "is written twice"},
         {"film.mp4", {"--camera", "nobody"}, "nobody"}};
     for (const auto& [name, more, part] : cases) {
-        const Ended ended = render(name, more);
-        EXPECT_EQ(ended.code, 2) << name;
-        EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
+        expect_answer(render(name, more), 2, part);
         EXPECT_EQ(left(), Words{}) << part;
     }
 }
 
-TEST_F(Film, WithoutFfmpegNothingIsRendered) {
+TEST_F(Films, WithoutFfmpegNothingIsRendered) {
     const ScopedPath path(folder_.path());
-    const Ended ended = render("new/film.mp4");
-    EXPECT_EQ(ended.code, 1);
-    EXPECT_NE(ended.err.find("film.mp4: films are made by the program ffmpeg, which is not in PATH: install it"),
-              std::string::npos)
-        << ended.err;
+    expect_answer(render("new/film.mp4"), 1,
+                  "film.mp4: films are made by the program ffmpeg, which is not in PATH: install it");
     EXPECT_EQ(left(), Words{});
     EXPECT_EQ(render("frame.png", {"--frames", "5"}).code, 0);
 }

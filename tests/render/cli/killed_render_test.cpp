@@ -6,15 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/image/image_file.h"
-#include "tests/support/run_command.h"
-#include "tests/support/started_program.h"
+#include "tests/render/cli/answers.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Words = std::vector<std::string>;
 
 class KilledRender : public testing::Test {
   protected:
@@ -26,15 +23,8 @@ class KilledRender : public testing::Test {
 
     /// A render of small frames.
     Words words(const std::string& frames, const fs::path& output, const Words& more = {}) const {
-        Words words{"render",   folder_ / "scene.json",
-                    "--frames", frames,
-                    "-o",       output,
-                    "--size",   "32x24",
-                    "--gather", "16",
-                    "--spp",    "1",
-                    "-q"};
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
+        const Words words{"render", folder_ / "scene.json", "--frames", frames, "-o", output, "--size", "32x24"};
+        return joined(joined(words, {"--gather", "16", "--spp", "1", "-q"}), more);
     }
     Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
 
@@ -71,9 +61,7 @@ TEST_F(KilledRender, OU07_StoppedBySignalsItLeavesWholeFramesAndNothingElse) {
                                folder_ / "log");
         ASSERT_TRUE(events.wait(IN_MOVED_TO, 2, program));
         program.send(signal);
-        const Ended ended = program.wait();
-        EXPECT_EQ(ended.code, code);
-        EXPECT_NE(ended.err.find("of 5000 frames are finished"), std::string::npos) << ended.err;
+        expect_answer(program.wait(), code, "of 5000 frames are finished");
         const auto names = names_in(folder_ / "out");
         EXPECT_GE(names.size(), 2u);
         for (const std::string& name : names) {
@@ -87,8 +75,8 @@ TEST_F(KilledRender, OU07_StoppedBySignalsItLeavesWholeFramesAndNothingElse) {
 TEST_F(KilledRender, ASecondInterruptEndsItAtOnce) {
     FolderEvents events(folder_ / "out");
     // The frame takes longer than the test: one stage of a million samples.
-    Words endless = words("1", folder_ / "out/f.exr");
-    endless.insert(endless.end(), {"--sampling", "uniform", "--spp", "65536", "--size", "2000x2000"});
+    const Words endless =
+        words("1", folder_ / "out/f.exr", {"--sampling", "uniform", "--spp", "65536", "--size", "2000x2000"});
     StartedProgram program(endless, folder_ / "log");
     ASSERT_TRUE(events.wait(IN_CREATE, 1, program));
     program.send(SIGINT);
@@ -200,9 +188,7 @@ TEST_F(KilledRender, TwoProcessesDivideTheFramesOrRefuse) {
     StartedProgram program(words("1-5000", folder_ / "out/f.####.exr"), folder_ / "log");
     ASSERT_TRUE(events.wait(IN_MOVED_TO, 1, program));
     const auto refused = [&](const Words& words, const std::string& part) {
-        const Ended ended = StartedProgram(words, folder_ / "other").wait();
-        EXPECT_EQ(ended.code, 1);
-        EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
+        expect_answer(StartedProgram(words, folder_ / "other").wait(), 1, part);
     };
     refused(words("4000-4003", folder_ / "out/f.####.exr"), "another process makes this frame");
     refused(words("4000-4003", folder_ / "out/f.####.exr", {"--seed", "2", "--resume"}),
@@ -219,9 +205,7 @@ TEST_F(KilledRender, TwoProcessesDivideTheFramesOrRefuse) {
 TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
     // Later options count. The frame takes seconds, in which it is asked how far it is, stopped, killed and finished.
     const auto long_frame = [&](const fs::path& output, const Words& more) {
-        Words words = this->words("7", output, {"--size", "120x90", "--spp", "150", "--accuracy", "0"});
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
+        return joined(words("7", output, {"--size", "120x90", "--spp", "150", "--accuracy", "0"}), more);
     };
     const fs::path file = folder_ / "out/f.exr", state = folder_ / "out/.f.exr.checkpoint";
     ASSERT_EQ(run(long_frame(folder_ / "whole/f.exr", {})).code, 0);
@@ -235,13 +219,12 @@ TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
         program.send(SIGTERM);
         const Ended ended = program.wait();
         EXPECT_EQ(ended.code, 75);
-        EXPECT_NE(ended.err.find("0 of 1 frames are finished; frame 7: shade"), std::string::npos) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr("0 of 1 frames are finished; frame 7: shade"));
         EXPECT_EQ(names_in(folder_ / "out"), (Words{".f.exr.checkpoint", "f.partial.exr"}));
         EXPECT_EQ(read_image(folder_ / "out/f.partial.exr").channels.size(), 3u);
     }
     const std::string first = read_bytes(state);
-    Words resumed = kept;
-    resumed.push_back("--resume");
+    const Words resumed = joined(kept, {"--resume"});
     {
         FolderEvents events(folder_ / "out");
         StartedProgram program(resumed, folder_ / "log");
@@ -258,10 +241,7 @@ TEST_F(KilledRender, WhatCannotBeResumedIsSaid) {
     for (const Words& more : {Words{"--budget", "10"}, Words{"--verify", "10"}}) {
         Words all = words("1-2", folder_ / "out/f.####.exr", {"--resume"});
         if (more.front() == "--budget") std::erase_if(all, [](const auto& w) { return w == "--spp" || w == "1"; });
-        all.insert(all.end(), more.begin(), more.end());
-        const Ran ran = run_command(all);
-        EXPECT_EQ(ran.code, 2);
-        EXPECT_NE(ran.errors.find("--resume: " + more.front()), std::string::npos) << ran.errors;
+        expect_answer(run_command(all, more), 2, "--resume: " + more.front());
     }
 }
 

@@ -3,9 +3,8 @@
 
 #include "engine/image/image_file.h"
 #include "render/settings/frame_pattern.h"
+#include "tests/render/cli/answers.h"
 #include "tests/support/image_patterns.h"
-#include "tests/support/run_command.h"
-#include "tests/support/scratch_folder.h"
 
 namespace aleph {
 
@@ -41,6 +40,8 @@ struct Frames {
     void write(int frame, const Image<Rgb>& image) const { write_exr(file(frame), as_channels(image)); }
     std::string pattern() const { return (folder / "f.####.exr").string(); }
     std::string out() const { return (folder / "out").string(); }
+    /// Runs `aleph maps` on all of them, into the folder `out`.
+    Ran run(const Words& more = {}) const { return run_maps(joined({"--images", pattern(), "-o", out()}, more)); }
     ChannelImage maps(int frame) const {
         return read_image(folder.path() / "out" / insert_number("f-maps.####.exr", {7, 4, 4}, frame));
     }

@@ -5,9 +5,6 @@
 #include "render/images/image_sequence.h"
 #include "render/settings/frame_pattern.h"
 #include "tests/render/cli/maps_images.h"
-#include "tests/support/image_patterns.h"
-#include "tests/support/scratch_folder.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -19,8 +16,7 @@ void expect_refusal(const std::vector<std::string>& arguments, const std::vector
     const Ran ran = run_maps(arguments);
     EXPECT_EQ(ran.code, 2) << ran.errors;
     EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
-    for (const std::string& part : parts)
-        EXPECT_NE(ran.errors.find(part), std::string::npos) << part << ": " << ran.errors;
+    for (const std::string& part : parts) EXPECT_THAT(ran.errors, HasSubstr(part));
 }
 
 TEST(MapsImages, GapsAreRefusedByName) {
@@ -33,8 +29,8 @@ TEST(MapsImages, GapsAreRefusedByName) {
     expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "1-3"}, {"frame 3 is"});
     expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "9"}, {"frame 9 is not there", "from 1 to 4"});
     EXPECT_FALSE(fs::exists(out));
-    EXPECT_EQ(run_maps({"--images", frames.pattern(), "-o", out, "--frames", "1"}).code, 0);
-    EXPECT_EQ(run_maps({"--images", frames.pattern(), "-o", out, "--cuts", "4"}).code, 0);
+    EXPECT_EQ(frames.run({"--frames", "1"}).code, 0);
+    EXPECT_EQ(frames.run({"--cuts", "4"}).code, 0);
 }
 
 TEST(MapsImages, SizesMustAgree) {
@@ -63,7 +59,6 @@ TEST(MapsImages, RefusesWhatItCannotMean) {
     expect_refusal({"--images", pattern, "--cuts", "x"}, {"--cuts"});
     expect_refusal({"--images", pattern, "--fps", "0"}, {"--fps"});
     expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"write .exr, or .png to look at them"});
-    expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"write .exr"});
     expect_refusal({"--images", pattern, "-o", pattern}, {"--output", "is read by this command"});
     expect_refusal({"scene.json", "--cuts", "3"}, {"--cuts"});
 }
@@ -77,8 +72,6 @@ TEST(MapsImages, UnreadablePicturesAreNamed) {
     write_exr(frames.file(2), depth);
     expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0002.exr", "channels R, G and B"});
 }
-
-namespace fs = std::filesystem;
 
 TEST(MapsImages, FindsFilesByPattern) {
     const ScratchFolder folder;

@@ -3,7 +3,6 @@
 #include "engine/image/image_file.h"
 #include "render/images/image_sequence.h"
 #include "tests/render/cli/maps_images.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -36,10 +35,9 @@ Image<float>& channel(ChannelImage& file, const std::string& name) {
 
 /// Writes frames 1 and 2, and runs maps on them.
 template <class Make>
-Ran maps_of(const Frames& frames, const Make& make, std::vector<std::string> options = {}) {
+Ran maps_of(const Frames& frames, const Make& make, const Words& options = {}) {
     for (const int frame : {1, 2}) write_exr(frames.file(frame), make(frame));
-    options.insert(options.begin(), {"--images", frames.pattern(), "-o", frames.out()});
-    return run_maps(options);
+    return frames.run(options);
 }
 
 TEST(MapsLayers, BlendersPassesAreReadWithTheirSigns) {
@@ -65,8 +63,7 @@ TEST(MapsLayers, BlendersPassesAreReadWithTheirSigns) {
         EXPECT_EQ(at("motion.valid", width - 1, 30), -2.0f) << "leaves the picture";
         EXPECT_EQ(maps.find("estimate.G")->pixels, as_channels(picture(frame)).channels[1].values.pixels);
         EXPECT_NEAR(at("velocity.image", 30, 30), std::hypot(3.0, 2.0) / 31.0 * 30.0, 1e-4);
-        EXPECT_NE(std::get<std::string>(maps.metadata.at("motion:definition")).find("the picture's file"),
-                  std::string::npos);
+        EXPECT_THAT(std::get<std::string>(maps.metadata.at("motion:definition")), HasSubstr("the picture's file"));
     }
 }
 
@@ -100,10 +97,8 @@ TEST(MapsLayers, OurOwnMotionComesBackAsItWas) {
 TEST(MapsLayers, FramesWithMotionMayHaveGaps) {
     const Frames frames(1, 0);
     for (const int frame : {1, 5}) write_exr(frames.file(frame), blender_frame(frame));
-    EXPECT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out()}).code, 0);
-    const Ran compared = run_maps({"--images", frames.pattern(), "-o", frames.out(), "--motion-layer", "none"});
-    EXPECT_EQ(compared.code, 2);
-    EXPECT_NE(compared.errors.find("frames 2 to 4 are missing"), std::string::npos) << compared.errors;
+    EXPECT_EQ(frames.run().code, 0);
+    expect_answer(frames.run({"--motion-layer", "none"}), 2, "frames 2 to 4 are missing");
 }
 
 TEST(MapsLayers, NoneComparesThePictures) {
@@ -123,12 +118,9 @@ TEST(MapsLayers, LayersAreChosenByName) {
         for (const char* c : {"X", "Y", "Z", "W"}) add_flat(file, std::string("Other.Speed.") + c, 1.0f);
         return file;
     };
-    const Ran unclear = maps_of(frames, several);
-    EXPECT_EQ(unclear.code, 2);
-    EXPECT_NE(unclear.errors.find("several layers hold colour: Other.Combined, ViewLayer.Combined; choose one with "
-                                  "--layer"),
-              std::string::npos)
-        << unclear.errors;
+    expect_answer(maps_of(frames, several), 2,
+                  "several layers hold colour: Other.Combined, ViewLayer.Combined; choose one with "
+                  "--layer");
     ASSERT_EQ(maps_of(frames, several, {"--layer", "Other.Combined", "--motion-layer", "Other.Speed"}).code, 0);
     EXPECT_EQ(frames.maps(1).find("estimate.R")->pixels, as_channels(picture(8)).channels[0].values.pixels);
     EXPECT_EQ((*frames.maps(1).find("forward.u"))(30, 30), -1.0f);
@@ -136,10 +128,8 @@ TEST(MapsLayers, LayersAreChosenByName) {
 
 TEST(MapsLayers, WhatIsNotThereIsRefused) {
     const Frames frames(1, 0);
-    const auto refused = [&](std::vector<std::string> options, const std::string& message) {
-        const Ran ran = maps_of(frames, blender_frame, std::move(options));
-        EXPECT_EQ(ran.code, 2);
-        EXPECT_NE(ran.errors.find(message), std::string::npos) << ran.errors;
+    const auto refused = [&](const Words& options, const std::string& message) {
+        expect_answer(maps_of(frames, blender_frame, options), 2, message);
         EXPECT_FALSE(std::filesystem::exists(frames.out())) << "written before the layer was looked for";
     };
     refused({"--layer", "ViewLayer.Combind"}, "did you mean \"ViewLayer.Combined\"");
@@ -150,10 +140,8 @@ TEST(MapsLayers, WhatIsNotThereIsRefused) {
 
 TEST(MapsLayers, AFrameWithoutMotionAmongFramesWithIt) {
     const Frames frames(1, 0);
-    const Ran ran =
-        maps_of(frames, [](int frame) { return frame == 1 ? blender_frame(1) : in_layer("ViewLayer.Combined", 2); });
-    EXPECT_EQ(ran.code, 2);
-    EXPECT_NE(ran.errors.find("f.0002.exr: this frame has no motion"), std::string::npos) << ran.errors;
+    const auto make = [](int frame) { return frame == 1 ? blender_frame(1) : in_layer("ViewLayer.Combined", 2); };
+    expect_answer(maps_of(frames, make), 2, "f.0002.exr: this frame has no motion");
 }
 
 }  // namespace

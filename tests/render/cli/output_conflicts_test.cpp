@@ -2,9 +2,9 @@
 
 #include "render/cli/support/output_conflicts.h"
 #include "engine/image/image_file.h"
+#include "tests/render/cli/answers.h"
 #include "tests/support/files/gltf_draft.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
 
@@ -36,25 +36,17 @@ class Conflicts : public testing::Test {
 
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-    int run(const std::vector<std::string>& words) {
-        const Ran ran = run_command(words);
-        errors_ = ran.errors;
-        return ran.code;
-    }
-
     /// The command is refused, its message has the text, and every file is as before.
-    void expect_refused(const std::vector<std::string>& words, const std::string& text) {
+    void expect_refused(const Words& words, const std::string& text) const {
         const auto before = contents();
-        EXPECT_EQ(run(words), exit_bad_input) << text;
-        EXPECT_NE(errors_.find(text), std::string::npos) << errors_;
-        EXPECT_NE(errors_.find("give another name"), std::string::npos) << errors_;
+        const Ran ran = run_command(words);
+        expect_answer(ran, exit_bad_input, text);
+        EXPECT_THAT(ran.errors, HasSubstr("give another name"));
         EXPECT_EQ(contents(), before) << text;
     }
 
-    void expect_render_refused(std::vector<std::string> more, const std::string& text) {
-        std::vector<std::string> words = {"render", file("sc.json"), "-q", "--size", "8x8", "--frames", "0"};
-        words.insert(words.end(), more.begin(), more.end());
-        expect_refused(words, text);
+    void expect_render_refused(const Words& more, const std::string& text) const {
+        expect_refused(joined({"render", file("sc.json"), "-q", "--size", "8x8", "--frames", "0"}, more), text);
     }
 
     std::map<std::string, std::string> contents() const {
@@ -67,7 +59,6 @@ class Conflicts : public testing::Test {
     }
 
     ScratchFolder folder_;
-    std::string errors_;
 };
 
 TEST_F(Conflicts, NoOutputReplacesAFileOfTheScene) {
@@ -118,10 +109,9 @@ TEST_F(Conflicts, OutputsThatAreHardLinksOfEachOtherAreTwoFiles) {
 }
 
 TEST_F(Conflicts, OtherNamesAreTaken) {
-    EXPECT_EQ(run({"render", file("sc.json"), "-q", "--size", "8x8", "--spp", "1", "--frames", "0", "-o",
-                   file("out.png"), "--stats", file("out.json")}),
-              exit_done)
-        << errors_;
+    const Ran ran = run_command({"render", file("sc.json"), "-q", "--size", "8x8", "--spp", "1", "--frames", "0", "-o",
+                                 file("out.png"), "--stats", file("out.json")});
+    EXPECT_EQ(ran.code, exit_done) << ran.errors;
     EXPECT_TRUE(fs::exists(file("out.png")));
 }
 

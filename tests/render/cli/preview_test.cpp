@@ -1,15 +1,13 @@
 // `aleph preview`: film and sheet of a long shot, lines of motion, and what is left without ffmpeg.
 
-#include "render/output/motion_lines.h"
+#include "render/output/map_preview.h"
+#include "tests/render/cli/answers.h"
 #include "tests/support/film_programs.h"
-#include "tests/support/started_program.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Words = std::vector<std::string>;
 
 class Preview : public testing::Test {
   protected:
@@ -21,18 +19,15 @@ class Preview : public testing::Test {
         fs::create_directory(folder_ / "out");
     }
     Ended run(const std::string& output, const Words& more = {}) const {
-        Words words{"preview", folder_ / "scene.json", "-t", "2", "-o", folder_ / "out" / output};
-        words.insert(words.end(), more.begin(), more.end());
-        return StartedProgram(words, folder_ / "log").wait();
+        const Words words{"preview", folder_ / "scene.json", "-t", "2", "-o", folder_ / "out" / output};
+        return StartedProgram(joined(words, more), folder_ / "log").wait();
     }
 
     const ScratchFolder folder_;
 };
 
 TEST_F(Preview, OfALongShotHasEvenlySpreadFramesAndTheirSheet) {
-    const Ended ended = run("p.mp4");
-    ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_NE(ended.err.find("preview of 60 of 5000 frames\n"), std::string::npos) << ended.err;
+    expect_answer(run("p.mp4"), 0, "preview of 60 of 5000 frames\n");
     EXPECT_EQ(names_in(folder_ / "out"), (Words{"p.mp4", "p.png"}));
     EXPECT_EQ(probe_film(folder_ / "out/p.mp4", "width,height,r_frame_rate,nb_read_frames"), "32,24,5/14,60");
     const ChannelImage sheet = read_image(folder_ / "out/p.png");
@@ -54,23 +49,17 @@ TEST_F(Preview, OfALongShotHasEvenlySpreadFramesAndTheirSheet) {
 
 TEST_F(Preview, TheSheetAloneNeedsNoFfmpeg) {
     const ScopedPath path(folder_.path());
-    const Ended sheet = run("p.png", {"--frames", "7"});
-    EXPECT_EQ(sheet.code, 0) << sheet.err;
+    EXPECT_EQ(run("p.png", {"--frames", "7"}).code, 0);
     EXPECT_EQ(names_in(folder_ / "out"), Words{"p.png"});
     EXPECT_EQ(read_image(folder_ / "out/p.png").find("R")->width, 32);
-    const Ended film = run("p.mp4", {"--frames", "7"});
-    EXPECT_EQ(film.code, 1);
-    EXPECT_NE(film.err.find("ffmpeg, which is not in PATH"), std::string::npos) << film.err;
-    const Ended other = run("p.exr");
-    EXPECT_EQ(other.code, 2);
-    EXPECT_NE(other.err.find("a preview is a film"), std::string::npos) << other.err;
+    expect_answer(run("p.mp4", {"--frames", "7"}), 1, "ffmpeg, which is not in PATH");
+    expect_answer(run("p.exr"), 2, "a preview is a film");
     // Where no name is given, the sheet is made.
     const fs::path before = fs::current_path();
     fs::current_path(folder_ / "out");
     const Ended unnamed = StartedProgram({"preview", folder_ / "scene.json", "--frames", "7"}, folder_ / "log").wait();
     fs::current_path(before);
-    EXPECT_EQ(unnamed.code, 0);
-    EXPECT_NE(unnamed.err.find("warning: the sheet of frames is made, and no film"), std::string::npos) << unnamed.err;
+    expect_answer(unnamed, 0, "warning: the sheet of frames is made, and no film");
     const Words names = names_in(folder_ / "out");
     ASSERT_EQ(names.size(), 2u);
     EXPECT_TRUE(names[0].ends_with(".preview.png")) << names[0];

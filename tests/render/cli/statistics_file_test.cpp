@@ -4,7 +4,7 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
-#include "render/cli/support/copied_frames.h"
+#include "render/cli/frame_writer.h"
 #include "render/cli/support/statistics_file.h"
 #include "tests/support/test.h"
 
@@ -93,13 +93,6 @@ TEST_F(StatisticsFileTest, RowsOfFinishedFramesSurvive) {
     EXPECT_TRUE(read_statistics_rows(path_.parent_path() / "no such file").empty());
     std::ofstream(path_) << "no JSON";
     EXPECT_TRUE(read_statistics_rows(path_).empty());
-}
-
-TEST_F(StatisticsFileTest, WithoutANameThereIsNoFile) {
-    StatisticsFile file("", scene_, settings_, 1.0);
-    file.add(0, frame(1), "");
-    file.note(frame(1), "");
-    EXPECT_NO_THROW(file.finish());
 }
 
 TEST_F(StatisticsFileTest, LooksLikeAnyOtherJson) {

@@ -6,14 +6,12 @@
 #include <sys/socket.h>
 
 #include "engine/image/image_file.h"
-#include "tests/support/started_program.h"
+#include "tests/render/cli/answers.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Words = std::vector<std::string>;
 
 /// What a program writes into a file, as it comes.
 class LogLines {
@@ -85,8 +83,19 @@ class FakeViewer {
     int port_ = 0;
 };
 
+constexpr const char* watching = "; Ctrl-C ends\n";
+
 class Watch : public testing::Test {
   protected:
+    /// Starts a watched render of a scene with a lamp and a painted wall.
+    StartedProgram start(const Words& more) const {
+        put_lamp("lamp.gltf", "[1, 1, 1]");
+        put_paint(Rgb(0.8f));
+        put_scene("lamp.gltf");
+        const Words words{"render", folder_ / "scene.json", "--size", "16x12", "--spp", "1", "--gather", "4",
+                          "--watch"};
+        return StartedProgram(joined(words, more), folder_ / "log");
+    }
     /// A file in place of another, as editors write it.
     void put(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / (name + "~")) << text;
@@ -119,16 +128,9 @@ class Watch : public testing::Test {
     const ScratchFolder folder_;
 };
 
-constexpr const char* watching = "; Ctrl-C ends\n";
-
 TEST_F(Watch, RendersAgainWhenAFileOfTheSceneChanges) {
-    put_lamp("lamp.gltf", "[1, 1, 1]");
-    put_paint(Rgb(0.8f));
-    put_scene("lamp.gltf");
     const LogLines log(folder_ / "log");
-    StartedProgram program({"render", folder_ / "scene.json", "--frames", "0", "--size", "16x12", "--spp", "1",
-                            "--gather", "4", "-o", folder_ / "out.png", "--watch"},
-                           folder_ / "log");
+    StartedProgram program = start({"--frames", "0", "-o", folder_ / "out.png"});
     ASSERT_TRUE(log.wait(watching, 1, program));
     EXPECT_NEAR(color().r, color().b, 0.02f);
     put_lamp("lamp.gltf", "[1, 0, 0]");
@@ -137,13 +139,13 @@ TEST_F(Watch, RendersAgainWhenAFileOfTheSceneChanges) {
     put_paint(Rgb(0.0f));
     ASSERT_TRUE(log.wait(watching, 3, program));
     EXPECT_LT(color().r, 0.05f);  // what black paint reflects
-    EXPECT_NE(read_bytes(folder_ / "log").find("paint.png has changed"), std::string::npos);
+    EXPECT_THAT(read_bytes(folder_ / "log"), HasSubstr("paint.png has changed"));
     put_lamp("lamp.gltf", "[1, 0, ");  // broken
     ASSERT_TRUE(log.wait(watching, 4, program));
-    EXPECT_NE(read_bytes(folder_ / "log").find("aleph: error: "), std::string::npos);
+    EXPECT_THAT(read_bytes(folder_ / "log"), HasSubstr("aleph: error: "));
     put_scene("absent.gltf");
     ASSERT_TRUE(log.wait(watching, 5, program));
-    EXPECT_NE(read_bytes(folder_ / "log").find("there is no file"), std::string::npos);
+    EXPECT_THAT(read_bytes(folder_ / "log"), HasSubstr("there is no file"));
     put_paint(Rgb(0.8f));
     put_lamp("absent.gltf", "[0, 0, 1]");  // that was missing
     ASSERT_TRUE(log.wait(watching, 6, program));
@@ -153,14 +155,9 @@ TEST_F(Watch, RendersAgainWhenAFileOfTheSceneChanges) {
 }
 
 TEST_F(Watch, AViewerShowsTheFileAndReadsItAgain) {
-    put_lamp("lamp.gltf", "[1, 1, 1]");
-    put_paint(Rgb(0.8f));
-    put_scene("lamp.gltf");
     const FakeViewer viewer;
     const LogLines log(folder_ / "log");
-    StartedProgram program({"render", folder_ / "scene.json", "--frames", "0", "--size", "16x12", "--spp", "1",
-                            "--gather", "4", "-o", folder_ / "out.png", "--watch", "--viewer", viewer.address()},
-                           folder_ / "log");
+    StartedProgram program = start({"--frames", "0", "-o", folder_ / "out.png", "--viewer", viewer.address()});
     const std::string path = fs::absolute(folder_ / "out.png").string();
     const auto packet = [&](char operation, char to_front) {
         const std::string body = std::string{operation, to_front} + path + '\0';
@@ -199,14 +196,9 @@ TEST_F(Watch, AChangeEndsTheRenderThatIsUnderWay) {
 }
 
 TEST_F(Watch, WrongOptionsEndItAtOnce) {
-    put_lamp("lamp.gltf", "[1, 1, 1]");
-    put_paint(Rgb(0.8f));
-    put_scene("lamp.gltf");
     for (const Words& wrong : {Words{"--frames", "never"}, Words{"-o", folder_ / "x.jpg"}, Words{"--fps", "x"},
                                Words{"--viewer", "14158"}, Words{"--viewer", "here:14158x"}}) {
-        Words words{"render", folder_ / "scene.json", "--watch"};
-        words.insert(words.end(), wrong.begin(), wrong.end());
-        EXPECT_EQ(StartedProgram(words, folder_ / "log").wait().code, 2) << wrong[0];
+        EXPECT_EQ(start(wrong).wait().code, 2) << wrong[0];
     }
 }
 

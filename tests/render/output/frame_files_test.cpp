@@ -34,48 +34,13 @@ struct Rendered {
 
 TEST(FrameFiles, HaveEveryChannel) {
     const ChannelImage file = Rendered(10).image();
-    for (const char* name : {"R",
-                             "G",
-                             "B",
-                             "A",
-                             "forward.u",
-                             "forward.v",
-                             "motion.valid",
-                             "backward.u",
-                             "backward.v",
-                             "backward.valid",
-                             "velocity.image",
-                             "velocity.retinal",
-                             "saliency.Y",
-                             "conspicuity.intensity",
-                             "conspicuity.color",
-                             "conspicuity.orientation",
-                             "conspicuity.motion",
-                             "aleph.Y",
-                             "alpha.acc",
-                             "threshold.Y",
-                             "threshold.noise",
-                             "estimate.R",
-                             "estimate.G",
-                             "estimate.B",
-                             "Z",
-                             "N.X",
-                             "N.Y",
-                             "N.Z",
-                             "objectId.X",
-                             "albedo.R",
-                             "albedo.G",
-                             "albedo.B",
-                             "effects.R",
-                             "effects.G",
-                             "effects.B",
-                             "samples.Y",
-                             "records.Y",
-                             "cache.count",
-                             "cache.radius",
-                             "invalid.Y"}) {
-        EXPECT_NE(file.find(name), nullptr) << name;
-    }
+    std::istringstream names(
+        "R G B A forward.u forward.v motion.valid backward.u backward.v backward.valid velocity.image "
+        "velocity.retinal saliency.Y conspicuity.intensity conspicuity.color conspicuity.orientation "
+        "conspicuity.motion aleph.Y alpha.acc threshold.Y threshold.noise estimate.R estimate.G estimate.B Z "
+        "N.X N.Y N.Z objectId.X albedo.R albedo.G albedo.B effects.R effects.G effects.B samples.Y records.Y "
+        "cache.count cache.radius invalid.Y");
+    for (std::string name; names >> name;) EXPECT_NE(file.find(name), nullptr) << name;
     EXPECT_EQ(file.channels.size(), 44u);
     EXPECT_EQ(std::get<double>(file.metadata.at("whiteLuminance")), 100.0);
     EXPECT_EQ((std::get<std::array<int, 2>>(file.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));

@@ -10,6 +10,7 @@
 #include "render/study/pages/report_layers.h"
 #include "render/study/pages/report_page.h"
 #include "render/study/pages/viewer_page.h"
+#include "tests/render/expect_fields.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
@@ -83,9 +84,7 @@ TEST(ReportLayers, KeepToTheirSize) {
     ReportLayers layers(2 * one + one / 2);
     EXPECT_FALSE(layers.add({&image}, LayerType::f32).is_null());
     const Json second = layers.add({&image}, LayerType::f32);
-    EXPECT_EQ(second["element"], "layer-1");
-    EXPECT_EQ(second["width"], 64);
-    EXPECT_EQ(second["type"], "f32");
+    expect_fields(second, R"({"element": "layer-1", "width": 64, "type": "f32"})");
     EXPECT_TRUE(layers.add({&image}, LayerType::f32).is_null());
     EXPECT_EQ(layers.left_out(), 1u);
 }
@@ -137,10 +136,8 @@ TEST(ReportPage, HoldsPicturesAndMaps) {
     const ReportDraft draft(folder);
     const std::string page = make_report(page_draft, draft.json, draft.results);
     const Json data = data_of(page);
-    EXPECT_EQ(data["title"], "</script><b>") << "a text does not end the script";
-    EXPECT_EQ(data["frames"], Json::array({7}));
-    EXPECT_EQ(data["scene"], "noise");
-    EXPECT_EQ(data["layers_left_out"], 0);
+    // A text does not end the script.
+    expect_fields(data, R"({"title": "</script><b>", "frames": [7], "scene": "noise", "layers_left_out": 0})");
     EXPECT_EQ(data["pictures"][0]["maps"]["threshold.Y"]["channels"], 1);
     const Json picture = data["variants"][1]["frames"][0]["picture"];
     EXPECT_EQ(picture["channels"], 3);
@@ -222,22 +219,18 @@ TEST(ViewerPage, HoldsSequencesWithTheirLevels) {
     const std::string start = "<script id=\"test\" type=\"application/json\">";
     ASSERT_TRUE(page.starts_with(start));
     const auto json = nlohmann::json::parse(page.substr(start.size(), page.find("</script>") - start.size()));
-    EXPECT_EQ(json["title"], "</script>");
-    EXPECT_EQ(json["width"], 16);
+    expect_fields(json, R"({"title": "</script>", "width": 16})");
     ASSERT_EQ(json["series"].size(), 3u);
-    EXPECT_EQ(json["series"][0]["id"], "noise");
-    EXPECT_EQ(json["series"][0]["log"], false) << "a level of 0";
+    expect_fields(json["series"][0], R"({"id": "noise", "log": false})");  // a level of 0
     EXPECT_EQ(json["series"][1]["log"], true);
     EXPECT_EQ(json["series"][2]["title"], "spp") << "the first sweep with numbers";
     ASSERT_EQ(json["scenes"].size(), 1u);
     const auto& scene = json["scenes"][0];
-    EXPECT_EQ(scene["frames_per_second"], 30.0);
-    EXPECT_EQ(scene["display_white"], 250.0) << "of the study";
+    expect_fields(scene, R"({"frames_per_second": 30, "display_white": 250})");
     EXPECT_EQ(scene["reference"].size(), 2u);
     const auto& tests = scene["tests"];
     ASSERT_EQ(tests.size(), 4u);
-    EXPECT_EQ(tests[1]["series"], "spp");
-    EXPECT_EQ(tests[1]["level"], 2.0);
+    expect_fields(tests[1], R"({"series": "spp", "level": 2})");
     EXPECT_EQ(tests[1]["frames"].size(), 2u);
     const std::string link = tests[0]["frames"][0];
     EXPECT_TRUE(link.starts_with("data:image/png;base64,iVBOR")) << link.substr(0, 40);

@@ -1,6 +1,9 @@
 // Studies of a small picture: what is run, what is kept, and that a stopped study ends with the same numbers.
 
 #include "render/study/run_study.h"
+
+#include <gmock/gmock.h>
+
 #include "render/study/study_file.h"
 #include "render/study/threshold_noise.h"
 #include "tests/support/paths.h"
@@ -270,31 +273,19 @@ TEST(RunStudy, DamagedRunsAreNamed) {
 }
 
 TEST(RunStudy, ChecksEverythingBeforeItRenders) {
-    const auto error_of = [](Study study) -> std::string {
-        return find_refusal([&] { prepare_study(std::move(study)); }).message;
+    const auto expect = [](const char* part, void (*change)(Study&)) {
+        Study study = small_study();
+        change(study);
+        EXPECT_THAT(find_refusal([&] { prepare_study(std::move(study)); }).message, testing::HasSubstr(part));
     };
-    Study study = small_study();
-    EXPECT_EQ(error_of(study), "");
-    study.sweep.push_back({"gathr", {1.0}});
-    EXPECT_NE(error_of(study).find("gather"), std::string::npos) << "did you mean";
-    study = small_study();
-    study.sweep[0].values.push_back(-4.0);
-    EXPECT_NE(error_of(study).find("spp"), std::string::npos);
-    study = small_study();
-    study.variants.push_back({"large", {{"size", "64x48"}}});
-    EXPECT_NE(error_of(study).find("one size"), std::string::npos);
-    study = small_study();
-    study.variants.push_back({"other noise", {{"seed", 3.0}}});
-    EXPECT_NE(error_of(study).find("seeds"), std::string::npos);
-    study = small_study();
-    study.viewers.push_back({"bad", {{"vision", "cat"}}});
-    EXPECT_NE(error_of(study).find("vision"), std::string::npos);
-    study = small_study();
-    study.scenes.push_back(study.scenes[0]);
-    EXPECT_NE(error_of(study).find("two scenes"), std::string::npos);
-    study = small_study();
-    study.scenes[0].file = "no/such.json";
-    EXPECT_NE(error_of(study).find("no/such.json"), std::string::npos);
+    EXPECT_NO_THROW(prepare_study(small_study()));
+    expect("did you mean \"gather\"", [](Study& study) { study.sweep.push_back({"gathr", {1.0}}); });
+    expect("spp", [](Study& study) { study.sweep[0].values.push_back(-4.0); });
+    expect("one size", [](Study& study) { study.variants.push_back({"large", {{"size", "64x48"}}}); });
+    expect("seeds", [](Study& study) { study.variants.push_back({"other noise", {{"seed", 3.0}}}); });
+    expect("vision", [](Study& study) { study.viewers.push_back({"bad", {{"vision", "cat"}}}); });
+    expect("two scenes", [](Study& study) { study.scenes.push_back(study.scenes[0]); });
+    expect("no/such.json", [](Study& study) { study.scenes[0].file = "no/such.json"; });
 }
 
 }  // namespace

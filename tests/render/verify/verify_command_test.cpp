@@ -3,8 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "render/cli/verify.h"
+#include "tests/render/cli/answers.h"
+#include "tests/render/expect_fields.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/run_command.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -23,22 +24,20 @@ class VerifyCommand : public RenderCommand {
 TEST_F(VerifyCommand, WrongOnesAreRefused) {
     for (const char* text : {"0", "-1", "nan", "inf", "", "8 probes"}) {
         EXPECT_EQ(run({"--verify", text}), exit_bad_input) << text;
-        EXPECT_NE(errors.find("--verify"), std::string::npos) << errors;
+        EXPECT_THAT(errors, HasSubstr("--verify"));
         EXPECT_FALSE(fs::exists(file("a.exr"))) << text;
     }
     EXPECT_EQ(run({"--verify", "1", "--integrator", "path"}), exit_bad_input);
-    EXPECT_NE(errors.find("give one of the two"), std::string::npos) << errors;
+    EXPECT_THAT(errors, HasSubstr("give one of the two"));
     EXPECT_FALSE(fs::exists(file("a.exr")));
 }
 
 TEST_F(VerifyCommand, PrintsAndKeepsWhatItFound) {
     ASSERT_EQ(run({"--error", "8", "--verify", "0.01", "--stats", file("a.json")}), exit_done) << errors;
-    EXPECT_NE(out.find("aleph: verified: "), std::string::npos) << out;
-    EXPECT_NE(out.find("4 blocks in 1 frame"), std::string::npos) << out;
+    EXPECT_THAT(out, HasSubstr("aleph: verified: "));
+    EXPECT_THAT(out, HasSubstr("4 blocks in 1 frame"));
     const auto verified = nlohmann::json::parse(read_bytes(file("a.json"))).at("verified");
-    EXPECT_EQ(verified.at("error"), 8.0);
-    EXPECT_EQ(verified.at("blocks"), 4);
-    EXPECT_EQ(verified.at("window"), 3);
+    expect_fields(verified, R"({"error": 8, "blocks": 4, "window": 3})");
     EXPECT_LE(verified.at("beyond").at("share"), verified.at("seen").at("share"));
     EXPECT_LE(verified.at("seen").at("low"), verified.at("seen").at("share"));
     EXPECT_TRUE(verified.at("estimated_beyond").is_number());
@@ -58,9 +57,9 @@ TEST(VerifiedText, HasShareIntervalAndEstimate) {
               "estimated: 0.9 %\n"
               "aleph: verified: 0.2 % flicker, 0.5 % last; by paths of 16 bounces or more, over 9 frames\n");
     verified.unsettled = 1;
-    EXPECT_NE(describe_verified(verified).find("in 1 block noise"), std::string::npos);
+    EXPECT_THAT(describe_verified(verified), HasSubstr("in 1 block noise"));
     verified.error = 2.0;
-    EXPECT_NE(describe_verified(verified).find("differ by more than 2 visible differences"), std::string::npos);
+    EXPECT_THAT(describe_verified(verified), HasSubstr("differ by more than 2 visible differences"));
 }
 
 }  // namespace

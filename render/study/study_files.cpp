@@ -1,4 +1,4 @@
-// The results of a study as JSON.
+// The results of a study as JSON and as comma-separated values.
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -9,9 +9,11 @@
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "render/settings/program_build.h"
+#include "render/settings/fingerprint.h"
 #include "render/study/effects_ledger.h"
+#include "render/study/search_study.h"
 #include "render/study/study_files.h"
 
 namespace aleph {
@@ -21,18 +23,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// null where a value is not finite: JSON has no such numbers.
-Json number_json(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json values_json(const std::map<std::string, MeasuredValue>& values, const std::vector<Metric>& metrics) {
     Json json = Json::object();
     for (const Metric& metric : metrics) {
         const auto found = values.find(metric.name);
         if (found == values.end()) continue;
-        json[metric.name] = {{"value", number_json(found->second.value)},
-                             {"error", found->second.error ? number_json(*found->second.error) : Json(nullptr)}};
+        json[metric.name] = {{"value", found->second.value},
+                             {"error", found->second.error ? Json(*found->second.error) : Json(nullptr)}};
     }
     return json;
 }
@@ -106,8 +103,8 @@ Json frames_json(const StudyResults& results, const fs::path& folder) {
         json.push_back({{"scene", frame.scene},
                         {"frame", frame.frame},
                         {"reference", frame.reference.lexically_proximate(folder).generic_string()},
-                        {"reference_share_beyond_by_noise", number_json(frame.quality.share_by_noise)},
-                        {"reference_noise_p99", number_json(frame.quality.percentile_99)}});
+                        {"reference_share_beyond_by_noise", frame.quality.share_by_noise},
+                        {"reference_noise_p99", frame.quality.percentile_99}});
     }
     return json;
 }
@@ -120,6 +117,64 @@ Json axes_json(const std::vector<StudyAxis>& axes) {
         json.push_back({{"setting", axis.setting}, {"values", values}});
     }
     return json;
+}
+
+Json point_json(const SearchedPoint& point) {
+    return {{"variant", point.variant}, {"processor_seconds", point.point.cost}, {"share_seen", point.point.error}};
+}
+
+const char* name_of(FrontCost::Bound bound) {
+    switch (bound) {
+        case FrontCost::Bound::between:
+            return "exact";
+        case FrontCost::Bound::at_most:
+            return "at most";
+        case FrontCost::Bound::more:
+            return "more than";
+    }
+    return "";
+}
+
+/// What a search tried in each round and found, scene by scene: the front of fixed settings, and what they take to show
+/// as little as each variant of the study.
+Json search_json(const PreparedStudy& prepared, const StudyResults& results) {
+    Json json{{"candidates", prepared.candidates.size()}, {"scenes", Json::array()}};
+    const std::vector<SceneSearch> summaries = summarize_search(prepared, results);
+    for (std::size_t s = 0; s < summaries.size(); ++s) {
+        Json& scene = json["scenes"].emplace_back();
+        scene = {{"scene", summaries[s].scene},
+                 {"rounds", Json::array()},
+                 {"front", Json::array()},
+                 {"against", Json::array()}};
+        for (const SearchRound& round : rounds_of(prepared, prepared.scenes[s])) {
+            scene["rounds"].push_back({{"candidates", round.candidates},
+                                       {"size", fmt::format("{}x{}", round.width, round.height)},
+                                       {"frames", round.frames}});
+        }
+        for (const SearchedPoint& point : summaries[s].front) scene["front"].push_back(point_json(point));
+        for (const AgainstFixed& against : summaries[s].against) {
+            Json entry = point_json(against.own);
+            entry["fixed_seconds"] = against.fixed.cost;
+            entry["fixed_seconds_are"] = name_of(against.fixed.bound);
+            scene["against"].push_back(std::move(entry));
+        }
+    }
+    return json;
+}
+
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + "\"";
+}
+
+std::set<std::string> list_settings(const StudyResults& results) {
+    std::set<std::string> keys;
+    for (const VariantResult& variant : results.variants) {
+        for (const auto& [key, value] : variant.settings) keys.insert(key);
+    }
+    return keys;
 }
 
 }  // namespace
@@ -180,6 +235,31 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
     for (const VariantResult& variant : results.variants)
         json["variants"].push_back(variant_json(variant, prepared.metrics, context.folder));
     return json;
+}
+
+std::string study_csv(const PreparedStudy& prepared, const StudyResults& results) {
+    const std::set<std::string> settings = list_settings(results);
+    std::string text = "scene,frame,variant";
+    for (const std::string& key : settings) text += "," + field(key);
+    for (const Metric& metric : prepared.metrics) text += fmt::format(",{0},{0}_error", field(metric.name));
+    text += "\n";
+    for (const VariantResult& variant : results.variants) {
+        for (const FrameResult& frame : variant.frames) {
+            text += fmt::format("{},{},{}", field(frame.scene), frame.frame, field(variant.name));
+            for (const std::string& key : settings) {
+                const auto found = variant.settings.find(key);
+                text += "," + (found == variant.settings.end() ? "" : field(setting_text(found->second)));
+            }
+            for (const Metric& metric : prepared.metrics) {
+                const auto found = frame.metrics.find(metric.name);
+                text += found == frame.metrics.end() ? std::string(",") : fmt::format(",{}", found->second.value);
+                text += found == frame.metrics.end() || !found->second.error ? std::string(",")
+                                                                             : fmt::format(",{}", *found->second.error);
+            }
+            text += "\n";
+        }
+    }
+    return text;
 }
 
 }  // namespace aleph
