@@ -112,7 +112,8 @@ class LightTransport {
             // One that is not finite would spoil all places.
             if (is_finite(further.weight)) {
                 light.weight = further.weight;
-                light.links = find_links(further.place, task);
+                light.links = find_links(further.place, accuracy_, task);
+                if (!light.is_linked()) light.links = find_links(further.place, gap_reach * accuracy_, task);
             }
             if (!light.is_linked()) unlinked.push_back(further);
         }
@@ -120,9 +121,9 @@ class LightTransport {
     }
 
     /// The records of most weight; none where there is no record.
-    std::array<Link, most_links> find_links(const SurfacePlace& at, RayTask& task) const {
+    std::array<Link, most_links> find_links(const SurfacePlace& at, float accuracy, RayTask& task) const {
         std::array<Link, most_links> links{};
-        cache_.visit_usable({at.position, at.normal, accuracy_, &task}, [&](int i, float weight) {
+        cache_.visit_usable({at.position, at.normal, accuracy, &task}, [&](int i, float weight) {
             Link& least = *std::ranges::min_element(links, {}, &Link::weight);
             if (weight > least.weight) least = {i, weight};
         });

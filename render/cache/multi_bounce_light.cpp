@@ -10,7 +10,11 @@ namespace aleph {
 std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
                                           const MultiBounceLight& multi_bounce) {
     if (multi_bounce.cache == nullptr) return std::nullopt;
-    return multi_bounce.cache->interpolate({point.position, point.normal, multi_bounce.accuracy, &task});
+    CacheQuery query{point.position, point.normal, multi_bounce.accuracy, &task};
+    std::optional<Rgb> found = multi_bounce.cache->interpolate(query);
+    if (found) return found;
+    query.accuracy = gap_reach * multi_bounce.accuracy;
+    return multi_bounce.cache->interpolate(query);
 }
 
 /// Lamps that the ray meets, or sees straight through sheets of glass, are direct light of the point.

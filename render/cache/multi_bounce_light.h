@@ -20,6 +20,10 @@ struct MultiBounceLight {
     bool noted = false;
 };
 
+/// Where records do not reach, they are used so many times as far: their error is smaller than that of the one random
+/// path in their place, which may meet the brightest spot of the scene.
+inline constexpr float gap_reach = 2.0f;
+
 /// Indirect irradiance at a surface point from the cache; nothing where it has no record.
 std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
                                           const MultiBounceLight& multi_bounce);

@@ -139,11 +139,6 @@ void WrittenKeys::append(float time, std::span<const double> value) {
     for (const double number : value) values.push_back(static_cast<float>(sign * number));
 }
 
-double turn_between(const glm::dquat& a, const glm::dquat& b) {
-    const glm::dquat near = glm::dot(a, b) < 0.0 ? -b : b;
-    return 4.0 * std::atan2(glm::length(a - near), glm::length(a + near));
-}
-
 std::vector<double> split_turns(const std::vector<double>& times, const Track<glm::dquat>& rotation) {
     std::vector<double> split;
     for (const double t : times) {

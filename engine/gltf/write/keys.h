@@ -91,7 +91,4 @@ std::optional<WrittenKeys> join_columns(std::span<const KeyColumn> columns);
 /// Key times, and times between them where `rotation` turns by more than max_key_turn.
 std::vector<double> split_turns(const std::vector<double>& times, const Track<glm::dquat>& rotation);
 
-/// The angle between two rotations, radians, 0 to pi.
-double turn_between(const glm::dquat& a, const glm::dquat& b);
-
 }  // namespace aleph

@@ -73,7 +73,7 @@ TEST(Races, DT08_PicturesWrittenAndReadAtOnce) {
     write_exr(folder / "shared.exr", make_picture(99));
     constexpr std::size_t count = 24;
     std::vector<ChannelImage> back(count), shared(count);
-    std::vector<Image<std::array<std::uint8_t, 4>>> decoded(count);
+    std::vector<Image<glm::u8vec4>> decoded(count);
     with_threads(4, [&] {
         parallel_for(count, 1, [&](std::size_t i, std::size_t) {
             const ChannelImage picture = make_picture(i);
