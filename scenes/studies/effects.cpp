@@ -232,7 +232,7 @@ void make_quick(EffectsOptions& options) {
     options.frames = {"scenes/cornell/scene.json@3",      "scenes/pool-still/scene.json@0",
                       "scenes/boomerang/scene.json@45",   "scenes/hard/sealed_lamp.json",
                       "scenes/effects/far_lights.json@1", "scenes/effects/slow_camera.json@1",
-                      "tests/assets/gltf/interleaved.glb"};
+                      "tests/assets/gltf/morph_cube.glb"};
 }
 
 int run_effects(const EffectsOptions& options) {
