@@ -22,7 +22,7 @@ constexpr std::string_view magic = "alephL1\n";
 static_assert(std::is_trivially_copyable_v<IrradianceRecord>);
 
 /// They change how records are read, not the records.
-const std::set<std::string> reading_settings{"light_samples", "plan", "force"};
+const std::set<std::string> reading_settings{"light_samples"};
 
 bool is_fingerprint(const Json& json) {
     if (!json.is_object() || !json.contains("settings") || !json["settings"].is_object()) return false;

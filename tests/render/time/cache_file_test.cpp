@@ -60,6 +60,9 @@ TEST(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
     RenderSettings more_samples = settings;
     more_samples.light.light_samples = 7;
     EXPECT_NO_THROW(Sequence(scene, more_samples).load_light(folder / "light"));
+    RenderSettings exact = settings;
+    exact.effects.force.add(Effect::caustics);
+    EXPECT_THROW(Sequence(scene, exact).load_light(folder / "light"), InputError) << "its caustics are blurred";
 }
 
 TEST(CacheFile, IC22_AFolderKeepsAFileForEachKeyframe) {
