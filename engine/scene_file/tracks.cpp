@@ -54,7 +54,11 @@ std::vector<double> read_times(const JsonRef& list, std::size_t count, const Fra
                 at.fail(fmt::format("times have to ascend: {} is not above the time before", at.json().dump()));
             }
         };
-        first_of_key ? check(element[0]) : check(element);
+        if (first_of_key) {
+            check(element[0]);
+        } else {
+            check(element);
+        }
     }
     return times;
 }
@@ -210,7 +214,11 @@ TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::f
     const JsonRef list = keys ? *keys : at.require("values");
     for (std::size_t i = 0; i < list.array_size(); ++i) {
         const JsonRef item = list[i];
-        keys ? visit(item[1]) : visit(item);
+        if (keys) {
+            visit(item[1]);
+        } else {
+            visit(item);
+        }
     }
     validate(sampling, list.array_size(), at.file(), at.pointer());
     return sampling;

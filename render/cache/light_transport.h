@@ -2,9 +2,9 @@
 // Light that passes between the records of a cache: from where each of their gather rays finds irradiance of further
 // bounces. It is a sparse linear map, applied once for each bounce.
 //
-// What a ray hits has its irradiance from the records around, by the weights of their interpolation. Where there is no
-// record, one random ray gathers it, which finds light in the same way. So every bounce counts once, wherever light
-// goes.
+// The irradiance at a ray's hit comes from the records around, by the weights of their interpolation. Where no record
+// reaches (gap_reach), one random ray gathers it, which finds light in the same way. So every bounce counts once,
+// wherever light goes.
 
 #include <vector>
 

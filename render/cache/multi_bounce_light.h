@@ -24,7 +24,7 @@ struct MultiBounceLight {
 /// path in their place, which may meet the brightest spot of the scene.
 inline constexpr float gap_reach = 2.0f;
 
-/// Indirect irradiance at a surface point from the cache; nothing where it has no record.
+/// Indirect irradiance at a surface point from the cache; nothing where no record reaches, even so.
 std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
                                           const MultiBounceLight& multi_bounce);
 

@@ -20,10 +20,10 @@ struct FramePrints {
     std::function<std::string(int frame)> of;  ///< of a frame's file
 };
 
-/// Of frames of a scene, or of their maps.
+/// The fingerprints of frames of a scene, or of their maps.
 FramePrints fingerprint_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request);
 
-/// What a frame's file holds, for its fingerprint.
+/// Content of a frame's file, for its fingerprint.
 std::string describe_content(const SceneOptions& options, const FrameRequest& request);
 
 /// Checks and tries --output, --stats and --cache, and makes their folders; called before anything is computed.

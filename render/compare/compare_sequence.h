@@ -14,7 +14,7 @@ namespace aleph {
 /// Shares of pixels with a difference of at least one just visible difference, percent.
 struct VisibleShares {
     double seen = 0.0, flicker = 0.0, lasting = 0.0;
-    /// Of `seen`, each pixel weighed by how likely viewers look there; nothing where saliency is not known.
+    /// As `seen`, each pixel weighed by how likely viewers look there; nothing where saliency is not known.
     std::optional<double> noticed{};
 };
 
@@ -35,7 +35,7 @@ class VisibleCount {
 /// @throws InputError if either has no R, G, B
 PicturePair read_pair(const ChannelImage& a, const ChannelImage& b);
 
-/// What a viewer sees of the differences between two still pictures: nothing flickers.
+/// Visible differences of two still pictures: nothing flickers.
 /// @param maps  of the reference (`aleph maps`), for its motion and how it is shown
 /// @throws InputError if the pictures have no R, G, B, or sizes differ
 VisibleMaps compare_stills(const ChannelImage& a, const ChannelImage& b, const ChannelImage& maps);

@@ -135,7 +135,7 @@ const char* name_of(FrontCost::Bound bound) {
     return "";
 }
 
-/// What a search tried in each round and found, scene by scene: the front of fixed settings, and what they take to show
+/// The rounds of a search and its results, scene by scene: the front of fixed settings, and what they take to show
 /// as little as each variant of the study.
 Json search_json(const PreparedStudy& prepared, const StudyResults& results) {
     Json json{{"candidates", prepared.candidates.size()}, {"scenes", Json::array()}};

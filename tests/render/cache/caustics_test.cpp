@@ -1,4 +1,4 @@
-// Light that mirrors send to diffuse surfaces, against a closed form: a mirror ball scatters a beam evenly.
+// Light that mirrors send to diffuse surfaces, against a closed form: a mirror ball in a beam.
 
 #include "render/cache/gather.h"
 #include "render/settings/settings.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double ball_radius = 0.25, lamp_side = 0.3, lamp_height = 20.0, lamp_radiance = 1e4;
 
-/// A perfect mirror ball at the origin, far below a small lamp. From 5 m the lamp's image has 1e-7 sr.
+/// A perfect mirror ball at the origin, far below a small lamp. From 1.5 m the lamp's image has 2e-6 sr.
 Scene make_ball_below_lamp() {
     Scene scene;
     scene.materials.push_back({.base_color = glm::dvec3(1.0), .gloss = {.metallic = 1.0, .roughness = 0.0}});
@@ -22,8 +22,8 @@ Scene make_ball_below_lamp() {
     return scene;
 }
 
-/// What the ball reflects of a beam of irradiance E has the focal lengths f_t and f_s of a convex mirror (Coddington),
-/// and E f_t f_s / ((s + f_t) (s + f_s)) at the distance s from it.
+/// A convex mirror spreads a beam of irradiance E by its focal lengths f_t and f_s (Coddington): at the distance s from
+/// it arrives E f_t f_s / ((s + f_t) (s + f_s)).
 TEST(Caustics, BlurredLightOfAMirrorBallIsThatOfAMirrorBall) {
     Stage stage(make_ball_below_lamp());
     stage.shading.caustic_width = find_caustic_width(RenderSettings{});

@@ -1,5 +1,5 @@
 #pragma once
-// What commands of `aleph` answer, in this process (Ran) or in one of their own (Ended).
+// Answers of commands of `aleph`, in this process (Ran) or in one of their own (Ended).
 
 #include <gmock/gmock.h>
 

@@ -17,7 +17,7 @@ Ended run_aleph(const Words& words) {
     return StartedProgram(words, folder / "log").wait();
 }
 
-/// What the program prints on standard output. @param words  of the shell
+/// The standard output of the program. @param words  of the shell
 std::string printed_by_aleph(const std::string& words) {
     return output_of(fmt::format("'{}' {}", program_path("aleph"), words));
 }
