@@ -1,6 +1,7 @@
 #pragma once
 // Colours: linear RGB, Rec.709 primaries, white = 1 after exposure.
 
+#include <algorithm>
 #include <cmath>
 #include <glm/vec3.hpp>
 
@@ -11,6 +12,10 @@ using Rgb = glm::vec3;
 /// Relative luminance Y of linear Rec.709 RGB (IEC 61966-2-1).
 inline float luminance(const Rgb& c) {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+
+inline float largest_channel(const Rgb& c) {
+    return std::max({c.x, c.y, c.z});
 }
 
 /// sRGB transfer function, [0,1] to [0,1] (IEC 61966-2-1).

@@ -30,7 +30,7 @@ Rgb replace_unfit(const Rgb& given, std::size_t& changed) {
 
 /// The nearest that the format holds; encoders cut the rest off.
 Rgb round_to_rgbe(const Rgb& color) {
-    const float brightest = std::max({color.x, color.y, color.z});
+    const float brightest = largest_channel(color);
     if (brightest < 0x1p-120f) return Rgb(0.0f);
     int exponent = 0;
     std::frexp(brightest, &exponent);

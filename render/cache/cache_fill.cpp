@@ -52,6 +52,16 @@ std::vector<glm::ivec2> list_tiles(const Image<FillPoint>& points, int stride, b
     return tiles;
 }
 
+/// Rays of a pixel's record.
+/// @param expected  nothing if it is the first
+int choose_record_rays(const IndirectContext& context, float reflected, glm::ivec2 pixel,
+                       const std::optional<ExpectedRecord>& expected) {
+    const int rays = choose_rays(context.settings, context.accuracy(pixel.x, pixel.y),
+                                 expected ? std::optional(expected->ray_variance) : std::nullopt);
+    if (context.tolerance == nullptr || !expected) return rays;
+    return add_rays_for_noise(rays, *expected, reflected, (*context.tolerance)(pixel.x, pixel.y));
+}
+
 /// Returns whether a point gets a record: those of large tiles do in any case, so that others know what to expect.
 bool needs_record(const IrradianceCache& cache, const IndirectContext& context, const FillPoint& point,
                   glm::ivec2 pixel) {
@@ -62,7 +72,7 @@ bool needs_record(const IrradianceCache& cache, const IndirectContext& context, 
     if (!expected) return true;
     return is_worth_record(*expected, point.footprint, accuracy, point.reflected,
                            (*context.tolerance)(pixel.x, pixel.y),
-                           choose_rays(context.settings, accuracy, expected->ray_variance));
+                           choose_record_rays(context, point.reflected, pixel, expected));
 }
 
 /// The tiles whose samples no record covers and which need one, in tile order. The points of those that do without are
@@ -103,8 +113,8 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
 /// Takes those candidates out of `waiting` whose records are computed in this round. The others wait, because the
 /// record of an accepted candidate may cover them. A record's radius is not known before its gather: the bound that
 /// neighbour clamping sets is expected.
-std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const IndirectContext& context, int rays,
-                                         std::vector<Candidate>& waiting) {
+std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const IndirectContext& context,
+                                         const FillPlaces& places, std::vector<Candidate>& waiting) {
     IrradianceCache expected = make_cache(context.lighting.shading);
     std::vector<Candidate> accepted, later;
     for (Candidate& candidate : waiting) {
@@ -122,9 +132,9 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
         const auto known = cache.expect(candidate.query, context.max_radius);
         record.radius = std::max(known ? known->reach.radius : context.max_radius, record.min_radius);
         expected.insert(record);
-        candidate.rays = rays > 0 ? rays
-                                  : choose_rays(context.settings, candidate.query.accuracy,
-                                                known ? std::optional(known->ray_variance) : std::nullopt);
+        const float reflected = places.points(candidate.x, candidate.y).reflected;
+        candidate.rays =
+            places.rays > 0 ? places.rays : choose_record_rays(context, reflected, {candidate.x, candidate.y}, known);
         accepted.push_back(candidate);
     }
     waiting = std::move(later);
@@ -228,7 +238,7 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, F
     while (!tiles.empty()) {
         std::vector<Candidate> waiting = find_uncovered(cache, context, places.points, tiles, tally.counts);
         if (waiting.empty()) break;
-        const std::vector<Candidate> accepted = accept_candidates(cache, context, places.rays, waiting);
+        const std::vector<Candidate> accepted = accept_candidates(cache, context, places, waiting);
         const bool keeps = context.checkpoint != nullptr && places.gathered == nullptr;
         auto records = (keeps ? gather_with_checkpoint : gather_records)(context, places, accepted, tally.counts.rays);
         for (std::size_t i = 0; i < accepted.size(); ++i) {

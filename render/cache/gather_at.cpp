@@ -7,7 +7,7 @@ namespace aleph {
 
 namespace {
 
-constexpr int least_rays = 64, first_rays = 512, most_rays = 8192;
+constexpr int least_rays = 64, first_rays = 512;
 constexpr double noise_per_accuracy = 0.2;  // standard error of a record, over alpha
 
 /// Keeps the random numbers of gathers apart from those of direct light: combined with the seed by exclusive or. Any

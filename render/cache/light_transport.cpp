@@ -136,16 +136,17 @@ class LightTransport {
     }
 
     /// Chooses from the parts of a place that were not linked. Of a place with one ray, one part stands for all or for
-    /// nothing, by Russian roulette: else their number could grow from ray to ray.
+    /// nothing, by Russian roulette: else their number could grow from ray to ray. The largest channel decides, so that
+    /// no channel's weight grows along a chain of places.
     std::vector<std::size_t> choose_unlinked(std::size_t i, const std::vector<LinkedLight*>& parts) const {
         std::vector<std::size_t> all(parts.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         if (i < cache_.records().size() || all.empty()) return all;
         float total = 0.0f;
-        for (const LinkedLight* part : parts) total += luminance(part->weight);
+        for (const LinkedLight* part : parts) total += largest_channel(part->weight);
         float left = RandomStream(places_[i].key).next() * std::max(total, 1.0f);
         for (const std::size_t k : all) {
-            const float weight = luminance(parts[k]->weight);
+            const float weight = largest_channel(parts[k]->weight);
             left -= weight;
             if (!(left < 0.0f)) continue;
             parts[k]->weight *= std::max(total, 1.0f) / weight;

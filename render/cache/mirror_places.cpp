@@ -19,10 +19,6 @@ constexpr float loosest_accuracy = 0.5f;  // alpha
 constexpr int most_turns = 8;
 constexpr float passing = 0x1.fffffep-1f;  // glass is looked through, unless it reflects everything
 
-float largest(const Rgb& c) {
-    return std::max({c.x, c.y, c.z});
-}
-
 /// The surface with narrow lobes as mirrors.
 ViewedSurface narrow_lobes(ViewedSurface surface) {
     if (surface.material.gloss.alpha <= narrow_alpha && surface.material.gloss.stretch == 0.0f)
@@ -43,7 +39,7 @@ ScatterSample choose_turn(const LitSurface& lit) {
         LobeShares only{};
         only[static_cast<int>(lobe)] = 1.0f;
         const ScatterSample turn = sample_scatter(lit, only, 0.0f, glm::vec2(0.0f), passing);
-        if (largest(turn.weight) > largest(best.weight)) best = turn;
+        if (largest_channel(turn.weight) > largest_channel(best.weight)) best = turn;
     }
     return best;
 }
@@ -68,7 +64,7 @@ std::optional<Arrival> follow_mirrors(const IndirectContext& context, const Pixe
         if (mirror.material.glass.volume) mirror.material.glass.ior_ratio = media.ratio_at(mirror);
         const LitSurface lit(mirror);
         const ScatterSample sample = choose_turn(lit);
-        end.weight *= largest(sample.weight);
+        end.weight *= largest_channel(sample.weight);
         if (!(end.weight >= least_weight)) return std::nullopt;
         if (sample.passes && mirror.material.glass.volume) media.pass(mirror);
         end.direction = sample.direction;

@@ -1,7 +1,9 @@
 #include "render/cache/record_worth.h"
 
+#include <algorithm>
 #include <numbers>
 
+#include "render/cache/gather_at.h"
 #include "render/guide/stopping_rule.h"
 
 namespace aleph {
@@ -14,16 +16,31 @@ constexpr double sample_cost = 6.0, ray_cost = 1.5;
 /// Samples that a pixel takes for the sake of other light.
 constexpr double usual_samples = 20.0;
 
+/// Standard error of a record, over that of the mean of samples. Records around it make it less
+/// (IrradianceCache::finish).
+constexpr double record_noise = 1.4;
+
+/// The light that a pixel reflects by a record, over the standard error that the mean of its samples may have.
+double find_relative_light(const ExpectedRecord& expected, float reflected, float tolerance) {
+    return reflected * expected.irradiance * error_deviations / tolerance;
+}
+
 }  // namespace
 
 bool is_worth_record(const ExpectedRecord& expected, float footprint, float accuracy, float reflected, float tolerance,
                      int rays) {
     const double reach = expected.reach.at(accuracy) / footprint;
     const double pixels = std::numbers::pi * reach * reach;
-    const double light = reflected * expected.irradiance * error_deviations / tolerance;
+    const double light = find_relative_light(expected, reflected, tolerance);
     const double more_samples = expected.ray_variance * light * light / sample_rays;
     const double rays_cost = sample_rays * ray_cost;
     return rays <= pixels * (usual_samples * rays_cost + more_samples * (sample_cost + rays_cost));
+}
+
+int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance) {
+    const double light = find_relative_light(expected, reflected, tolerance) / record_noise;
+    const double needed = expected.ray_variance * light * light;
+    return needed > rays ? static_cast<int>(std::min<double>(needed, std::max(rays, most_rays))) : rays;
 }
 
 }  // namespace aleph

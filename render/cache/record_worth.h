@@ -4,6 +4,9 @@
 // A record casts hundreds of rays, and is read within its reach. Beside small things its reach is a pixel or two, and
 // the few rays that every sample of these pixels would cast by itself cost less: unless their light varies so much with
 // direction that the pixels would need many more samples.
+//
+// All samples of a pixel share the noise of its records, so the rule that stops sampling does not know it. Where few
+// rays meet most of the light, a record takes more of them.
 
 #include "render/cache/irradiance_cache.h"
 
@@ -21,5 +24,10 @@ inline constexpr int sample_rays = 2;
 /// @param rays       of the record's gather
 bool is_worth_record(const ExpectedRecord& expected, float footprint, float accuracy, float reflected, float tolerance,
                      int rays);
+
+/// Returns the rays, at least `rays` and at most most_rays, that bring the noise of a record close to what the pixel's
+/// samples may have.
+/// @param expected, reflected, tolerance  as above
+int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance);
 
 }  // namespace aleph

@@ -18,10 +18,6 @@ constexpr float narrow_lobe = 0.05f;
 /// averages over many places, but by no more than this.
 constexpr float loosest_accuracy = 0.5f;
 
-float largest_channel(const Rgb& c) {
-    return std::max({c.x, c.y, c.z});
-}
-
 void count_ray(RayCounts& counts, const ScatterSample& sample) {
     if (sample.lobe == Lobe::diffuse) {
         ++counts.path;

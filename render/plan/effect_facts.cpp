@@ -14,10 +14,6 @@ namespace {
 
 constexpr double margin = 2.0;  // pixels around the picture that its filter may reach
 
-float largest_channel(const glm::vec3& c) {
-    return std::max({c.x, c.y, c.z});
-}
-
 /// The largest value of each channel that a use of the texture reads; 1 without a texture.
 glm::vec3 largest_texel(const TextureSet& set, const TextureUse& use) {
     return use.texture == no_index ? glm::vec3(1.0f) : set.textures[use.texture].largest;

@@ -4,7 +4,9 @@
 
 #include "engine/load/load_scene.h"
 #include "render/cache/cache_fill.h"
+#include "render/cache/gather_at.h"
 #include "render/frame/sequence.h"
+#include "render/guide/stopping_rule.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
@@ -37,6 +39,20 @@ TEST(RecordWorth, WhatSpreadsLimitsTheReach) {
     const ExpectedRecord wide{1.0f, 0.0f, {1000.0f}}, narrow{1.0f, 0.0f, {1000.0f, 3.0f}};
     EXPECT_TRUE(is_worth_record(wide, 1.0f, 0.1f, 1.0f, 1.0f, 512));
     EXPECT_FALSE(is_worth_record(narrow, 1.0f, 0.1f, 1.0f, 1.0f, 512)) << "3 m sqrt(.1)";
+}
+
+TEST(RecordWorth, MoreRaysKeepNoiseCloseToThatOfSamples) {
+    // One unit of irradiance, of which a tenth is reflected.
+    const auto rays = [](float ray_variance, float tolerance) {
+        return add_rays_for_noise(512, {1.0f, ray_variance, {}}, 0.1f, tolerance);
+    };
+    EXPECT_EQ(rays(1.0f, 1.0f), 512);
+    EXPECT_EQ(rays(0.0f, 1e-6f), 512);
+    EXPECT_EQ(rays(1e6f, 1e-3f), most_rays);
+    EXPECT_EQ(rays(1.0f, 0.0f), most_rays) << "no error is tolerated";
+    const int more = rays(10.0f, 0.01f);
+    EXPECT_GT(more, 512);
+    EXPECT_NEAR(0.1 * std::sqrt(10.0 / more), 1.4 * 0.01 / error_deviations, 1e-5) << "1.4 standard errors of samples";
 }
 
 TEST(RecordWorth, ATolerantPictureHasFewerRecordsAndAStrictOneAll) {
