@@ -106,7 +106,7 @@ Scene load_without_gloss(const std::string& name) {
     return scene;
 }
 
-/// Compares the errors of two seeds. Where a step seems to buy nothing, eight others decide.
+/// Compares the errors of a seed. Where a step seems to buy nothing, eight others decide.
 void expect_steps(const std::string& name, double seconds) {
     SCOPED_TRACE(name);
     const Stage stage(load_without_gloss(name), 48, 36, seconds);
@@ -121,9 +121,9 @@ void expect_steps(const std::string& name, double seconds) {
     };
     double looser = 1.0, before = infinity;
     for (const double accuracy : {0.5, 0.3, 0.2, 0.15, 0.1, 0.05}) {
-        const double error = error_at(accuracy, 0, 2);
+        const double error = error_at(accuracy, 0, 1);
         if (error >= before) {
-            EXPECT_LT(error_at(accuracy, 2, 8), error_at(looser, 2, 8)) << "at accuracy " << accuracy;
+            EXPECT_LT(error_at(accuracy, 1, 8), error_at(looser, 1, 8)) << "at accuracy " << accuracy;
         }
         looser = accuracy;
         before = error;

@@ -58,13 +58,13 @@ TEST(MapsImages, EqualsTheStagesByHand) {
     ASSERT_EQ(frames.run({"--guide", "full", "--motion", "census"}).code, 0);
     const MotionField field = compute_image_motion(picture(1), picture(2));
     const MotionField back = compute_image_motion(picture(2), picture(1));
-    const ChannelImage maps = frames.maps(1);
+    const ChannelImage maps = frames.maps(1), next = frames.maps(2);
     for (std::size_t i = 0; i < field.displacement.size(); ++i) {
         EXPECT_EQ(maps.find("forward.u")->pixels[i], field.displacement.pixels[i].x);
         EXPECT_EQ(maps.find("forward.v")->pixels[i], 0.0 - field.displacement.pixels[i].y);
         EXPECT_EQ(maps.find("backward.u")->pixels[i], 0.0 - field.displacement.pixels[i].x) << "of the first frame";
-        EXPECT_EQ(frames.maps(2).find("backward.u")->pixels[i], back.displacement.pixels[i].x);
-        EXPECT_EQ(frames.maps(2).find("forward.u")->pixels[i], 0.0 - back.displacement.pixels[i].x);
+        EXPECT_EQ(next.find("backward.u")->pixels[i], back.displacement.pixels[i].x);
+        EXPECT_EQ(next.find("forward.u")->pixels[i], 0.0 - back.displacement.pixels[i].x);
     }
     EXPECT_EQ(maps.find("saliency.Y"), nullptr);  // guide full has no saliency map
 }
