@@ -14,7 +14,10 @@ constexpr double looser = 2.5, loosest_record = 0.7;
 
 constexpr double sampled_accuracy = 0.05;  // stands for that of a picture without records
 
-constexpr int record_rays = 64;
+/// Of a record, and its standard error where the light comes by few ways, as through a door: there few rays meet most
+/// of it, and their error would be that of whole walls.
+constexpr int fewest_rays = 64, most_record_rays = 1024;
+constexpr double record_noise_aim = 0.15;
 
 /// The records' alpha. Records that reach far bring light from where there is more of it into corners: an error that
 /// lasts from frame to frame, and that is seen where noise of its size is not.
@@ -54,7 +57,9 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     std::vector<GatheredRays> gathered;
     FillPlaces fill = make_fill_places(context.lighting.shading, places);
     fill.coarse_first = false;
-    fill.rays = record_rays;
+    fill.rays = fewest_rays;
+    fill.most_rays = most_record_rays;
+    fill.noise = record_noise_aim;
     fill.gathered = &gathered;
     DirectGrid direct(context.max_radius);
     FurtherBounces known{make_cache(context.lighting.shading), choose_alpha(context.settings)};

@@ -22,7 +22,7 @@ struct MultiBounceLight {
 
 /// Where records do not reach, they are used so many times as far: their error is smaller than that of the one random
 /// path in their place, which may meet the brightest spot of the scene.
-inline constexpr float gap_reach = 2.0f;
+inline constexpr float gap_reach = 1.4f;
 
 /// Indirect irradiance at a surface point from the cache; nothing where no record reaches, even so.
 std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
