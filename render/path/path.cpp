@@ -100,7 +100,8 @@ class Path {
             const ScatterSample sample = sample_scatter(lit, shares, random_.next(), random_.next_2d(), random_.next());
             // After the last bounce the ray still looks for lamps: near a large one, sampling it alone is noise.
             const bool ends = state_.left.bounces <= 0 && sample.lobe == Lobe::diffuse;
-            if (!follow(lit, sample, surface) || ends) return;
+            if (!follow(lit, sample, surface)) return;
+            if (ends) return look_through(sample.direction, surface);
         }
     }
 
@@ -148,6 +149,17 @@ class Path {
     const Rgb& light() const { return light_; }
 
   private:
+    /// Adds the emission that the ray meets behind sheets of glass. Sampling the lights finds it, too, and leaves a
+    /// part of its weight to this ray.
+    void look_through(const glm::vec3& direction, ViewedSurface& surface) {
+        while (surface.material.passes_straight() && state_.left.depth-- > 0) {
+            const LitSurface lit(surface);
+            state_.throughput *= sheet_transmittance(lit);
+            ++task_.counts.specular;
+            if (state_.throughput == Rgb(0.0f) || !meet({lit.ray_origin(direction), direction}, surface)) return;
+        }
+    }
+
     /// Adds the indirect light that the Lambert layer scatters, if it is known: before Russian roulette, as no ray is
     /// needed. Then the path must not go on from that layer.
     bool add_known(const ViewedSurface& surface) {

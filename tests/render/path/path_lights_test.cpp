@@ -47,6 +47,33 @@ TEST(PathLights, MC10_ASquareNearbyIsSampledBySolidAngle) {
     }
 }
 
+TEST(PathLights, ALampBehindAPaneIsSeenByTheLastRayToo) {
+    Scene scene;
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
+    add_mesh(scene, make_disc_facing_down(0.5f, 128, lamp), {0.0, 0.2, 0.0});
+    scene.materials.push_back(
+        {.gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}, .double_sided = true});
+    add_mesh(scene, make_quad(9.0, 9.0, lamp + 1), {0.0, 0.1, 0.0}, z_to_down);
+    const Stage stage(std::move(scene));
+    // What the pane passes, over directions to the disc.
+    RayTask task(stage.rays);
+    double expected = 0.0;
+    constexpr int side = 200;
+    for (int i = 0; i < side * side; ++i) {
+        const glm::vec2 u((static_cast<float>(i % side) + 0.5f) / side, (static_cast<float>(i / side) + 0.5f) / side);
+        const glm::vec3 direction = make_basis(up).to_world(sample_cosine_hemisphere(u));
+        const float distance = 0.2f / direction.y;
+        if (glm::length(glm::vec2(direction.x, direction.z)) * distance > 0.5f) continue;
+        const Ray ray{glm::vec3(0.0f, 1e-6f, 0.0f), direction, 0.0f, 0.99f * distance};
+        expected += find_transmittance(stage.lighting(), task, ray).x / (side * side);
+    }
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const Mean found = estimate(stage, make_floor(glm::vec3(0.0f)), trial.times(20000), by_paths(0, 9), trial.seed);
+        EXPECT_LT(found.error(), 0.01 * expected);
+        trial.near(found, expected, 2e-3 * expected);
+    }));
+}
+
 TEST(PathLights, MC10_MC11_ALampInThePlaneOfThePointIsDark) {
     // At distance 0 the point lies in the lamp: light leaves downwards, the surface sees upwards.
     for (const glm::dquat& turn : {z_to_down, no_turn}) {
