@@ -12,8 +12,8 @@ namespace aleph {
 inline constexpr int most_rays = 8192;
 
 /// Rays for a gather at a pixel's accuracy. With CacheSettings::gather 0, as many as bring its standard error to a
-/// fifth of the accuracy, from 64 to most_rays; otherwise that number at the frame's accuracy. Where the accuracy is looser,
-/// fewer by its square.
+/// fifth of the accuracy, from 64 to most_rays; otherwise that number at the frame's accuracy. Where the accuracy is
+/// looser, fewer by its square.
 /// @param ray_variance  relative, of one ray; nothing where it is not known
 int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance);
 
