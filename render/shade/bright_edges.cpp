@@ -12,6 +12,7 @@ namespace {
 constexpr double bright = 0.5;  // of white
 constexpr int reach = 2;        // pixels, of filters
 constexpr int rays_of_a_sample = 16;
+constexpr double small_lamp = 1.5;  // pixels, largest radius of lamps that the pixels' centres may miss
 constexpr std::uint32_t edge_key_mask = 0x65646765u;  // apart from the samples' own places
 
 bool is_bright(const ShadingScene& shading, const CameraView& view, const SampleHits& centers, int x, int y,
@@ -25,10 +26,27 @@ bool is_bright(const ShadingScene& shading, const CameraView& view, const Sample
     return material.emits && luminance(material.values.emission) * exposure >= bright;
 }
 
+/// Marks the pixels that small lamps lie in, whether something hides them or not.
+void mark_small_lamps(const LightingContext& context, const CameraView& view, double exposure,
+                      Image<std::uint8_t>& seen) {
+    for (const Emitter& lamp : context.lights.emitters) {
+        if (luminance(lamp.brightest) * exposure < bright) continue;
+        const glm::dvec3 center = to_camera(view, context.shading.anchor + glm::dvec3(lamp.center));
+        if (!(-center.z > view.near_plane)) continue;
+        const double scale = view.orthographic ? view.pixels_per_unit : view.pixels_per_unit / -center.z;
+        const glm::dvec2 at = project_camera_point(view, center);
+        if (!(lamp.radius * scale <= small_lamp && at.x >= 0.0 && at.x < seen.width && at.y >= 0.0 &&
+              at.y < seen.height))
+            continue;
+        seen(static_cast<int>(at.x), static_cast<int>(at.y)) = 1;
+    }
+}
+
 }  // namespace
 
-Image<std::uint8_t> find_bright_edges(const ShadingScene& shading, const CameraView& view, const SampleHits& centers,
+Image<std::uint8_t> find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                                       double exposure) {
+    const ShadingScene& shading = context.shading;
     const int width = centers.hits.width, height = centers.hits.height;
     Image<std::uint8_t> seen(width, height), edges(width, height);
     const auto for_rows = [&](const auto& visit) {
@@ -38,6 +56,7 @@ Image<std::uint8_t> find_bright_edges(const ShadingScene& shading, const CameraV
         });
     };
     for_rows([&](int x, int y) { seen(x, y) = is_bright(shading, view, centers, x, y, exposure) ? 1 : 0; });
+    mark_small_lamps(context, view, exposure, seen);
     for_rows([&](int x, int y) {
         bool any = false, all = true;
         for (int ny = std::max(0, y - reach); ny <= std::min(height - 1, y + reach); ++ny) {

@@ -7,10 +7,10 @@
 
 namespace aleph {
 
-/// Pixels that may see such an outline: 1, else 0.
+/// Pixels that may see such an outline, or a lamp too small for the pixels' centres to meet: 1, else 0.
 /// @param centers   hits of the pixels' centres
 /// @param exposure  brighter than about half of white counts
-Image<std::uint8_t> find_bright_edges(const ShadingScene& shading, const CameraView& view, const SampleHits& centers,
+Image<std::uint8_t> find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                                       double exposure);
 
 /// What a ray's hit shows by itself: emission, or the environment where it met nothing.

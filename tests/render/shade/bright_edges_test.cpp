@@ -71,10 +71,35 @@ TEST(BrightEdges, APixelAtTheOutlineNeedsFewSamples) {
     EXPECT_LT(squares, 0.05 * of_samples);
 }
 
+TEST(BrightEdges, AreWhereALampLiesThatNoCentreMeets) {
+    // A twentieth of a pixel wide, beside a pixel's centre.
+    const double side = 0.05 / pixels_per_meter(), away = 0.3 / pixels_per_meter();
+    Scene scene;
+    scene.environment.radiance.reset();
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(300.0));
+    add_mesh(scene, make_quad(side, side, lamp), {away, away, 0.0});
+    add_mesh(scene, make_quad(side, side, lamp), {0.0, 0.0, 2.0 * quad_distance});  // behind the camera
+    add_camera(scene, {0.0, 0.0, quad_distance}, glm::dvec3(0.0), quad_fov);
+    const Stage stage(scene, edges_width, edges_height);
+    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    const Image<std::uint8_t> edges = find_bright_edges(stage.lighting(), stage.view, centers, 1.0);
+    for (int y = 0; y < edges_height; ++y) {
+        for (int x = 0; x < edges_width; ++x) {
+            const bool near = std::abs(x - edges_width / 2) <= 2 && std::abs(y - (edges_height / 2 - 1)) <= 2;
+            EXPECT_EQ(edges(x, y), near ? 1 : 0) << x << ' ' << y;
+        }
+    }
+    EXPECT_EQ(find_bright_edges(stage.lighting(), stage.view, centers, 1e-3).pixels,
+              Image<std::uint8_t>(edges_width, edges_height).pixels)
+        << "dark";
+}
+
 TEST(BrightEdges, AreWhereSomeOfTheNeighboursAreBright) {
     const Stage stage(make_quad_before(glm::dvec3(2.0), glm::dvec3(0.0)), edges_width, edges_height);
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
-    const auto find = [&](double exposure) { return find_bright_edges(stage.shading, stage.view, centers, exposure); };
+    const auto find = [&](double exposure) {
+        return find_bright_edges(stage.lighting(), stage.view, centers, exposure);
+    };
     const Image<std::uint8_t> edges = find(1.0);
     int found = 0;
     for (int y = 0; y < edges_height; ++y) {
