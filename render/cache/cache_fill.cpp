@@ -62,13 +62,6 @@ int choose_record_rays(const IndirectContext& context, float reflected, glm::ive
     return add_rays_for_noise(rays, *expected, reflected, (*context.tolerance)(pixel.x, pixel.y));
 }
 
-/// The same where places say themselves what noise they need.
-int choose_rays_for_noise(const FillPlaces& places, const std::optional<ExpectedRecord>& expected) {
-    if (!expected) return places.rays;
-    const double needed = expected->ray_variance / (places.noise * places.noise);
-    return static_cast<int>(std::clamp<double>(needed, places.rays, places.most_rays));
-}
-
 /// Returns whether a point gets a record: those of large tiles do in any case, so that others know what to expect.
 bool needs_record(const IrradianceCache& cache, const IndirectContext& context, const FillPoint& point,
                   glm::ivec2 pixel) {
@@ -140,7 +133,8 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
         record.radius = std::max(known ? known->reach.radius : context.max_radius, record.min_radius);
         expected.insert(record);
         const float reflected = places.points(candidate.x, candidate.y).reflected;
-        candidate.rays = places.rays > 0 ? choose_rays_for_noise(places, known)
+        candidate.rays = places.rays > 0 ? choose_rays_for_noise(known ? known->ray_variance : 0.0f, places.noise,
+                                                                 places.rays, places.most_rays)
                                          : choose_record_rays(context, reflected, {candidate.x, candidate.y}, known);
         accepted.push_back(candidate);
     }

@@ -35,6 +35,11 @@ int choose_rays(const RenderSettings& settings, float accuracy, const std::optio
     return static_cast<int>(std::lround(std::clamp(rays, std::min<double>(least_rays, most), most)));
 }
 
+int choose_rays_for_noise(double ray_variance, double noise, int fewest, int most) {
+    const double needed = ray_variance / (noise * noise);
+    return needed > fewest ? static_cast<int>(std::min<double>(needed, std::max(fewest, most))) : fewest;
+}
+
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     const RandomKey key = choose_key(context, surface);

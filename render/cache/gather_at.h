@@ -17,6 +17,10 @@ inline constexpr int most_rays = 8192;
 /// @param ray_variance  relative, of one ray; nothing where it is not known
 int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance);
 
+/// Rays, within these bounds, that bring the standard error of a gather to `noise`, relative.
+/// @param ray_variance  relative, of one ray
+int choose_rays_for_noise(double ray_variance, double noise, int fewest, int most);
+
 /// Gathers the irradiance at one pixel sample.
 /// @param found  samples of direct light for the grid of the context; null: they are dropped
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,

@@ -1,6 +1,5 @@
 #include "render/cache/record_worth.h"
 
-#include <algorithm>
 #include <numbers>
 
 #include "render/cache/gather_at.h"
@@ -38,9 +37,8 @@ bool is_worth_record(const ExpectedRecord& expected, float footprint, float accu
 }
 
 int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance) {
-    const double light = find_relative_light(expected, reflected, tolerance) / record_noise;
-    const double needed = expected.ray_variance * light * light;
-    return needed > rays ? static_cast<int>(std::min<double>(needed, std::max(rays, most_rays))) : rays;
+    const double noise = record_noise / find_relative_light(expected, reflected, tolerance);
+    return choose_rays_for_noise(expected.ray_variance, noise, rays, most_rays);
 }
 
 }  // namespace aleph

@@ -38,9 +38,8 @@ void add_boxes(Scene& scene, Dice& dice) {
     }
 }
 
-int add_lamp(Scene& scene, double side, double radiance, const glm::dvec3& place, const glm::dquat& turn = z_to_down) {
-    return add_mesh(scene, make_quad(side, side, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(radiance))), place,
-                    turn);
+void add_lamp(Scene& scene, double side, double radiance, const glm::dvec3& place, const glm::dquat& turn = z_to_down) {
+    add_mesh(scene, make_quad(side, side, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(radiance))), place, turn);
 }
 
 Scene make_furnished_room(Dice& dice) {
