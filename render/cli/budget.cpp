@@ -7,8 +7,6 @@
 #include "engine/base/errors.h"
 #include "render/budget/cost_pilot.h"
 #include "render/frame/sequence.h"
-#include "render/settings/measure.h"
-#include "render/settings/scene_numbers.h"
 
 namespace aleph {
 
@@ -16,6 +14,18 @@ namespace {
 
 constexpr double pilot_errors[] = {most_budget_error, 2.0, 1.0, 0.5, 0.25, least_budget_error};
 constexpr double pilot_share = 0.15;  // of the budget
+
+/// The settings with which the frames would have this error: as --error would set them.
+RenderSettings settings_for_error(const Scene& scene, const SceneOptions& options, double error) {
+    RenderSettings settings;
+    apply_settings(settings, scene.source.settings, options.scene);
+    SettingMap given = options.settings;
+    Scene numbers;
+    set_scene_numbers(numbers, given, "--set");  // prepare_scene has given them to the scene
+    given["error"] = error;
+    apply_settings(settings, given, "");
+    return settings;
+}
 
 }  // namespace
 
@@ -29,18 +39,9 @@ void refuse_beside_budget(const SceneOptions& options, const std::string& cache)
     }
 }
 
-RenderSettings settings_for_error(const Scene& scene, const SceneOptions& options, double error) {
-    RenderSettings settings;
-    apply_settings(settings, scene.source.settings, options.scene);
-    SettingMap given = options.settings;
-    Scene numbers;
-    set_scene_numbers(numbers, given, "--set");  // prepare_scene has given them to the scene
-    given["error"] = error;
-    apply_settings(settings, given, "");
-    return settings;
-}
-
-BudgetStatistics apply_budget(PreparedScene& prepared, const SceneOptions& options, double budget, double spent) {
+void apply_budget(PreparedScene& prepared, const SceneOptions& options, Budget& budget) {
+    double spent = 0.0;
+    StageClock(budget.clock).add_to(spent);
     const CostCoefficients coefficients = fitted_coefficients();
     PilotRequest request{prepared.scene, options.camera, choose_pilot_frames(prepared.frames), {}, {}};
     for (const double error : pilot_errors) {
@@ -49,25 +50,23 @@ BudgetStatistics apply_budget(PreparedScene& prepared, const SceneOptions& optio
     const auto ratios_of = [&](int rendered) {
         return find_cost_ratios(prepared.scene, request.settings.front(), prepared.frames, request.frames, rendered);
     };
-    BudgetStatistics result;
-    result.asked = budget;
+    BudgetStatistics& result = budget.statistics;
     StageClock clock;
     request.go_on = [&](const PilotSeconds& measured, double next) {
         clock.add_to(result.pilot);
-        if (result.pilot + next > pilot_share * budget) return false;
+        if (result.pilot + next > pilot_share * result.asked) return false;
         if (measured.parts.empty()) return true;
         const double least = measured.parts.back().error;
         const double seconds = predict_seconds(measured, ratios_of(0), coefficients, least).sum();
-        return seconds + spent + result.pilot < budget;
+        return seconds + spent + result.pilot < result.asked;
     };
     const Pilot pilot = run_pilot(request);
     clock.add_to(result.pilot);
     const CostRatios ratios = ratios_of(pilot.rendered);
     const double before = spent + result.pilot;
-    result.error = choose_error(pilot.seconds, ratios, coefficients, budget - before);
+    result.error = choose_error(pilot.seconds, ratios, coefficients, result.asked - before);
     result.predicted = before + predict_seconds(pilot.seconds, ratios, coefficients, result.error).sum();
     prepared.settings = settings_for_error(prepared.scene, options, result.error);
-    return result;
 }
 
 std::string describe_choice(const BudgetStatistics& budget) {

@@ -99,12 +99,12 @@ std::string describe_copies(const std::vector<FinishedFrame>& frames) {
     return text;
 }
 
-FrameWriter::FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request,
-                         const std::optional<BudgetStatistics>& budget)
+FrameWriter::FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request)
     : job_(job),
       options_(options),
       request_(request),
-      statistics_(options.stats, job.scene, job.settings, job.exposure, budget) {
+      statistics_(options.stats, job.scene, job.settings, job.exposure,
+                  job.budget ? std::optional(job.budget->statistics) : std::nullopt) {
     if (options.resume && !options.stats.empty()) rows_ = read_statistics_rows(options.stats);
 }
 
@@ -123,6 +123,11 @@ void FrameWriter::make_all() {
         progress.update(done_, fmt::format("frame {}: another process makes it", job_.frames[left.front()]));
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
+}
+
+std::optional<double> FrameWriter::estimate() const {
+    if (estimates_.empty()) return std::nullopt;
+    return std::accumulate(estimates_.begin(), estimates_.end(), 0.0) / static_cast<double>(estimates_.size());
 }
 
 void FrameWriter::finish() {
@@ -193,7 +198,7 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
     if (options_.watch != nullptr && options_.film.empty()) options_.watch->show(file);
     statistics_.add(place, output.statistics, fingerprint);
     if (made_.empty() && !options_.quiet) warn_of_units(output.statistics);
-    estimate_.add(output.statistics);
+    if (output.statistics.error) estimates_.push_back(output.statistics.error->beyond);
     made_.push_back({frame, output.statistics.copy_of});
     if (!options_.quiet && job_.settings.error > 0.0) print_error(output.statistics);
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/cli/budget.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/support/frame_claims.h"
 #include "render/cli/support/progress.h"
@@ -15,15 +16,8 @@
 #include "render/frame/frame_output.h"
 #include "render/output/frame_files.h"
 #include "render/output/verified_statistics.h"
-#include "render/settings/measure.h"
 
 namespace aleph {
-
-/// A budget whose error has been chosen.
-struct Budget {
-    BudgetStatistics statistics;
-    StageClock clock;  ///< since the command began
-};
 
 /// Frames that are to be made, and what their files say of them.
 struct FrameJob {
@@ -43,21 +37,6 @@ struct FrameJob {
     const char* title = nullptr;            ///< of the progress; null: the picture's or that of maps
 };
 
-/// Share of the pixels of all frames that are estimated to err by more than was asked for, as far as frames tell.
-class MeanEstimate {
-  public:
-    void add(const FrameStatistics& frame) {
-        if (!frame.error) return;
-        sum_ += frame.error->beyond;
-        ++frames_;
-    }
-    std::optional<double> mean() const { return frames_ > 0 ? std::optional(sum_ / frames_) : std::nullopt; }
-
-  private:
-    double sum_ = 0.0;
-    int frames_ = 0;
-};
-
 struct FinishedFrame {
     std::int64_t frame = 0;
     std::optional<std::int64_t> copy_of;
@@ -69,14 +48,14 @@ std::string describe_copies(const std::vector<FinishedFrame>& frames);
 
 class FrameWriter {
   public:
-    FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request,
-                const std::optional<BudgetStatistics>& budget);
+    FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request);
     /// @throws Stopped
     void make_all();
     void finish();
 
     StatisticsFile& statistics() { return statistics_; }
-    std::optional<double> estimate() const { return estimate_.mean(); }
+    /// Share of the pixels of all frames that are estimated to err by more than was asked for, as far as frames tell.
+    std::optional<double> estimate() const;
 
   private:
     /// Makes the frame unless it is finished. Returns whether another process makes it.
@@ -100,7 +79,7 @@ class FrameWriter {
     std::vector<std::size_t> kept_;  ///< places of frames that others made
     double done_ = 0.0;              ///< frames
     std::size_t changed_ = 0;
-    MeanEstimate estimate_;
+    std::vector<double> estimates_;  ///< of the frames that tell
 };
 
 }  // namespace aleph

@@ -23,7 +23,6 @@
 #include "render/settings/frame_list.h"
 #include "render/settings/frame_pattern.h"
 #include "render/settings/motion_source.h"
-#include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
 
 namespace aleph {
@@ -38,9 +37,7 @@ struct MapsOptions {
     PictureLayers layers;
 };
 
-FrameRequest maps_request() {
-    return {.frame = false, .maps = true, .progress = {}};
-}
+const FrameRequest maps_request{.frame = false, .maps = true, .progress = {}};
 
 /// Returns whether --set KEY is of use without a scene. Keys that do not exist are reported by apply_settings.
 bool needs_scene(const std::string& key) {
@@ -110,13 +107,7 @@ PreparedImages prepare_images(const MapsOptions& options) {
         prepared.settings.picture.width = first.channels.front().values.width;
         prepared.settings.picture.height = first.channels.front().values.height;
     }
-    if (!options.cuts.empty()) {
-        try {
-            for (const int frame : parse_frame_list(options.cuts)) shot.film.cuts.push_back(frame);
-        } catch (const InputError& e) {
-            throw InputError("", "--cuts", e.reason());
-        }
-    }
+    shot.film.cuts = parse_cuts(options.cuts);
     if (options.common.frames.empty()) {
         for (const auto& [frame, path] : images.files) prepared.frames.push_back(static_cast<int>(frame));
     } else {
@@ -156,7 +147,7 @@ std::string identity_of(const PreparedScene& prepared, const MapsOptions& option
     const auto& [color, motion, depth] = options.layers;
     return hash_bytes(fmt::format("{}\n{}\n{}\n{}\n{}",
                                   format_fingerprint(make_fingerprint(prepared.scene, prepared.settings, {})), color,
-                                  motion, depth, describe_content(options.common, maps_request())));
+                                  motion, depth, describe_content(options.common, maps_request)));
 }
 
 /// SHA-1 of the pictures, each read once.
@@ -184,7 +175,7 @@ void write_image_maps(const MapsOptions& options) {
     const PreparedImages images = prepare_images(options);
     check_frames(images);
     const PreparedScene& prepared = images.prepared;
-    prepare_frames_output(prepared, options.common, maps_request());
+    prepare_frames_output(prepared, options.common, maps_request);
     const ThreadLimit limit(find_threads(options.common.threads));
     ImageSequence sequence(prepared.scene, images.files, prepared.settings, options.layers);
     ReplacedPixels replaced;
@@ -204,7 +195,7 @@ void write_image_maps(const MapsOptions& options) {
     FrameClaims claims = claim_frames(prepared, options.common, prints);
     write_frames({prepared.scene, prepared.settings, *prepared.scene.film.exposure, prepared.frames, prepared.name,
                   make, claims, prints.of},
-                 options.common, maps_request());
+                 options.common, maps_request);
     if (!options.common.quiet) replaced.warn();
 }
 
@@ -256,13 +247,13 @@ void add_maps_command(CLI::App& app, Command& command) {
             if (options->exposure) options->common.settings["exposure"] = *options->exposure;
         }
         command = [options] {
-            const FilmFolder folder = choose_film(options->common, maps_request());
+            const FilmFolder folder = choose_film(options->common, maps_request);
             if (!options->images.empty()) {
                 write_image_maps(*options);
             } else {
                 PreparedScene prepared = prepare_scene(options->common);
                 prepared.name += maps_suffix;
-                render_frames(std::move(prepared), options->common, maps_request());
+                render_frames(std::move(prepared), options->common, maps_request);
             }
             return exit_done;
         };

@@ -66,28 +66,6 @@ void refuse_beside_resume(bool budget, bool verify) {
         throw InputError("", "--resume", "--verify checks the frames that it renders; render all of them with it");
 }
 
-/// @param budget  text of --budget
-/// @param verify  seconds of --verify, or 0
-void render_within(const std::string& budget, const SceneOptions& options, const FrameRequest& request,
-                   const std::string& cache, double verify) {
-    Budget chosen;
-    const double seconds = parse_seconds(budget, "--budget");
-    refuse_beside_budget(options, cache);
-    PreparedScene prepared = prepare_scene(options);
-    if (verify > 0.0) refuse_traced(prepared.settings);
-    prepare_frames_output(prepared, options, request, cache);
-    if (!options.quiet) std::cerr << "aleph: measuring parts of frames, to choose the error\n";
-    {
-        const ThreadLimit limit(find_threads(options.threads));
-        StageClock since = chosen.clock;
-        double spent = 0.0;
-        since.add_to(spent);
-        chosen.statistics = apply_budget(prepared, options, seconds, spent);
-    }
-    if (!options.quiet) std::cerr << describe_choice(chosen.statistics);
-    render_frames(std::move(prepared), options, request, cache, chosen, verify);
-}
-
 struct RenderOptions {
     SceneOptions scene;
     bool aovs = false;
@@ -99,10 +77,21 @@ struct RenderOptions {
 void render_once(const RenderOptions& options) {
     const FrameRequest request{.frame = true, .maps = options.aovs, .progress = {}};
     const double check = options.verify ? parse_seconds(*options.verify, "--verify") : 0.0;
-    if (options.budget) return render_within(*options.budget, options.scene, request, options.cache, check);
+    std::optional<Budget> budget;
+    if (options.budget) {
+        budget.emplace().statistics.asked = parse_seconds(*options.budget, "--budget");
+        refuse_beside_budget(options.scene, options.cache);
+    }
     PreparedScene prepared = prepare_scene(options.scene);
     if (check > 0.0) refuse_traced(prepared.settings);
-    render_frames(std::move(prepared), options.scene, request, options.cache, std::nullopt, check);
+    if (budget) {
+        prepare_frames_output(prepared, options.scene, request, options.cache);
+        if (!options.scene.quiet) std::cerr << "aleph: measuring parts of frames, to choose the error\n";
+        const ThreadLimit limit(find_threads(options.scene.threads));
+        apply_budget(prepared, options.scene, *budget);
+        if (!options.scene.quiet) std::cerr << describe_choice(budget->statistics);
+    }
+    render_frames(std::move(prepared), options.scene, request, options.cache, budget, check);
 }
 
 int render(RenderOptions options) {

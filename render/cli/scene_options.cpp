@@ -16,7 +16,6 @@
 #include "engine/pose/pose.h"
 #include "render/cli/watch.h"
 #include "render/settings/frame_list.h"
-#include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
 #include "render/study/prepared_study.h"
 
@@ -47,39 +46,20 @@ std::string option_name(std::string key) {
 
 /// "WIDTHxHEIGHT", "N", "NUMBER", "flat|direct".
 std::string value_name(const Setting& setting) {
-    switch (setting.type) {
-        case SettingType::size:
-            return "WIDTHxHEIGHT";
-        case SettingType::whole_number:
-            return "N";
-        case SettingType::number:
-            return "NUMBER";
-        case SettingType::choice:
-            return fmt::format("{}", fmt::join(setting.choices, "|"));
-        case SettingType::names:
-            return "EFFECT,...";
-        case SettingType::boolean:
-            return "true|false";
-    }
-    return "VALUE";
+    constexpr const char* names[] = {"WIDTHxHEIGHT", "N", "NUMBER", "", "EFFECT,...", "true|false"};  // as SettingType
+    if (setting.type == SettingType::choice) return fmt::format("{}", fmt::join(setting.choices, "|"));
+    return names[static_cast<std::size_t>(setting.type)];
 }
 
 /// Help on a setting, with the range of a number and its unit.
 std::string setting_help(const Setting& setting) {
     const std::string unit = setting.unit.empty() ? "" : " " + setting.unit;
-    switch (setting.type) {
-        case SettingType::size:
-        case SettingType::whole_number:
-            return fmt::format("{} ({:.0f} to {:.0f}{})", setting.help, setting.min, setting.max, unit);
-        case SettingType::number:
-            return fmt::format("{} ({:g} to {:g}{})", setting.help, setting.min, setting.max, unit);
-        case SettingType::names:
-            return fmt::format("{}, of {}; may be repeated", setting.help, fmt::join(setting.choices, ", "));
-        case SettingType::choice:
-        case SettingType::boolean:
-            break;
-    }
-    return setting.help;
+    if (setting.type == SettingType::names)
+        return fmt::format("{}, of {}; may be repeated", setting.help, fmt::join(setting.choices, ", "));
+    if (setting.type == SettingType::number)
+        return fmt::format("{} ({:g} to {:g}{})", setting.help, setting.min, setting.max, unit);
+    if (setting.type == SettingType::choice || setting.type == SettingType::boolean) return setting.help;
+    return fmt::format("{} ({:.0f} to {:.0f}{})", setting.help, setting.min, setting.max, unit);
 }
 
 constexpr const char* settings_group =
@@ -88,11 +68,9 @@ constexpr const char* hidden_group = "";  // of options that help leaves out
 
 /// --KEY for a setting of the table; read_settings reads it.
 void add_setting_option(CLI::App& app, const Setting& setting) {
-    const std::string help = setting_help(setting);
-    const SettingValue value = setting.get(RenderSettings());
-    app.add_option(option_name(setting.key), help)
+    app.add_option(option_name(setting.key), setting_help(setting))
         ->type_name(value_name(setting))
-        ->default_str(std::visit([](const auto& v) { return fmt::format("{}", v); }, value))
+        ->default_str(setting_text(setting.get(RenderSettings())))
         ->group(setting.rare ? hidden_group : settings_group);
 }
 
@@ -136,6 +114,26 @@ SettingMap read_settings(const CLI::App& app) {
     }
     return settings;
 }
+
+/// Every value is that of its first or last key there, so that nothing moves.
+void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range) {
+    const auto is_outside = [&](int frame) { return frame < range.first || frame > range.last; };
+    const auto found = std::ranges::find_if(frames, is_outside);
+    if (found == frames.end()) return;
+    std::cerr << fmt::format("aleph: warning: frame {} lies outside the shot, which has the frames {} to {}\n", *found,
+                             range.first, range.last);
+}
+
+constexpr int max_threads = 4096;
+
+/// Notes the files of a scene for --watch, also where loading fails.
+struct LoadedFiles {
+    const ReadFiles read{};
+    SceneWatch* const watch;
+    ~LoadedFiles() {
+        if (watch != nullptr) watch->note(read);
+    }
+};
 
 }  // namespace
 
@@ -197,30 +195,6 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                  "program; several processes with the same command divide the frames (EXR, PNG, HDR)");
     add_setting_options(app, options.settings);
 }
-
-namespace {
-
-/// Every value is that of its first or last key there, so that nothing moves.
-void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range) {
-    const auto is_outside = [&](int frame) { return frame < range.first || frame > range.last; };
-    const auto found = std::ranges::find_if(frames, is_outside);
-    if (found == frames.end()) return;
-    std::cerr << fmt::format("aleph: warning: frame {} lies outside the shot, which has the frames {} to {}\n", *found,
-                             range.first, range.last);
-}
-
-constexpr int max_threads = 4096;
-
-/// Notes the files of a scene for --watch, also where loading fails.
-struct LoadedFiles {
-    const ReadFiles read{};
-    SceneWatch* const watch;
-    ~LoadedFiles() {
-        if (watch != nullptr) watch->note(read);
-    }
-};
-
-}  // namespace
 
 void check_threads(int threads) {
     if (threads >= 0 && threads <= max_threads) return;

@@ -158,7 +158,7 @@ void override_study(const StudyCommandOptions& options, Study& study) {
     for (const std::string& viewer : options.viewers) study.viewers.push_back(make_viewer(viewer));
 }
 
-int run(const StudyCommandOptions& options, const std::string& command_line) {
+int run(const StudyCommandOptions& options) {
     check_threads(options.threads);
     check_numbers(options);
     const ThreadLimit limit(find_threads(options.threads));
@@ -171,25 +171,22 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
         if (!options.quiet) print_warnings(scene.scene.source.warnings);
     const std::filesystem::path folder =
         options.output.empty() ? study_folder(options.file) : std::filesystem::path(options.output);
+    std::optional<Progress> progress(std::in_place, "study", 1.0, progress_look(options.quiet));
+    const auto show = [&](double share, const std::string& what) { progress->update(share, what); };
     if (!options.part.empty()) {
-        Progress progress("study", 1.0, progress_look(options.quiet));
-        make_part(prepared, folder, parse_part(options.part, prepared),
-                  [&](double share, const std::string& what) { progress.update(share, what); });
+        make_part(prepared, folder, parse_part(options.part, prepared), show);
         return exit_done;
     }
     refuse_overwriting(read.paths(), study_files(folder));
-    StudyResults results;
-    {
-        Progress progress("study", 1.0, progress_look(options.quiet));
-        const auto show = [&](double share, const std::string& what) { progress.update(share, what); };
-        results = prepared.study.search ? search_study(prepared, folder, show) : run_study(prepared, folder, show);
-    }
+    const StudyResults results =
+        prepared.study.search ? search_study(prepared, folder, show) : run_study(prepared, folder, show);
+    progress.reset();
     if (prepared.study.search)
         print_search(prepared, results, options.markdown, std::cout);
     else
         print_study(prepared, results, options.markdown, std::cout);
     if (prepared.study.effects) print_ledger(make_ledger(prepared, results), options.markdown, std::cout);
-    const StudyContext context{command_line, study_date(), thread_count(), folder};
+    const StudyContext context{study_command_line(), study_date(), thread_count(), folder};
     write_study(prepared, results, context, options.extras, options.quiet);
     return exit_done;
 }
@@ -290,7 +287,7 @@ void add_study_command(CLI::App& app, Command& command) {
         "  aleph study scenes/pool/scene.json --frames 20 --set error=1 --effects\n"
         "  aleph study scenes/pool/scene.json --frames 18-23 --sweep error=.5,1,2 --search\n"
         "  aleph study scenes/studies/pool.json -o out/pool");
-    study->callback([options, &command] { command = [options] { return run(*options, study_command_line()); }; });
+    study->callback([options, &command] { command = [options] { return run(*options); }; });
 }
 
 }  // namespace aleph

@@ -162,14 +162,10 @@ std::vector<OutputFile> study_files(const std::filesystem::path& folder) {
 
 std::string study_command_line() {
     const Bytes bytes = read_regular_file("/proc/self/cmdline", "/proc/self/cmdline", "");
-    std::string text(bytes.begin(), bytes.end()), line;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find('\0', begin), text.size());
-        std::string word = text.substr(begin, end - begin);
-        if (begin == 0) word = std::filesystem::path(word).filename().string();
-        line += (line.empty() ? "" : " ") + word;
-        begin = end + 1;
-    }
+    std::string line(bytes.begin(), bytes.end());  // words that end with 0
+    line.erase(0, line.rfind('/', line.find('\0')) + 1);
+    if (line.ends_with('\0')) line.pop_back();
+    std::ranges::replace(line, '\0', ' ');
     return line;
 }
 

@@ -38,15 +38,13 @@ VerifiedStatistics verify_frames(VerifyRequest request, PictureKeeper& pictures,
     Prober prober(std::move(request.scene), request.settings, request.camera,
                   {request.frames.begin(), request.frames.end()}, pictures);
     std::vector<ProbeResult> probes;
-    {
-        Progress progress("verify", request.seconds, look);
-        while (probes.size() < least_probes || seconds < request.seconds) {
-            probes.push_back(prober.measure(probes.size()));
-            clock.add_to(seconds);
-            const double of_least = static_cast<double>(probes.size()) / static_cast<double>(least_probes);
-            progress.update(request.seconds * std::min(seconds / request.seconds, of_least),
-                            number(probes.size(), "block"));
-        }
+    Progress progress("verify", request.seconds, look);
+    while (probes.size() < least_probes || seconds < request.seconds) {
+        probes.push_back(prober.measure(probes.size()));
+        clock.add_to(seconds);
+        const double of_least = static_cast<double>(probes.size()) / static_cast<double>(least_probes);
+        progress.update(request.seconds * std::min(seconds / request.seconds, of_least),
+                        number(probes.size(), "block"));
     }
     VerifiedStatistics verified = sum_up(probes, request.settings.error > 0.0 ? request.settings.error : 1.0);
     verified.estimated = estimated;

@@ -64,11 +64,11 @@ FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& opti
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
-    std::optional<BudgetStatistics> budget;
-    if (job.budget) budget = job.budget->statistics;
-    FrameWriter writer(job, options, request, budget);
+    FrameWriter writer(job, options, request);
     writer.make_all();
-    if (budget) {
+    std::optional<BudgetStatistics> budget;
+    if (job.budget) {
+        budget = job.budget->statistics;
         StageClock clock = job.budget->clock;
         clock.add_to(budget->took);
         writer.statistics().set_budget(*budget);
@@ -128,9 +128,11 @@ FramePrints fingerprint_frames(const PreparedScene& prepared, const SceneOptions
                                const FrameRequest& request) {
     const Fingerprint print =
         make_fingerprint(prepared.scene, prepared.settings, list_camera_shots(prepared.scene, options.camera));
-    const std::string names = hash_names(prepared.scene), content = describe_content(options, request);
-    return {hash_bytes(fmt::format("{}\n{}\n{}", format_fingerprint(print), names, content)),
-            [=](int frame) { return frame_fingerprint(print, names, content, frame); }};
+    std::string names;  // on which channels of Cryptomatte depend
+    for (const Node& node : prepared.scene.nodes) names.append(node.name).push_back('\0');
+    const std::string text =
+        fmt::format("{}\n{}\n{}", format_fingerprint(print), hash_bytes(names), describe_content(options, request));
+    return {hash_bytes(text), [=](int frame) { return hash_bytes(fmt::format("{}\n{}", text, frame)); }};
 }
 
 }  // namespace aleph

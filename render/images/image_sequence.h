@@ -2,21 +2,16 @@
 // Maps of existing pictures, without a scene: picture -> motion, from the file or from a comparison with the next
 // picture -> saliency, Aleph map -> accuracy.
 
-#include <cstdint>
-#include <filesystem>
-#include <map>
 #include <memory>
 
 #include "engine/scene/scene.h"
 #include "motion/other_frame.h"
 #include "render/frame/frame_output.h"
 #include "render/images/picture_frame.h"
+#include "render/settings/frame_pattern.h"
 #include "render/settings/settings.h"
 
 namespace aleph {
-
-/// The file of each frame, by frame number.
-using FrameFiles = std::map<std::int64_t, std::filesystem::path>;
 
 /// The frame that `frame` is compared with for its motion: the next one, or the previous one at the last frame; none
 /// across a cut, and for a single frame.

@@ -192,10 +192,7 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
         file.metadata["worldToNDC"] = to_attribute(world_to_ndc(output.view));
     }
     file.metadata["motion:definition"] = define_motion(output, settings.guide.motion);
-    for (const auto& [key, value] : setting_map(settings)) {
-        const std::string text = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
-        file.metadata["aleph:" + key] = text;
-    }
+    for (const auto& [key, value] : setting_map(settings)) file.metadata["aleph:" + key] = setting_text(value);
     return file;
 }
 

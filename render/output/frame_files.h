@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
@@ -32,19 +31,15 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
 /// The channels R, G and B alone.
 ChannelImage make_color_image(const Image<Rgb>& color);
 
-/// {"frames": [...], "settings": {...}, ...} as text. Times, host and number of threads are only here, so that EXR
-/// files do not depend on them.
-std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,
-                              const RenderSettings& settings, double exposure);
-
-/// One element of "frames" as text, so that a growing file need not format all of them again.
+/// One element of "frames" in the statistics as text, so that a growing file need not format all of them again.
 /// @param fingerprint  of the frame's file; empty: it has none
 std::string format_frame_statistics(const FrameStatistics& frame, const std::string& fingerprint = "");
 
 /// The text of an element of "frames", indented as it stands there.
 std::string indent_row(const std::string& json);
 
-/// The same text as of a vector.
+/// {"frames": [...], "settings": {...}, ...} as text. Times, host and number of threads are only here, so that EXR
+/// files do not depend on them.
 /// @param frames  what format_frame_statistics returned for each frame, joined by ",\n"
 std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
                               double exposure, const std::optional<BudgetStatistics>& budget = std::nullopt,

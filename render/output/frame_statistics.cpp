@@ -143,16 +143,6 @@ std::string indent_row(const std::string& json) {
     return indented;
 }
 
-std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,
-                              const RenderSettings& settings, double exposure) {
-    std::string joined;
-    for (const FrameStatistics& frame : frames) {
-        if (!joined.empty()) joined += ",\n";
-        joined += format_frame_statistics(frame);
-    }
-    return format_statistics(joined, scene, settings, exposure);
-}
-
 std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
                               double exposure, const std::optional<BudgetStatistics>& budget,
                               const std::optional<VerifiedStatistics>& verified) {

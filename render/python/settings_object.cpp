@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/errors.h"
-#include "render/settings/scene_numbers.h"
 
 namespace aleph::python {
 

@@ -1,6 +1,7 @@
 #include "render/settings/effects.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace aleph {
 
@@ -12,10 +13,8 @@ EffectSet parse_effects(const std::string& text, std::string& unknown) {
     EffectSet effects;
     unknown.clear();
     if (text.find_first_not_of(' ') == std::string::npos) return effects;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        std::string name = text.substr(begin, end - begin);
-        begin = end + 1;
+    for (const auto part : std::views::split(text, ',')) {
+        std::string name(part.begin(), part.end());
         name.erase(0, name.find_first_not_of(' '));
         name.erase(name.find_last_not_of(' ') + 1);
         const auto found = std::ranges::find(effect_list, name, &EffectName::name);

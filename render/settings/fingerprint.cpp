@@ -31,15 +31,4 @@ std::string format_fingerprint(const Fingerprint& fingerprint) {
     return json.dump();
 }
 
-std::string frame_fingerprint(const Fingerprint& fingerprint, const std::string& names, const std::string& content,
-                              std::int64_t frame) {
-    return hash_bytes(fmt::format("{}\n{}\n{}\n{}", format_fingerprint(fingerprint), names, content, frame));
-}
-
-std::string hash_names(const Scene& scene) {
-    std::string names;
-    for (const Node& node : scene.nodes) names.append(node.name).push_back('\0');
-    return hash_bytes(names);
-}
-
 }  // namespace aleph

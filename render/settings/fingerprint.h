@@ -29,13 +29,4 @@ Fingerprint make_fingerprint(const Scene& scene, const RenderSettings& settings,
 /// JSON in one line: {"build": ..., "scene": ..., "settings": {KEY: TEXT, ...}}.
 std::string format_fingerprint(const Fingerprint& fingerprint);
 
-/// SHA-1 of what the file of one frame depends on, 40 hexadecimal digits.
-/// @param names    hash_names, on which channels of Cryptomatte depend; empty: of frames without a scene
-/// @param content  what the file holds: "picture", "maps", ...
-std::string frame_fingerprint(const Fingerprint& fingerprint, const std::string& names, const std::string& content,
-                              std::int64_t frame);
-
-/// SHA-1 of the names of all nodes.
-std::string hash_names(const Scene& scene);
-
 }  // namespace aleph

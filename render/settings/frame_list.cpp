@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cstdint>
 #include <unordered_set>
 
 #include "engine/base/errors.h"
@@ -84,6 +83,16 @@ std::vector<int> parse_frame_list(std::string_view text) {
         begin = comma + 1;
     }
     return frames;
+}
+
+std::vector<std::int64_t> parse_cuts(std::string_view text) {
+    if (text.empty()) return {};
+    try {
+        const std::vector<int> frames = parse_frame_list(text);
+        return {frames.begin(), frames.end()};
+    } catch (const InputError& e) {
+        throw InputError("", "--cuts", e.reason());
+    }
 }
 
 std::string format_frame_list(const std::vector<int>& frames) {

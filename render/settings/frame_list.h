@@ -1,6 +1,7 @@
 #pragma once
 // Lists of frames: "1-10,20-40x2".
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,10 @@ namespace aleph {
 /// negative: "-3-5", "-5--1". ':' is refused, because programs differ in its meaning (a step, or a stagger).
 /// @throws InputError (place "--frames") on anything else, on more than 10 million frames, on frames beyond 32 bits
 std::vector<int> parse_frame_list(std::string_view text);
+
+/// Frames that begin a new shot; none for empty text.
+/// @throws InputError (place "--cuts") as parse_frame_list
+std::vector<std::int64_t> parse_cuts(std::string_view text);
 
 /// "1-10,12" for these frames, in their order.
 std::string format_frame_list(const std::vector<int>& frames);

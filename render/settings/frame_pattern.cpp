@@ -77,13 +77,8 @@ std::optional<NumberField> find_number_field(const std::string& name, const std:
     std::optional<NumberField> found;
     for (std::size_t at = name.find_first_of("#%"); at != std::string::npos; at = name.find_first_of("#%", at)) {
         const auto field = field_at(name, at);
-        if (!field) {
-            throw InputError("", option, fmt::format("'{}': after '%' comes 'd' or '04d'", printable(name)));
-        }
-        if (found) {
-            throw InputError("", option,
-                             fmt::format("'{}': the frame number has more than one place", printable(name)));
-        }
+        if (!field) refuse(option, name, "after '%' comes 'd' or '04d'");
+        if (found) refuse(option, name, "the frame number has more than one place");
         found = field;
         at += field->length;
     }
@@ -95,7 +90,7 @@ std::string insert_number(const std::string& name, const NumberField& field, int
     return text.replace(field.begin, field.length, fmt::format("{:0{}}", frame, field.width));
 }
 
-std::map<std::int64_t, fs::path> find_frame_files(const std::string& pattern, const std::string& option) {
+FrameFiles find_frame_files(const std::string& pattern, const std::string& option) {
     const fs::path path(pattern);
     const std::string name = path.filename().string();
     std::error_code error;
@@ -109,7 +104,7 @@ std::map<std::int64_t, fs::path> find_frame_files(const std::string& pattern, co
     }
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, error)) refuse(option, pattern, "there is no such folder");
-    std::map<std::int64_t, fs::path> files;
+    FrameFiles files;
     std::string near;  // a name that differs only in how its number is written
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
         const std::string file = entry.path().filename().string();
@@ -133,8 +128,8 @@ std::map<std::int64_t, fs::path> find_frame_files(const std::string& pattern, co
     return files;
 }
 
-std::map<std::int64_t, fs::path> find_folder_frames(const std::string& folder, const std::string& option) {
-    std::map<std::int64_t, fs::path> files;
+FrameFiles find_folder_frames(const std::string& folder, const std::string& option) {
+    FrameFiles files;
     std::string sequence;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {

@@ -9,6 +9,9 @@
 
 namespace aleph {
 
+/// The file of each frame, by frame number.
+using FrameFiles = std::map<std::int64_t, std::filesystem::path>;
+
 /// The place of the frame number in a file name: a run of '#', %d or %0Nd.
 struct NumberField {
     std::size_t begin, length;
@@ -25,12 +28,11 @@ std::string insert_number(const std::string& name, const NumberField& field, int
 /// The existing files that fit a pattern, by frame; the number is in the last part of the path. A name without a number
 /// is frame 0.
 /// @throws InputError (place `option`) if no file fits, with the name of one that nearly does
-std::map<std::int64_t, std::filesystem::path> find_frame_files(const std::string& pattern,
-                                                               const std::string& option = "--images");
+FrameFiles find_frame_files(const std::string& pattern, const std::string& option = "--images");
 
 /// The numbered pictures of a folder (EXR, PNG, JPEG, HDR by extension), by frame. The frame is the last number of the
 /// name; a minus before it is its sign at the beginning of the name and behind '.' or '_'.
 /// @throws InputError (place `option`) if there are none, or if their names belong to several sequences
-std::map<std::int64_t, std::filesystem::path> find_folder_frames(const std::string& folder, const std::string& option);
+FrameFiles find_folder_frames(const std::string& folder, const std::string& option);
 
 }  // namespace aleph

@@ -38,10 +38,11 @@ inline Setting new_setting(std::string key, SettingType type, std::string help) 
 
 /// A number, of a field that at() gives.
 template <class Field>
-Setting number_setting(std::string key, std::string help, Field field, double min, double max) {
+Setting number_setting(std::string key, std::string help, Field field, double min, double max, std::string unit = {}) {
     using Number = ValueOf<Field>;
     constexpr auto type = std::is_integral_v<Number> ? SettingType::whole_number : SettingType::number;
     Setting setting = new_setting(std::move(key), type, std::move(help));
+    setting.unit = std::move(unit);
     setting.min = min;
     setting.max = max;
     setting.get = [=](const RenderSettings& s) { return SettingValue(static_cast<double>(field(s))); };
@@ -91,10 +92,6 @@ Setting effects_setting(std::string key, std::string help, Field field) {
 }
 
 /// Changes to an entry.
-inline Setting with_unit(Setting setting, std::string unit) {
-    setting.unit = std::move(unit);
-    return setting;
-}
 inline Setting without_scene(Setting setting) {
     setting.needs_scene = false;
     return setting;

@@ -12,7 +12,8 @@ namespace {
 using S = RenderSettings;
 
 Setting size_setting() {
-    Setting setting = with_unit(new_setting("size", SettingType::size, "picture size"), "pixels");
+    Setting setting = new_setting("size", SettingType::size, "picture size");
+    setting.unit = "pixels";
     setting.min = 1;
     setting.max = 65536;
     setting.get = [](const S& s) { return SettingValue(fmt::format("{}x{}", s.picture.width, s.picture.height)); };
@@ -40,15 +41,18 @@ Setting vision_setting() {
     return setting;
 }
 
-std::vector<Setting> picture_settings() {
-    return {size_setting(), number_setting("seed", "seed of all random numbers", at(&S::seed), 0, 4294967295.0)};
-}
-
-/// Settings of the model of vision, and of how its map becomes accuracy.
-std::vector<Setting> vision_settings() {
+/// All settings; add_vision changes one.
+std::vector<Setting>& all_settings() {
     using Perception = PerceptionSettings;
     using G = GuideSettings;
-    return {
+    using C = CacheSettings;
+    using L = LightSettings;
+    using Samples = SamplingSettings;
+    using E = EffectSettings;
+    static std::vector<Setting> table{
+        size_setting(),
+        number_setting("seed", "seed of all random numbers", at(&S::seed), 0, 4294967295.0),
+        // The model of vision, and how its map becomes accuracy.
         without_scene(choice_setting(
             "guide",
             "what the Aleph map considers: nothing (none), contrast (spatial), contrast and motion (full), or also "
@@ -92,45 +96,27 @@ std::vector<Setting> vision_settings() {
             {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}, {"none", Adapter::none}})),
         rarely_set(without_scene(
             number_setting("adapter_k", "K of the adapter scale-add", at(&S::guide, &G::adapter_k), 1e-6, 1e12))),
-    };
-}
-
-/// The error that is asked for, the cache's accuracy, and how far light goes.
-std::vector<Setting> light_settings() {
-    using C = CacheSettings;
-    using L = LightSettings;
-    return {
-        with_unit(number_setting(
-                      "error",
-                      "largest error that is asked for; sets sampling, adapter, accuracy, gather, light_step, bounces "
-                      "and spp, which override it when they are given beside it; 0: none is asked for",
-                      at(&S::error), 0.0, 1000.0),
-                  "just visible differences"),
+        // The error that is asked for, the cache's accuracy, and how far light goes.
+        number_setting("error",
+                       "largest error that is asked for; sets sampling, adapter, accuracy, gather, light_step, bounces "
+                       "and spp, which override it when they are given beside it; 0: none is asked for",
+                       at(&S::error), 0.0, 1000.0, "just visible differences"),
         without_scene(number_setting(
             "accuracy",
             "ambient accuracy, as RADIANCE names it: the error that irradiance caching may make where the viewer is "
             "strictest, so that smaller is more accurate; 0: rays of every sample's own",
             at(&S::cache, &C::accuracy), 0.0, 1.0)),
-        with_unit(number_setting("gather",
-                                 "rays over the hemisphere for one irradiance value; 0: what the accuracy needs, or 2 "
-                                 "where every sample has its own",
-                                 at(&S::cache, &C::gather), 0, 1 << 20),
-                  "rays"),
+        number_setting("gather",
+                       "rays over the hemisphere for one irradiance value; 0: what the accuracy needs, or 2 "
+                       "where every sample has its own",
+                       at(&S::cache, &C::gather), 0, 1 << 20, "rays"),
         number_setting("bounces", "bounces of indirect diffuse light; the quick estimate has at most 1",
                        at(&S::light, &L::bounces), 0, 1000),
-        with_unit(number_setting("path_depth", "longest path of light that mirrors and glass may make",
-                                 at(&S::light, &L::path_depth), 1, 10000),
-                  "surfaces"),
-    };
-}
-
-std::vector<Setting> sampling_settings() {
-    using Samples = SamplingSettings;
-    return {
-        with_unit(number_setting(
-                      "spp", "samples per pixel, or the most of them where `sampling` chooses; 1 is the pixel's centre",
-                      at(&S::sampling, &Samples::spp), 1, 65536),
-                  "samples"),
+        number_setting("path_depth", "longest path of light that mirrors and glass may make",
+                       at(&S::light, &L::path_depth), 1, 10000, "surfaces"),
+        number_setting("spp",
+                       "samples per pixel, or the most of them where `sampling` chooses; 1 is the pixel's centre",
+                       at(&S::sampling, &Samples::spp), 1, 65536, "samples"),
         choice_setting(
             "sampling",
             "how many samples each pixel takes: spp (uniform), or at most spp: until two stages differ by less than "
@@ -154,65 +140,30 @@ std::vector<Setting> sampling_settings() {
                        "3 pixels wide (blackman-harris)",
                        at(&S::picture, &PictureSettings::filter),
                        {{"box", PixelFilter::box}, {"blackman-harris", PixelFilter::blackman_harris}}),
-    };
-}
-
-/// The method, and what it costs.
-std::vector<Setting> method_settings() {
-    using C = CacheSettings;
-    using L = LightSettings;
-    return {
+        // The method, and what it costs.
         choice_setting("integrator",
                        "method for the picture's light: an irradiance cache for indirect diffuse light (cache), or "
                        "path tracing, unbiased, with the variance of each pixel (path)",
                        at(&S::light, &L::integrator), {{"cache", Integrator::cache}, {"path", Integrator::path}}),
-        with_unit(number_setting("light_samples",
-                                 "samples of direct light per sample of a pixel, shared out among the lights",
-                                 at(&S::light, &L::light_samples), 1, 65536),
-                  "samples"),
-        rarely_set(with_unit(
-            number_setting("min_radius_pixels", "least radius of a cache record, which reaches accuracy times as far",
-                           at(&S::cache, &C::min_radius_pixels), 0.1, 1000.0),
-            "pixels")),
-        with_unit(
-            number_setting("light_step",
-                           "frames between the lighting keyframes at which indirect light is computed for the frames "
-                           "around them; 0: every frame computes its own",
-                           at(&S::cache, &C::light_step), 0, 1000),
-            "frames"),
+        number_setting("light_samples", "samples of direct light per sample of a pixel, shared out among the lights",
+                       at(&S::light, &L::light_samples), 1, 65536, "samples"),
+        rarely_set(number_setting("min_radius_pixels",
+                                  "least radius of a cache record, which reaches accuracy times as far",
+                                  at(&S::cache, &C::min_radius_pixels), 0.1, 1000.0, "pixels")),
+        number_setting("light_step",
+                       "frames between the lighting keyframes at which indirect light is computed for the frames "
+                       "around them; 0: every frame computes its own",
+                       at(&S::cache, &C::light_step), 0, 1000, "frames"),
         number_setting("subdivision_level",
                        "level of every subdivision cage, at most its own max_level; -1: as fine as the pixels need",
                        at(&S::picture, &PictureSettings::subdivision_level), -1, 10),
-    };
-}
-
-/// Which effects are simulated.
-std::vector<Setting> effect_settings() {
-    using E = EffectSettings;
-    return {
+        // Which effects are simulated.
         choice_setting(
             "plan", "whether effects that the scene does not call for, by more than a viewer could see, are left out",
             at(&S::effects, &E::plan), {{"on", EffectsPlanning::on}, {"off", EffectsPlanning::off}}),
         effects_setting("force", "effects that are simulated whatever the plan says", at(&S::effects, &E::force)),
         effects_setting("forbid", "effects that are left out whatever that changes", at(&S::effects, &E::forbid)),
     };
-}
-
-std::vector<Setting> make_table() {
-    std::vector<Setting> table;
-    for (const auto& part : {picture_settings(), vision_settings(), light_settings(), sampling_settings(),
-                             method_settings(), effect_settings()}) {
-        table.insert(table.end(), part.begin(), part.end());
-    }
-    return table;
-}
-
-}  // namespace
-
-namespace {
-
-std::vector<Setting>& all_settings() {
-    static std::vector<Setting> table = make_table();
     return table;
 }
 
@@ -224,9 +175,7 @@ const std::vector<Setting>& setting_table() {
 
 void add_vision(const VisionModel& model) {
     add_to_vision_list(model);
-    Setting& setting = *std::ranges::find(all_settings(), "vision", &Setting::key);
-    setting.choices.clear();
-    for (const VisionModel* const known : vision_list()) setting.choices.push_back(known->name());
+    *std::ranges::find(all_settings(), "vision", &Setting::key) = without_scene(vision_setting());
 }
 
 }  // namespace aleph

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include "engine/base/errors.h"
+#include "engine/json/close_names.h"
 #include "motion/flow.h"
 #include "render/settings/setting_table.h"
 
@@ -28,6 +30,23 @@ void follow_error(RenderSettings& settings, double error) {
 }
 
 namespace {
+
+/// Diffuse bounces of a reference: what is left out is at most albedo^16 of the light.
+constexpr int full_light_bounces = 16;
+
+std::vector<std::string> list_keys() {
+    std::vector<std::string> keys;
+    std::ranges::transform(setting_table(), std::back_inserter(keys), &Setting::key);
+    return keys;
+}
+
+[[noreturn]] void refuse_unknown(const std::string& source, const std::string& key,
+                                 const std::vector<std::string>& known) {
+    const std::string close = close_suggestion(key, known);
+    throw InputError(
+        source, printable(key),
+        fmt::format("there is no such setting{} known are {}", close.empty() ? ";" : close, fmt::join(known, ", ")));
+}
 
 /// Neither of the two could have its way.
 void refuse_contradiction(const EffectSettings& effects, const std::string& source) {
@@ -50,6 +69,17 @@ void add_default_error(const SettingMap& scene, SettingMap& given) {
     if (!chooses_work(scene) && !chooses_work(given)) given["error"] = 1.0;
 }
 
+RenderSettings traced_reference_settings(const RenderSettings& settings) {
+    RenderSettings out;
+    out.picture = settings.picture;
+    out.light.bounces = std::max(settings.light.bounces, full_light_bounces);
+    out.light.path_depth = settings.light.path_depth;
+    out.light.integrator = Integrator::path;
+    out.guide.estimate = settings.guide.estimate;  // the automatic exposure is that of the estimate
+    out.perception.guide = Guide::none;
+    return out;
+}
+
 float find_caustic_width(const RenderSettings& settings) {
     const EffectSettings& effects = settings.effects;
     const bool exact = effects.plan == EffectsPlanning::off || effects.force.contains(Effect::caustics);
@@ -66,12 +96,7 @@ void apply_settings(RenderSettings& settings, const SettingMap& map, const std::
     }
     for (const auto& [key, value] : map) {
         const auto found = std::ranges::find(table, key, &Setting::key);
-        if (found == table.end()) {
-            std::vector<std::string> known;
-            for (const Setting& setting : table) known.push_back(setting.key);
-            throw InputError(source, printable(key),
-                             fmt::format("there is no such setting; known are {}", fmt::join(known, ", ")));
-        }
+        if (found == table.end()) refuse_unknown(source, key, list_keys());
         const std::string mismatch = find_mismatch(*found, value);
         if (!mismatch.empty()) throw InputError(source, key, mismatch);
         found->set(settings, value);
@@ -79,6 +104,27 @@ void apply_settings(RenderSettings& settings, const SettingMap& map, const std::
     if (settings.guide.motion == MotionSource::flow && !has_flow())
         throw InputError(source, "motion", "flow needs OpenCV, which this program was built without; choose image");
     refuse_contradiction(settings.effects, source);
+}
+
+void set_scene_numbers(Scene& scene, SettingMap& settings, const std::string& source) {
+    std::vector<std::string> known = list_keys();
+    const auto take = [&](const char* key, auto& number, double most) {
+        known.push_back(key);
+        const auto found = settings.find(key);
+        if (found == settings.end()) return;
+        const double* const given = std::get_if<double>(&found->second);
+        if (given == nullptr || !(*given > 0.0 && *given <= most))
+            throw InputError(source, key, fmt::format("expected a number above 0{}", most == 1.0 ? ", at most 1" : ""));
+        number = *given;
+        settings.erase(found);
+    };
+    take("exposure", scene.film.exposure, 1e18);
+    take("viewing.pixels_per_degree", scene.film.viewing.pixels_per_degree, 1e18);
+    take("viewing.display_white", scene.film.viewing.display_white, 1e18);
+    take("viewing.persistence", scene.film.viewing.persistence, 1.0);
+    for (const auto& [key, value] : settings) {
+        if (std::ranges::find(known, key) == known.end()) refuse_unknown(source, key, known);
+    }
 }
 
 SettingMap setting_map(const RenderSettings& settings) {

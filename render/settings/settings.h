@@ -159,6 +159,11 @@ void add_default_error(const SettingMap& scene, SettingMap& given);
 /// @param error  thresholds, above 0
 void follow_error(RenderSettings& settings, double error);
 
+/// Settings of a reference that judges pictures with `settings`: traced paths without a guide, with all of the light:
+/// 16 diffuse bounces or, if the settings have more, those. Size, longest path, filter and levels of cages are those of
+/// the settings.
+RenderSettings traced_reference_settings(const RenderSettings& settings);
+
 /// GGX alpha that lobes have at least where a Lambert layer turned the path; 0: their own. Cached light blurs caustics
 /// by it, unless the plan of effects is off or forced to simulate them.
 float find_caustic_width(const RenderSettings& settings);
@@ -173,6 +178,12 @@ SettingMap setting_map(const RenderSettings& settings);
 /// reads as one, and text otherwise.
 /// @throws InputError if there is no '=' or no key
 void parse_setting(const std::string& text, SettingMap& into);
+
+/// Moves exposure and the viewing conditions (viewing.pixels_per_degree, ...) from the map to the scene: --set and
+/// studies take them, but they are no render settings.
+/// @param source  where the map comes from, for messages: "--set"
+/// @throws InputError for a number that is out of range, and for keys that are unknown settings too
+void set_scene_numbers(Scene& scene, SettingMap& settings, const std::string& source);
 
 /// @throws InputError naming the first setting that is out of range
 void validate(const RenderSettings& settings);

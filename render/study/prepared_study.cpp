@@ -9,7 +9,6 @@
 #include "engine/pose/pose.h"
 #include "engine/scene/scene_hash.h"
 #include "render/settings/frame_list.h"
-#include "render/settings/scene_numbers.h"
 #include "render/study/effects_ledger.h"
 #include "render/study/search_candidates.h"
 #include "render/study/threshold_noise.h"

@@ -10,7 +10,6 @@
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
 #include "render/settings/fingerprint.h"
-#include "render/settings/reference_settings.h"
 
 namespace aleph {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "render/settings/reference_settings.h"
 #include "render/verify/share_interval.h"
 
 namespace aleph {

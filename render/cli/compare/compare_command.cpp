@@ -41,8 +41,7 @@ int compare_pictures(const CompareOptions& options) {
     }
     if (!options.difference.empty()) write_png(options.difference, difference_picture(first, second, options.settings));
     if (!options.junit.empty()) {
-        write_junit(options.junit, junit_suite,
-                    {make_junit_case(options.first, result, visible, options.settings, result.same)});
+        write_junit(options.junit, {make_junit_case(options.first, result, visible, options.settings, result.same)});
     }
     return result.same ? exit_done : exit_different;
 }

@@ -53,8 +53,6 @@ std::string exceeded_options(const CompareResult& result);
 /// @throws OutputError naming the file
 void write_seen(const std::filesystem::path& path, const VisibleMaps& maps);
 
-inline constexpr const char* junit_suite = "aleph compare";
-
 struct JunitCase {
     std::string name;
     std::string failure;  ///< why the test failed; empty: it passed
@@ -66,6 +64,6 @@ JunitCase make_junit_case(const std::string& name, const CompareResult& result,
 
 /// Writes one test suite.
 /// @throws OutputError
-void write_junit(const std::filesystem::path& path, const std::string& suite, const std::vector<JunitCase>& cases);
+void write_junit(const std::filesystem::path& path, const std::vector<JunitCase>& cases);
 
 }  // namespace aleph

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "engine/base/errors.h"
 #include "render/cli/support/options.h"
 #include "render/cli/support/output_conflicts.h"
@@ -15,39 +13,34 @@ namespace aleph {
 
 namespace {
 
-using SequenceFiles = std::map<std::int64_t, std::filesystem::path>;
-
-SequenceFiles find_sequence(const std::string& argument, const std::string& option) {
+FrameFiles find_sequence(const std::string& argument, const std::string& option) {
     std::error_code error;
     return std::filesystem::is_directory(argument, error) ? find_folder_frames(argument, option)
                                                           : find_frame_files(argument, option);
 }
 
-std::vector<int> frames_without(const SequenceFiles& files, const SequenceFiles& others) {
-    std::vector<int> frames;
-    for (const auto& [frame, file] : files) {
-        if (!others.contains(frame)) frames.push_back(static_cast<int>(frame));
-    }
-    return frames;
-}
-
-void check_partners(const CompareOptions& options, const SequenceFiles& first, const SequenceFiles& second,
-                    const std::vector<std::pair<std::string, SequenceFiles>>& maps) {
+/// @throws InputError naming all frames that are not everywhere
+void check_partners(const CompareOptions& options, const FrameFiles& first, const FrameFiles& second,
+                    const FrameFiles& thresholds, const FrameFiles& seen) {
     std::string missing;
-    const auto add = [&](const SequenceFiles& files, const SequenceFiles& others, const std::string& where) {
-        const std::vector<int> frames = frames_without(files, others);
+    const auto add = [&](const FrameFiles& files, const FrameFiles& others, const std::string& where) {
+        std::vector<int> frames;
+        for (const auto& [frame, file] : files) {
+            if (!where.empty() && !others.contains(frame)) frames.push_back(static_cast<int>(frame));
+        }
         if (frames.empty()) return;
         missing += fmt::format("{}'{}' has no frame {}", missing.empty() ? "" : "; ", printable(where, 200),
                                printable(format_frame_list(frames), 200));
     };
     add(first, second, options.second);
     add(second, first, options.first);
-    for (const auto& [argument, files] : maps) add(first, files, argument);
+    add(first, thresholds, options.threshold);
+    add(first, seen, options.seen);
     if (!missing.empty()) throw InputError("", "", missing);
 }
 
 /// The maps of every frame; a single file serves a sequence of one frame. Nothing without the option.
-SequenceFiles find_maps(const std::string& argument, const std::string& option, const SequenceFiles& first) {
+FrameFiles find_maps(const std::string& argument, const std::string& option, const FrameFiles& first) {
     if (argument.empty()) return {};
     if (names_sequence(argument)) return find_sequence(argument, option);
     if (first.size() > 1) {
@@ -57,40 +50,26 @@ SequenceFiles find_maps(const std::string& argument, const std::string& option, 
     return {{first.begin()->first, argument}};
 }
 
-std::vector<std::int64_t> parse_cuts(const std::string& text) {
-    if (text.empty()) return {};
-    try {
-        const std::vector<int> frames = parse_frame_list(text);
-        return {frames.begin(), frames.end()};
-    } catch (const InputError& e) {
-        throw InputError("", "--cuts", e.reason());
-    }
-}
-
-/// Where the frames' pictures go; nothing without the option.
-std::optional<NumberField> find_output_field(const std::string& argument, const std::string& option) {
-    if (argument.empty()) return std::nullopt;
-    const auto field = find_number_field(argument, option);
+/// The file of a frame's picture; empty without the option.
+std::string output_file(const std::string& pattern, const std::string& option, std::int64_t frame) {
+    if (pattern.empty()) return {};
+    const auto field = find_number_field(pattern, option);
     if (!field) throw InputError("", option, "several frames need a name such as diff.####.png");
-    return field;
+    return insert_number(pattern, *field, static_cast<int>(frame));
 }
 
 /// No frame's picture replaces a file of any frame.
-void check_outputs(const CompareOptions& options, const std::vector<const SequenceFiles*>& inputs) {
+void check_outputs(const CompareOptions& options, const std::vector<const FrameFiles*>& inputs) {
     std::vector<std::filesystem::path> read;
-    for (const SequenceFiles* files : inputs) {
+    for (const FrameFiles* files : inputs) {
         for (const auto& [frame, file] : *files) read.push_back(file);
     }
     std::vector<OutputFile> outputs;
-    const auto add = [&](const std::string& pattern, const std::string& option) {
-        const auto field = find_output_field(pattern, option);
-        if (!field) return;
-        for (const auto& [frame, file] : *inputs.front())
-            outputs.push_back({insert_number(pattern, *field, static_cast<int>(frame)), option});
-    };
-    add(options.difference, "--diff");
-    add(options.seen_out, "--seen-out");
-    if (!options.junit.empty()) outputs.push_back({options.junit, "--junit"});
+    for (const auto& [frame, file] : *inputs.front()) {
+        outputs.push_back({output_file(options.difference, "--diff", frame), "--diff"});
+        outputs.push_back({output_file(options.seen_out, "--seen-out", frame), "--seen-out"});
+    }
+    outputs.push_back({options.junit, "--junit"});
     refuse_overwriting(read, outputs);
 }
 
@@ -111,19 +90,13 @@ bool names_sequence(const std::string& argument) {
 }
 
 int compare_frames(const CompareOptions& options) {
-    const SequenceFiles first = find_sequence(options.first, "first"), second = find_sequence(options.second, "second");
-    const SequenceFiles thresholds = find_maps(options.threshold, "--threshold", first);
-    const SequenceFiles seen = find_maps(options.seen, "--seen", first);
-    std::vector<std::pair<std::string, SequenceFiles>> maps;
-    if (!options.threshold.empty()) maps.emplace_back(options.threshold, thresholds);
-    if (!options.seen.empty()) maps.emplace_back(options.seen, seen);
-    check_partners(options, first, second, maps);
-    const auto difference_field = find_output_field(options.difference, "--diff");
-    const auto seen_field = find_output_field(options.seen_out, "--seen-out");
+    const FrameFiles first = find_sequence(options.first, "first"), second = find_sequence(options.second, "second");
+    const FrameFiles thresholds = find_maps(options.threshold, "--threshold", first);
+    const FrameFiles seen = find_maps(options.seen, "--seen", first);
+    check_partners(options, first, second, thresholds, seen);
     check_outputs(options, {&first, &second, &thresholds, &seen});
     SequenceComparison sequence(options.settings, parse_cuts(options.cuts), [&](const VisibleMaps& visible) {
-        if (!seen_field) return;
-        write_seen(insert_number(options.seen_out, *seen_field, static_cast<int>(visible.frame)), visible);
+        if (!options.seen_out.empty()) write_seen(output_file(options.seen_out, "--seen-out", visible.frame), visible);
     });
     {
         Progress progress("compare", static_cast<double>(first.size()), terminal_look(options.quiet));
@@ -137,10 +110,8 @@ int compare_frames(const CompareOptions& options) {
             } catch (const InputError& e) {
                 throw InputError(printable(file.string(), 400), e.place(), e.reason());
             }
-            if (difference_field) {
-                write_png(insert_number(options.difference, *difference_field, static_cast<int>(frame)),
-                          difference_picture(a, b, options.settings));
-            }
+            if (!options.difference.empty())
+                write_png(output_file(options.difference, "--diff", frame), difference_picture(a, b, options.settings));
             progress.update(static_cast<double>(sequence.frames().size()), fmt::format("frame {}", frame));
         }
         sequence.finish();
@@ -152,7 +123,7 @@ int compare_frames(const CompareOptions& options) {
             cases.push_back(make_junit_case(first.at(frame.frame).string(), frame.result, frame.visible,
                                             options.settings, frame.same));
         }
-        write_junit(options.junit, junit_suite, cases);
+        write_junit(options.junit, cases);
     }
     if (options.json) {
         print_sequence_json(sequence.frames(), summary);

@@ -51,28 +51,97 @@ void print_luminance(const CompareOptions& options, const CompareResult& result)
                           : fmt::format(", by chance {:.2g} %", 100.0 * std::erfc(deviations / std::numbers::sqrt2)));
 }
 
-}  // namespace
-
 nlohmann::ordered_json difference_json(const Difference& d) {
     return {{"max", d.max_abs}, {"rms", d.rms}, {"relative_mse", d.relative_mse}};  // infinity becomes null
 }
 
-nlohmann::ordered_json figures_json(const ThresholdFigures& figures) {
-    nlohmann::ordered_json json{{"counted", figures.pixels},
-                                {"pixels", figures.beyond},
-                                {"percent", figures.percent_beyond()},
-                                {"percentile_99", figures.percentile_99},
-                                {"worst", figures.worst},
-                                {"noise", nullptr}};
-    if (const auto& noise = figures.noise) {
-        json["noise"] = {{"median", noise->median},
-                         {"percentile_99", noise->percentile_99},
-                         {"beyond_percent", figures.percent(static_cast<double>(noise->beyond))},
-                         {"expected_percent", figures.percent(noise->expected)},
-                         {"certain_percent", figures.percent(static_cast<double>(noise->certain))}};
+nlohmann::ordered_json threshold_json(const std::optional<ThresholdDifference>& figures) {
+    if (!figures) return nullptr;
+    nlohmann::ordered_json noise_json;
+    if (const auto& noise = figures->noise) {
+        noise_json = {{"median", noise->median},
+                      {"percentile_99", noise->percentile_99},
+                      {"beyond_percent", figures->percent(static_cast<double>(noise->beyond))},
+                      {"expected_percent", figures->percent(noise->expected)},
+                      {"certain_percent", figures->percent(static_cast<double>(noise->certain))}};
     }
-    return json;
+    return {{"counted", figures->pixels},
+            {"pixels", figures->beyond},
+            {"percent", figures->percent_beyond()},
+            {"percentile_99", figures->percentile_99},
+            {"worst", figures->worst},
+            {"noise", noise_json},
+            {"display_white", figures->display_white}};
 }
+
+/// The reference's noise, and what it adds.
+void print_noise(const ThresholdFigures& figures) {
+    if (!figures.noise) return;
+    const ReferenceNoise& noise = *figures.noise;
+    fmt::print("  {:<24} {:.4g} % by more than 3 standard errors; by noise alone {:.4g} %\n", "beyond, less noise",
+               figures.percent(static_cast<double>(noise.certain)), figures.percent(noise.expected));
+    fmt::print("  {:<24} median {:.3g} thresholds, 99th percentile {:.3g}, beyond 1 {:.4g} %\n", "reference's noise",
+               noise.median, noise.percentile_99, figures.percent(static_cast<double>(noise.beyond)));
+}
+
+std::string describe_not_finite(const CompareResult& result) {
+    return fmt::format("NaN: {} and {}, infinite: {} and {}", result.a.nan, result.b.nan, result.a.inf, result.b.inf);
+}
+
+/// Three columns: percent beyond, 99th percentile, worst. Dashes if there are no pixels.
+std::string figure_columns(const ThresholdFigures& figures) {
+    if (figures.pixels == 0) return fmt::format(" {:>9} {:>8} {:>8}", "-", "-", "-");
+    return fmt::format(" {:>9.4g} {:>8.3g} {:>8.3g}", figures.percent_beyond(), figures.percentile_99, figures.worst);
+}
+
+/// Four columns: seen, flicker, lasting, noticed, percent.
+std::string visible_columns(const VisibleShares& shares) {
+    return fmt::format(" {:>9.3g} {:>9.3g} {:>9.3g} {:>9}", shares.seen, shares.flicker, shares.lasting,
+                       shares.noticed ? fmt::format("{:.3g}", *shares.noticed) : "-");
+}
+
+void print_head(const SequenceSummary& summary) {
+    fmt::print("  {:>6} {:>10} {:>10}", "", "", "");
+    if (summary.threshold) fmt::print(" {:>27}", "error, thresholds");
+    if (summary.visible) fmt::print(" {:>39}", "visible differences, % of the pixels");
+    fmt::print("\n  {:>6} {:>10} {:>10}", "frame", "max", "RMS");
+    if (summary.threshold) fmt::print(" {:>9} {:>8} {:>8}", "beyond, %", "99 %", "worst");
+    if (summary.visible) fmt::print(" {:>9} {:>9} {:>9} {:>9}", "seen", "flicker", "lasting", "noticed");
+    if (!summary.threshold && !summary.visible) fmt::print(" {:>9}", "beyond, %");
+    fmt::print("\n");
+}
+
+/// The columns after max and RMS.
+void print_columns(const std::optional<ThresholdDifference>& threshold, const std::optional<VisibleShares>& visible,
+                   double beyond) {
+    if (threshold) fmt::print("{}", figure_columns(*threshold));
+    if (visible) fmt::print("{}", visible_columns(*visible));
+    if (!threshold && !visible) fmt::print(" {:>9.4g}", beyond);
+}
+
+void print_frame(const FrameComparison& frame) {
+    const CompareResult& result = frame.result;
+    fmt::print("  {:>6} {:>10.4g} {:>10.4g}", frame.frame, result.all.max_abs, result.all.rms);
+    print_columns(result.threshold, frame.visible, result.percent(result.beyond));
+    std::string note = frame.same ? "" : "different";
+    if (const std::string limits = exceeded_options(result); !limits.empty()) note += " (" + limits + ")";
+    if (result.a.any() || result.b.any()) note += ", " + describe_not_finite(result);
+    fmt::print("{}{}\n", note.empty() ? "" : "  ", note);
+}
+
+void print_summary(const SequenceSummary& summary) {
+    fmt::print("  {:>6} {:>10.4g} {:>10.4g}", "all", summary.max_abs, summary.rms);
+    print_columns(summary.threshold, summary.visible, summary.percent(summary.beyond));
+    fmt::print("\n");
+    if (summary.threshold) {
+        fmt::print("  white is {:g} cd/m2\n", summary.threshold->display_white);
+        print_noise(*summary.threshold);
+    }
+    fmt::print("  {} of {} frames differ; the largest difference is in frame {}\n", summary.different, summary.frames,
+               summary.worst_frame);
+}
+
+}  // namespace
 
 nlohmann::ordered_json comparison_json(const CompareResult& result) {
     nlohmann::ordered_json json{
@@ -82,11 +151,7 @@ nlohmann::ordered_json comparison_json(const CompareResult& result) {
     json["inf"] = {result.a.inf, result.b.inf};
     json["beyond"] = pixels_json(result, result.beyond);
     json["luminance"] = result.luminance ? luminance_json(*result.luminance, result) : nlohmann::ordered_json();
-    json["threshold"] = nullptr;
-    if (const auto& threshold = result.threshold) {
-        json["threshold"] = figures_json(*threshold);
-        json["threshold"]["display_white"] = threshold->display_white;
-    }
+    json["threshold"] = threshold_json(result.threshold);
     json["exceeded"] = result.exceeded;
     json["channels"] = nlohmann::ordered_json::array();
     for (const ChannelDifference& channel : result.channels) {
@@ -102,21 +167,8 @@ nlohmann::ordered_json comparison_json(const CompareResult& result) {
 nlohmann::ordered_json shares_json(const std::optional<VisibleShares>& shares) {
     if (!shares) return nullptr;
     nlohmann::ordered_json json{{"seen", shares->seen}, {"flicker", shares->flicker}, {"lasting", shares->lasting}};
-    json["noticed"] = shares->noticed ? nlohmann::ordered_json(*shares->noticed) : nlohmann::ordered_json(nullptr);
+    json["noticed"] = shares->noticed ? nlohmann::ordered_json(*shares->noticed) : nlohmann::ordered_json();
     return json;
-}
-
-void print_less_noise(const std::string& what, const ThresholdFigures& figures) {
-    if (!figures.noise) return;
-    fmt::print("  {:<24} {:.4g} % by more than 3 standard errors; by noise alone {:.4g} %\n", what,
-               figures.percent(static_cast<double>(figures.noise->certain)), figures.percent(figures.noise->expected));
-}
-
-void print_noise(const ThresholdFigures& figures) {
-    if (!figures.noise) return;
-    const ReferenceNoise& noise = *figures.noise;
-    fmt::print("  {:<24} median {:.3g} thresholds, 99th percentile {:.3g}, beyond 1 {:.4g} %\n", "reference's noise",
-               noise.median, noise.percentile_99, figures.percent(static_cast<double>(noise.beyond)));
 }
 
 std::string exceeded_options(const CompareResult& result) {
@@ -139,16 +191,13 @@ void print_comparison(const CompareOptions& options, const CompareResult& result
                   fmt::format("{}", channel.beyond));
     }
     if (result.colour) print_row("R, G and B", *result.colour, "", "");
-    if (result.a.any() || result.b.any()) {
-        fmt::print("  NaN: {} and {}, infinite: {} and {}\n", result.a.nan, result.b.nan, result.a.inf, result.b.inf);
-    }
+    if (result.a.any() || result.b.any()) fmt::print("  {}\n", describe_not_finite(result));
     if (!visible) print_pixels("beyond the tolerance", result, result.beyond);
     if (result.luminance) print_luminance(options, result);
     if (const auto& threshold = result.threshold) {
         print_pixels("beyond the Aleph map", result, threshold->beyond,
                      fmt::format(", at worst {:.4g} thresholds; white is {:g} cd/m2", threshold->worst,
                                  threshold->display_white));
-        print_less_noise("beyond, less noise", *threshold);
         print_noise(*threshold);
     }
     if (visible) {
@@ -160,67 +209,6 @@ void print_comparison(const CompareOptions& options, const CompareResult& result
     }
     fmt::print("{}\n", result.same ? "same" : "different");
 }
-
-namespace {
-
-/// Three columns: percent beyond, 99th percentile, worst. Dashes if there are no pixels.
-std::string figure_columns(const ThresholdFigures* figures) {
-    if (figures->pixels == 0) return fmt::format(" {:>9} {:>8} {:>8}", "-", "-", "-");
-    return fmt::format(" {:>9.4g} {:>8.3g} {:>8.3g}", figures->percent_beyond(), figures->percentile_99,
-                       figures->worst);
-}
-
-/// Four columns: seen, flicker, lasting, noticed, percent.
-std::string visible_columns(const VisibleShares& shares) {
-    return fmt::format(" {:>9.3g} {:>9.3g} {:>9.3g} {:>9}", shares.seen, shares.flicker, shares.lasting,
-                       shares.noticed ? fmt::format("{:.3g}", *shares.noticed) : "-");
-}
-
-void print_head(const SequenceSummary& summary) {
-    fmt::print("  {:>6} {:>10} {:>10}", "", "", "");
-    if (summary.threshold) fmt::print(" {:>27}", "error, thresholds");
-    if (summary.visible) fmt::print(" {:>39}", "visible differences, % of the pixels");
-    fmt::print("\n  {:>6} {:>10} {:>10}", "frame", "max", "RMS");
-    if (summary.threshold) fmt::print(" {:>9} {:>8} {:>8}", "beyond, %", "99 %", "worst");
-    if (summary.visible) fmt::print(" {:>9} {:>9} {:>9} {:>9}", "seen", "flicker", "lasting", "noticed");
-    if (!summary.threshold && !summary.visible) fmt::print(" {:>9}", "beyond, %");
-    fmt::print("\n");
-}
-
-/// The columns after max and RMS.
-void print_columns(const ThresholdFigures* threshold, const std::optional<VisibleShares>& visible, double beyond) {
-    if (threshold) fmt::print("{}", figure_columns(threshold));
-    if (visible) fmt::print("{}", visible_columns(*visible));
-    if (!threshold && !visible) fmt::print(" {:>9.4g}", beyond);
-}
-
-void print_frame(const FrameComparison& frame) {
-    const CompareResult& result = frame.result;
-    fmt::print("  {:>6} {:>10.4g} {:>10.4g}", frame.frame, result.all.max_abs, result.all.rms);
-    print_columns(result.threshold ? &*result.threshold : nullptr, frame.visible, result.percent(result.beyond));
-    std::string note = frame.same ? "" : "different";
-    if (const std::string limits = exceeded_options(result); !limits.empty()) note += " (" + limits + ")";
-    if (result.a.any() || result.b.any()) {
-        note += fmt::format(", NaN: {} and {}, infinite: {} and {}", result.a.nan, result.b.nan, result.a.inf,
-                            result.b.inf);
-    }
-    fmt::print("{}{}\n", note.empty() ? "" : "  ", note);
-}
-
-void print_summary(const SequenceSummary& summary) {
-    fmt::print("  {:>6} {:>10.4g} {:>10.4g}", "all", summary.max_abs, summary.rms);
-    print_columns(summary.threshold ? &*summary.threshold : nullptr, summary.visible, summary.percent(summary.beyond));
-    fmt::print("\n");
-    if (summary.threshold) {
-        fmt::print("  white is {:g} cd/m2\n", summary.threshold->display_white);
-        print_less_noise("beyond, less noise", *summary.threshold);
-        print_noise(*summary.threshold);
-    }
-    fmt::print("  {} of {} frames differ; the largest difference is in frame {}\n", summary.different, summary.frames,
-               summary.worst_frame);
-}
-
-}  // namespace
 
 void print_sequence(const CompareOptions& options, const std::vector<FrameComparison>& frames,
                     const SequenceSummary& summary) {
@@ -241,21 +229,16 @@ void print_sequence_json(const std::vector<FrameComparison>& frames, const Seque
         entry["visible"] = shares_json(frame.visible);
         json["frames"].push_back(std::move(entry));
     }
-    nlohmann::ordered_json& all = json["all"];
-    all = {{"frames", summary.frames},
-           {"different", summary.different},
-           {"worst_frame", summary.worst_frame},
-           {"max", summary.max_abs},
-           {"rms", summary.rms},
-           {"nan", {summary.a.nan, summary.b.nan}},
-           {"inf", {summary.a.inf, summary.b.inf}},
-           {"beyond", {{"pixels", summary.beyond}, {"percent", summary.percent(summary.beyond)}}},
-           {"threshold", nullptr},
-           {"visible", shares_json(summary.visible)}};
-    if (summary.threshold) {
-        all["threshold"] = figures_json(*summary.threshold);
-        all["threshold"]["display_white"] = summary.threshold->display_white;
-    }
+    json["all"] = {{"frames", summary.frames},
+                   {"different", summary.different},
+                   {"worst_frame", summary.worst_frame},
+                   {"max", summary.max_abs},
+                   {"rms", summary.rms},
+                   {"nan", {summary.a.nan, summary.b.nan}},
+                   {"inf", {summary.a.inf, summary.b.inf}},
+                   {"beyond", {{"pixels", summary.beyond}, {"percent", summary.percent(summary.beyond)}}},
+                   {"threshold", threshold_json(summary.threshold)},
+                   {"visible", shares_json(summary.visible)}};
     fmt::print("{}\n", json.dump(2));
 }
 

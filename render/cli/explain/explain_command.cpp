@@ -14,7 +14,6 @@
 #include "render/cli/scene_options.h"
 #include "render/settings/fingerprint.h"
 #include "render/settings/frame_list.h"
-#include "render/settings/scene_numbers.h"
 
 namespace aleph {
 

@@ -1,8 +1,10 @@
 // The description of a scene as text.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <ranges>
 
 #include "engine/base/errors.h"
 #include "render/cli/explain/explain.h"
@@ -45,12 +47,7 @@ std::string track_text(const ordered_json& track) {
 }
 
 std::string tracks_text(const ordered_json& tracks) {
-    std::string text;
-    for (const ordered_json& track : tracks) {
-        if (!text.empty()) text += ", ";
-        text += track_text(track);
-    }
-    return text;
+    return fmt::format("{}", fmt::join(tracks | std::views::transform(track_text), ", "));
 }
 
 /// Levels of the tree that are indented. Lines of deeper objects begin with their depth.
@@ -64,12 +61,8 @@ std::string object_text(const ordered_json& object) {
     text += printable(path.substr(path.rfind('/') + 1), 80);
     std::vector<std::string> parts;
     if (object.contains("triangles")) {
-        std::string materials;
-        for (const ordered_json& name : object["materials"]) {
-            if (!materials.empty()) materials += ", ";
-            materials += text_of(name);
-        }
-        parts.push_back(fmt::format("{} of {}", counted(object["triangles"], "triangle", "triangles"), materials));
+        parts.push_back(fmt::format("{} of {}", counted(object["triangles"], "triangle", "triangles"),
+                                    fmt::join(object["materials"] | std::views::transform(text_of), ", ")));
     }
     if (object.contains("subdivision_level"))
         parts.push_back(fmt::format("subdivided, level {}", object["subdivision_level"].get<int>()));
@@ -93,9 +86,8 @@ std::string object_text(const ordered_json& object) {
     if (object.contains("from") && object["depth"].get<int>() == 0)
         parts.push_back(fmt::format("from {}", text_of(object["from"])));
     if (object.contains("animated")) parts.push_back(fmt::format("animated {}", tracks_text(object["animated"])));
-    for (std::size_t i = 0; i < parts.size(); ++i) text.append(i == 0 ? ": " : "; ").append(parts[i]);
-    text += '\n';
-    return text;
+    if (!parts.empty()) text += fmt::format(": {}", fmt::join(parts, "; "));
+    return text + '\n';
 }
 
 /// The first objects of the tree, and the moving ones among the rest.
@@ -128,8 +120,7 @@ std::string frames_text(const ordered_json& frames) {
         frames["last"].get<std::int64_t>(), text_of(frames["per_second"]), frames["first_second"].get<double>(),
         frames["last_second"].get<double>(), frames["from"] == "given" ? "as the scene says" : "the span of its keys");
     if (!frames["cuts"].empty()) text += fmt::format("; camera cuts at {}", frames["cuts"].dump());
-    text += '\n';
-    return text;
+    return text + '\n';
 }
 
 std::string environment_text(const ordered_json& environment) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <system_error>
 
 #include "engine/base/errors.h"
@@ -26,21 +28,16 @@ std::string file_word(const fs::path& file) {
     return "file:" + file.string();
 }
 
+Words split(const std::string& text) {
+    std::istringstream words(text);
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
 /// How PNG files come in: one after the other, so that neither numbers nor names matter.
 Words input_words(const FilmFrames& frames) {
-    return {"-hide_banner",
-            "-loglevel",
-            "error",
-            "-nostdin",
-            "-y",
-            "-f",
-            "image2pipe",
-            "-c:v",
-            "png",
-            "-framerate",
-            fmt::format("{}/{}", frames.rate.numerator, frames.rate.denominator),
-            "-i",
-            "pipe:0"};
+    return split(
+        fmt::format("-hide_banner -loglevel error -nostdin -y -f image2pipe -c:v png -framerate {}/{} -i pipe:0",
+                    frames.rate.numerator, frames.rate.denominator));
 }
 
 Words joined(const std::vector<Words>& parts) {
@@ -64,9 +61,8 @@ std::string filters_420(const PictureSize& size) {
 
 /// Compression without visible loss.
 Words codec_words(const std::string& ending) {
-    if (ending == ".webm")
-        return {"-c:v", "libvpx-vp9", "-crf", "20", "-b:v", "0", "-cpu-used", "2", "-row-mt", "1", "-f", "webm"};
-    return {"-c:v", "libx264", "-crf", "16", "-movflags", "+faststart", "-f", ending.substr(1)};
+    if (ending == ".webm") return split("-c:v libvpx-vp9 -crf 20 -b:v 0 -cpu-used 2 -row-mt 1 -f webm");
+    return split("-c:v libx264 -crf 16 -movflags +faststart -f " + ending.substr(1));
 }
 
 /// @param share  of the whole work that this is, after what was done before
@@ -121,23 +117,16 @@ void encode_film(const fs::path& ffmpeg, const fs::path& film, const FilmFrames&
     if (frames.ending == ".gif") {
         // Two passes: in one, ffmpeg would keep all frames in memory until it knows the palette.
         const std::string palette = file_word(film) + ".palette";
-        run_pass(
-            ffmpeg,
-            joined({input, {"-vf", "palettegen=reserve_transparent=0", "-f", "image2pipe", "-c:v", "png", palette}}),
-            frames, {0.0, 0.5}, check);
-        run_pass(ffmpeg,
-                 joined({input,
-                         {"-f", "png_pipe", "-i", palette, "-lavfi", "[0:v][1:v]paletteuse=dither=sierra2_4a"},
-                         {"-f", "gif", file_word(film)}}),
-                 frames, {0.5, 0.5}, check);
+        const Words make = split("-vf palettegen=reserve_transparent=0 -f image2pipe -c:v png");
+        run_pass(ffmpeg, joined({input, make, {palette}}), frames, {0.0, 0.5}, check);
+        const Words use = split("-lavfi [0:v][1:v]paletteuse=dither=sierra2_4a -f gif");
+        run_pass(ffmpeg, joined({input, {"-f", "png_pipe", "-i", palette}, use, {file_word(film)}}), frames, {0.5, 0.5},
+                 check);
     } else {
-        run_pass(ffmpeg,
-                 joined({input,
-                         {"-vf", filters_420(read_picture_size(frames.files.front()))},
-                         {"-threads", std::to_string(frames.threads)},
-                         codec_words(frames.ending),
-                         {file_word(film)}}),
-                 frames, {}, check);
+        const Words filters{"-vf", filters_420(read_picture_size(frames.files.front()))};
+        const Words threads{"-threads", std::to_string(frames.threads)};
+        run_pass(ffmpeg, joined({input, filters, threads, codec_words(frames.ending), {file_word(film)}}), frames, {},
+                 check);
     }
     std::error_code error;
     if (fs::file_size(film, error) == 0 || error) throw OutputError(printable(ffmpeg.string(), 400), "wrote no film");

@@ -19,7 +19,7 @@ std::filesystem::path checkpoint_file(const std::filesystem::path& file);
 struct ClaimedOutput {
     std::vector<int> frames;
     std::function<std::filesystem::path(int frame)> file;
-    std::function<std::string(int frame)> fingerprint;  ///< of a frame's file (frame_fingerprint)
+    std::function<std::string(int frame)> fingerprint;  ///< of a frame's file: SHA-1
     std::string identity;                               ///< what all of them have in common
     bool resume = false;                                ///< finished frames are kept
     /// Returns whether the film of the frames is made: they are finished then. May be empty.

@@ -1,6 +1,7 @@
 #include "render/cli/support/options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -49,25 +50,29 @@ void refuse_options_as_values(const CLI::App& app) {
     for (const CLI::App* subcommand : app.get_subcommands()) refuse_options_as_values(*subcommand);
 }
 
-/// Advice after wrong usage: the end of the message.
-std::string where_to_look(const CLI::App& app) {
-    std::string chosen = "aleph", names;
-    const CLI::App* last = &app;
-    for (auto next = app.get_subcommands(); !next.empty(); next = last->get_subcommands()) {
-        last = next.front();
-        chosen += " " + last->get_name();
-    }
-    for (const CLI::App* subcommand : last->get_subcommands([](const CLI::App*) { return true; })) {
-        names += (names.empty() ? "" : ", ") + subcommand->get_name();
-    }
-    if (names.empty()) return fmt::format("{} --help lists the options", chosen);
-    return fmt::format("commands: {}; {} --help describes them", names, chosen);
-}
-
 /// The subcommand that was given, or that of a subcommand; else the program.
 const CLI::App& chosen_app(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
     return chosen.empty() ? app : chosen_app(*chosen.front());
+}
+
+/// "aleph farm slurm"
+std::string words_of(const CLI::App& app) {
+    return app.get_parent() == nullptr ? "aleph" : words_of(*app.get_parent()) + " " + app.get_name();
+}
+
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* each : app.get_subcommands({})) names.push_back(each->get_name());
+    return names;
+}
+
+/// Advice after wrong usage: the end of the message.
+std::string where_to_look(const CLI::App& app) {
+    const std::string words = words_of(chosen_app(app));
+    const std::vector<std::string> names = subcommand_names(chosen_app(app));
+    if (names.empty()) return fmt::format("{} --help lists the options", words);
+    return fmt::format("commands: {}; {} --help describes them", fmt::join(names, ", "), words);
 }
 
 /// Describes the first argument that no option takes, and suggests what may have been meant.
@@ -75,8 +80,8 @@ std::string describe_unexpected(const CLI::App& app) {
     const CLI::App& chosen = chosen_app(app);
     const std::vector<std::string> arguments = app.remaining(true);
     const auto option = std::ranges::find_if(arguments, [](const auto& text) { return text.starts_with("-"); });
-    std::vector<std::string> known;
     if (option != arguments.end()) {
+        std::vector<std::string> known;
         const std::string name = option->substr(0, option->find('='));
         for (const CLI::Option* each : chosen.get_options()) {
             for (const std::string& long_name : each->get_lnames()) known.push_back("--" + long_name);
@@ -84,11 +89,8 @@ std::string describe_unexpected(const CLI::App& app) {
         return fmt::format("there is no option {}{}", printable(name), close_suggestion(name, known));
     }
     const std::string text = arguments.empty() ? "" : arguments.front();
-    if (chosen.get_subcommands([](const CLI::App*) { return true; }).empty())
-        return fmt::format("'{}' is one argument too many", printable(text));
-    for (const CLI::App* each : chosen.get_subcommands([](const CLI::App*) { return true; })) {
-        known.push_back(each->get_name());
-    }
+    const std::vector<std::string> known = subcommand_names(chosen);
+    if (known.empty()) return fmt::format("'{}' is one argument too many", printable(text));
     return fmt::format("there is no command {}{}", printable(text), close_suggestion(text, known));
 }
 
@@ -97,7 +99,7 @@ void let_last_value_count(CLI::App& app) {
     for (CLI::Option* option : app.get_options()) {
         if (!option->get_positional() && option->get_expected_max() == 1) option->take_last();
     }
-    for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) let_last_value_count(*subcommand);
+    for (CLI::App* subcommand : app.get_subcommands({})) let_last_value_count(*subcommand);
 }
 
 template <class T>

@@ -20,6 +20,12 @@ double steady_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// A full disk or a closed terminal is no reason to end a render, so errors are not looked at.
+void write(const std::string& text, std::FILE* out) {
+    std::fwrite(text.data(), 1, text.size(), out);
+    std::fflush(out);
+}
+
 }  // namespace
 
 ProgressLook progress_look(bool quiet) {
@@ -33,16 +39,6 @@ ProgressLook progress_look(bool quiet) {
     const char* no_colour = std::getenv("NO_COLOR");  // no-color.org: set and not empty
     return {ProgressStyle::bar, !no_colour || !*no_colour, known ? size.ws_col : 80};
 }
-
-namespace {
-
-/// A full disk or a closed terminal is no reason to end a render, so errors are not looked at.
-void write(const std::string& text, std::FILE* out) {
-    std::fwrite(text.data(), 1, text.size(), out);
-    std::fflush(out);
-}
-
-}  // namespace
 
 std::string format_percent(double share) {
     return share < 0.0995 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);

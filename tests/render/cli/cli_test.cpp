@@ -6,7 +6,6 @@
 #include "render/cli/commands.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/support/progress.h"
-#include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"

@@ -158,8 +158,8 @@ TEST(FrameFiles, GeometryChannelsAgreeWithTheCamera) {
 
 TEST(FrameFiles, StatisticsAddUp) {
     const Rendered rendered(10);
-    const auto json = nlohmann::json::parse(
-        format_statistics({rendered.output.statistics}, rendered.scene, rendered.settings, rendered.exposure));
+    const auto json = nlohmann::json::parse(format_statistics(format_frame_statistics(rendered.output.statistics),
+                                                              rendered.scene, rendered.settings, rendered.exposure));
     const auto& frame = json.at("frames").at(0);
     EXPECT_EQ(frame.at("frame"), 10);
     for (const char* whole : {"spp", "gather", "seed"})

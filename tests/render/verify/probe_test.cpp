@@ -3,7 +3,6 @@
 #include "render/verify/probe.h"
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
-#include "render/settings/reference_settings.h"
 #include "render/verify/continued_error.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
