@@ -62,12 +62,11 @@ constexpr const char* footer =
 void add_export_command(CLI::App& app, Command& command) {
     CLI::App* sub = app.add_subcommand("export", "write a scene as glTF, for other programs");
     const auto options = std::make_shared<ExportOptions>();
-    sub->add_option("scene", options->scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
-        ->required()
-        ->type_name("SCENE");
-    sub->add_option("-o,--output", options->output, "file to write: " + list_endings(scene_formats(), FormatUse::save))
-        ->required()
-        ->type_name("FILE");
+    add_text(*sub, "scene", "SCENE", options->scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
+        ->required();
+    add_text(*sub, "-o,--output", "FILE", options->output,
+             "file to write: " + list_endings(scene_formats(), FormatUse::save))
+        ->required();
     sub->add_flag("--bake", options->bake,
                   "give turns and cubic motion a key at every frame, for programs that interpolate otherwise than glTF "
                   "says, as Blender does: at frames they then show what aleph shows");

@@ -211,14 +211,13 @@ void add_maps_command(CLI::App& app, Command& command) {
                    "write one picture in place of the maps: how much each pixel needs samples, 1 over aleph.Y, for "
                    "renderers that take such a picture; EXR (channel Y) or PNG (grey)");
     const std::string group = "Frames without a scene";
-    maps->add_option("--images", options->images,
-                     "pictures in place of a scene, such as 'frame.####.exr' or 'frame.%04d.png', in quotes: EXR "
-                     "(linear Rec.709) or PNG (sRGB), numbered without gaps; motion comes from the files that hold it, "
-                     "or from comparing them")
-        ->type_name("PATTERN")
+    add_text(*maps, "--images", "PATTERN", options->images,
+             "pictures in place of a scene, such as 'frame.####.exr' or 'frame.%04d.png', in quotes: EXR "
+             "(linear Rec.709) or PNG (sRGB), numbered without gaps; motion comes from the files that hold it, "
+             "or from comparing them")
         ->group(group);
     const auto add_layer = [&](const char* option, std::string& layer, const char* help) {
-        maps->add_option(option, layer, help)->type_name("NAME")->group(group);
+        add_text(*maps, option, "NAME", layer, help)->group(group);
     };
     add_layer("--layer", options->layers.color,
               "layer of an EXR file that holds the picture, such as ViewLayer.Combined; default: R, G and B outside of "
@@ -231,8 +230,7 @@ void add_maps_command(CLI::App& app, Command& command) {
     add_layer("--depth-layer", options->layers.depth,
               "layer whose channel Z is depth, which is copied; 1e10 and beyond without motion is background; none: no "
               "depth; default: Z outside of layers, else the only layer called Depth");
-    maps->add_option("--cuts", options->cuts, "frames that begin a new shot: no motion from the frame before")
-        ->type_name("LIST")
+    add_text(*maps, "--cuts", "LIST", options->cuts, "frames that begin a new shot: no motion from the frame before")
         ->group(group);
     add_number(*maps, "--exposure", options->exposure,
                "factor on the pictures' values, so that white is 1 (default: 1)")

@@ -30,7 +30,7 @@ void write_first_scene(const std::string& file) {
 void add_new_command(CLI::App& app, Command& command) {
     CLI::App* start = app.add_subcommand("new", "write a first scene, with comments, to begin with");
     const auto file = std::make_shared<std::string>();
-    start->add_option("scene", *file, "name of the new scene file")->required()->type_name("NAME.json");
+    add_text(*start, "scene", "NAME.json", *file, "name of the new scene file")->required();
     start->footer(
         "The scene has a floor, a lamp, a ball and a box that move, and a camera; every part says what it does. "
         "scenes/AUTHORING.md has all keys, scenes/scene.schema.json completes them in editors.\n\n"

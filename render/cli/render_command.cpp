@@ -117,24 +117,18 @@ void add_render_command(CLI::App& app, Command& command) {
             "while a frame is made, keep its records and samples in a file every so many seconds, and when a signal "
             "stops it: --resume goes on from there")
         ->type_name("SECONDS");
-    render_app
-        ->add_option("--budget", options->budget,
-                     "seconds of a clock, with the threads given, that all the frames asked for may take, loading and "
-                     "choosing included: picks the smallest error (--error, .1 to 10) that is predicted to fit")
-        ->type_name("SECONDS");
-    render_app
-        ->add_option("--verify", options->verify,
-                     "afterwards check the frames for so many seconds of a clock (at least 4 blocks of pixels): blocks "
-                     "of random frames are path traced, and the share of the pixels that are seen to differ is printed "
-                     "with its interval at 95 %")
-        ->type_name("SECONDS");
-    render_app
-        ->add_option(
-            "--cache", options->cache,
-            "keep the indirect light of lighting keyframes (--light-step) in this file, and use what it has; a file of "
-            "another scene, other settings or another build is refused; a folder (FOLDER/) may be shared by processes "
-            "and scenes")
-        ->type_name("FILE");
+    add_text(*render_app, "--budget", "SECONDS", options->budget,
+             "seconds of a clock, with the threads given, that all the frames asked for may take, loading and "
+             "choosing included: picks the smallest error (--error, .1 to 10) that is predicted to fit");
+    add_text(*render_app, "--verify", "SECONDS", options->verify,
+             "afterwards check the frames for so many seconds of a clock (at least 4 blocks of pixels): blocks "
+             "of random frames are path traced, and the share of the pixels that are seen to differ is printed "
+             "with its interval at 95 %");
+    add_text(
+        *render_app, "--cache", "FILE", options->cache,
+        "keep the indirect light of lighting keyframes (--light-step) in this file, and use what it has; a file of "
+        "another scene, other settings or another build is refused; a folder (FOLDER/) may be shared by processes "
+        "and scenes");
     render_app->footer(render_footer);
     render_app->callback([options, &command] { command = [options] { return render(*options); }; });
 }

@@ -163,15 +163,12 @@ void add_setting_options(CLI::App& app, SettingMap& settings) {
 }
 
 void add_shot_options(CLI::App& app, SceneOptions& options, const std::string& output_help) {
-    app.add_option("scene", options.scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
-        ->required()
-        ->type_name("SCENE");
-    app.add_option("--frames", options.frames,
-                   "frames, such as 1-10,20-40x2 (x2: every second); default: the scene's range")
-        ->type_name("LIST");
-    app.add_option("-o,--output", options.output, output_help)->type_name("PATTERN");
-    app.add_option("--camera", options.camera, "name of a camera or of its node; default: the scene's choice")
-        ->type_name("NAME");
+    add_text(app, "scene", "SCENE", options.scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
+        ->required();
+    add_text(app, "--frames", "LIST", options.frames,
+             "frames, such as 1-10,20-40x2 (x2: every second); default: the scene's range");
+    add_text(app, "-o,--output", "PATTERN", options.output, output_help);
+    add_text(app, "--camera", "NAME", options.camera, "name of a camera or of its node; default: the scene's choice");
     add_load_limits(app, options.limits);
     add_value(app, "-t,--threads", options.threads,
               "number of threads, 0 to 4096; 0: all processors, or those of a Slurm task (SLURM_CPUS_PER_TASK)");
@@ -184,12 +181,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                      "folders are made; HDR keeps 8 bits per channel beside the pixel's brightest; name.mp4, .mov, "
                      ".webm or .gif: a film, made by the program ffmpeg; default: SCENE.####.exr, or "
                      "SCENE-maps.####.exr, in the current folder");
-    app.add_option("--fps", options.fps, "frames per second, such as 30 or 30000/1001; default: the scene's")
-        ->type_name("N");
-    app.add_option(
-           "--stats", options.stats,
-           "write counts and times of every frame as JSON; while frames are made, the file has the finished ones")
-        ->type_name("FILE.json");
+    add_text(app, "--fps", "N", options.fps, "frames per second, such as 30 or 30000/1001; default: the scene's");
+    add_text(app, "--stats", "FILE.json", options.stats,
+             "write counts and times of every frame as JSON; while frames are made, the file has the finished ones");
     app.add_flag("--resume", options.resume,
                  "keep frames whose files are whole and have the fingerprint of this scene, these settings and this "
                  "program; several processes with the same command divide the frames (EXR, PNG, HDR)");

@@ -192,14 +192,12 @@ int run(const StudyCommandOptions& options) {
 }
 
 void add_options(CLI::App& study, StudyCommandOptions& options) {
-    study.add_option("study", options.file, "study file (.json), or a scene with --sweep, --effects or --search")
-        ->required()
-        ->type_name("FILE|SCENE");
-    study
-        .add_option("--sweep", options.sweeps,
-                    "a setting and its values; every combination of several sweeps is a variant. Alone, noise or "
-                    "zero_mean_noise: the reference with noise of so many visible thresholds")
-        ->type_name("KEY=A,B,...")
+    add_text(study, "study", "FILE|SCENE", options.file,
+             "study file (.json), or a scene with --sweep, --effects or --search")
+        ->required();
+    add_text(study, "--sweep", "KEY=A,B,...", options.sweeps,
+             "a setting and its values; every combination of several sweeps is a variant. Alone, noise or "
+             "zero_mean_noise: the reference with noise of so many visible thresholds")
         ->allow_extra_args(false);
     study.add_flag("--effects", options.effects,
                    "also render without each effect that the scene calls for, in turn, and tell what each costs and in "
@@ -209,14 +207,10 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
                    "what they take to show as little as each variant");
     add_value(study, "--candidates", options.candidates,
               "settings that the search tries in its first round; 0: the study's, or 48");
-    study
-        .add_option("--frames", options.frames,
-                    "frames, such as 20,60; default: the study's, or the middle of the shot")
-        ->type_name("LIST");
-    study.add_option("--size", options.size, "of the frames; default: the study's, or 320x240")
-        ->type_name("WIDTHxHEIGHT");
-    study.add_option("--set", options.sets, "a setting of every variant and of the reference")
-        ->type_name("KEY=VALUE")
+    add_text(study, "--frames", "LIST", options.frames,
+             "frames, such as 20,60; default: the study's, or the middle of the shot");
+    add_text(study, "--size", "WIDTHxHEIGHT", options.size, "of the frames; default: the study's, or 320x240");
+    add_text(study, "--set", "KEY=VALUE", options.sets, "a setting of every variant and of the reference")
         ->allow_extra_args(false);
     add_value(study, "--reference-passes", options.passes,
               "renderings that the reference is the mean of, at least 2; 0: the study's, or 4");
@@ -228,37 +222,28 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
                     "models of vision that judge, such as thesis,castle, on a display that holds its frames")
         ->delimiter(',')
         ->check(CLI::IsMember(std::ranges::find(setting_table(), "vision", &Setting::key)->choices));
-    study
-        .add_option("--judge", options.judges,
-                    "maps of visible differences by another program, 1 where a difference is just visible: for each "
-                    "picture that study.json names, a file of the same name in this folder, or for a study of one "
-                    "variant files by frame, NAME=maps.####.exr; the page shows where they and our thresholds disagree")
-        ->type_name("NAME=FOLDER")
+    add_text(study, "--judge", "NAME=FOLDER", options.judges,
+             "maps of visible differences by another program, 1 where a difference is just visible: for each "
+             "picture that study.json names, a file of the same name in this folder, or for a study of one "
+             "variant files by frame, NAME=maps.####.exr; the page shows where they and our thresholds disagree")
         ->allow_extra_args(false);
-    study
-        .add_option("--pictures", options.pictures,
-                    "a variant that another program made: frames of the scene, of the study's size, with the exposure "
-                    "that `aleph explain` prints; its errors are measured, and no costs")
-        ->type_name("NAME=other.####.exr")
+    add_text(study, "--pictures", "NAME=other.####.exr", options.pictures,
+             "a variant that another program made: frames of the scene, of the study's size, with the exposure "
+             "that `aleph explain` prints; its errors are measured, and no costs")
         ->allow_extra_args(false);
-    study.add_option("-o,--output", options.output, "folder of the results; default: NAME-study")->type_name("FOLDER");
+    add_text(study, "-o,--output", "FOLDER", options.output, "folder of the results; default: NAME-study");
     add_value(study, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
     study.add_flag(
         "--viewer-test", options.extras.viewer_test,
         "also write viewer-test.html: a test in which viewers say which of two sequences had the errors, the "
         "reference or a variant; several consecutive --frames make sequences. It pools the results of several viewers");
-    study
-        .add_option(
-            "--errors", options.extras.errors,
-            "also write errors.jpg: where the errors of this variant lie, in visible thresholds of every viewer; may "
-            "be given several times, for variants side by side")
-        ->type_name("VARIANT")
+    add_text(study, "--errors", "VARIANT", options.extras.errors,
+             "also write errors.jpg: where the errors of this variant lie, in visible thresholds of every viewer; may "
+             "be given several times, for variants side by side")
         ->allow_extra_args(false);
-    study
-        .add_option("--shard", options.part,
-                    "only make every M-th reference and run, from the N-th on, and compare nothing: several machines "
-                    "share a study so, which the same command without it then finishes, with as many threads")
-        ->type_name("N/M");
+    add_text(study, "--shard", "N/M", options.part,
+             "only make every M-th reference and run, from the N-th on, and compare nothing: several machines "
+             "share a study so, which the same command without it then finishes, with as many threads");
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");
     study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");
 }

@@ -115,44 +115,30 @@ void add_compare_command(CLI::App& app, Command& command) {
     const auto options = std::make_shared<CompareOptions>();
     compare_app->add_option("first", options->first, "a picture (EXR, PNG, JPEG, HDR), or a sequence")->required();
     compare_app->add_option("second", options->second, "the reference")->required();
-    compare_app
-        ->add_option("--threshold", options->threshold,
-                     "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where "
-                     "their luminance differs by more than its threshold.Y; replaces --tolerance and --relative")
-        ->type_name("MAPS.exr");
-    compare_app
-        ->add_option(
-            "--seen", options->seen,
-            "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where a "
-            "viewer who looks there sees a difference; replaces --tolerance and --relative")
-        ->type_name("MAPS.exr");
-    compare_app
-        ->add_option("--seen-out", options->seen_out,
-                     "write what is seen, flickers and lasts, in just visible differences: three panels (.png), or the "
-                     "channels seen.Y, flicker.Y and lasting.Y (.exr)")
-        ->type_name("FILE");
+    add_text(*compare_app, "--threshold", "MAPS.exr", options->threshold,
+             "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where "
+             "their luminance differs by more than its threshold.Y; replaces --tolerance and --relative");
+    add_text(*compare_app, "--seen", "MAPS.exr", options->seen,
+             "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where a "
+             "viewer who looks there sees a difference; replaces --tolerance and --relative");
+    add_text(*compare_app, "--seen-out", "FILE", options->seen_out,
+             "write what is seen, flickers and lasts, in just visible differences: three panels (.png), or the "
+             "channels seen.Y, flicker.Y and lasting.Y (.exr)");
     CompareSettings& settings = options->settings;
     add_value(*compare_app, "--tolerance", settings.tolerance, "allowed difference, in the channel's unit, 0 and up");
     add_value(*compare_app, "--relative", settings.relative,
               "allowed in addition, as a factor on the reference's value, 0 and up");
     add_value(*compare_app, "--share", settings.share, "percent of the pixels that may differ by more, 0 to 100");
     add_limits(*compare_app, settings);
-    compare_app
-        ->add_option("--channels", settings.channels,
-                     "compare only these channels (Z) or layers (forward); default: all")
+    add_text(*compare_app, "--channels", "A,B", settings.channels,
+             "compare only these channels (Z) or layers (forward); default: all")
         ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("A,B");
-    compare_app->add_option("--cuts", options->cuts, "frames that begin a new shot: nothing flickers into them")
-        ->type_name("LIST");
-    compare_app
-        ->add_option("--diff", options->difference,
-                     "write the difference as a picture; white is the largest difference")
-        ->type_name("OUT.png");
-    compare_app
-        ->add_option("--junit", options->junit,
-                     "write the result as JUnit's XML, a test case for each frame, for CI services")
-        ->type_name("FILE.xml");
+        ->allow_extra_args(false);
+    add_text(*compare_app, "--cuts", "LIST", options->cuts, "frames that begin a new shot: nothing flickers into them");
+    add_text(*compare_app, "--diff", "OUT.png", options->difference,
+             "write the difference as a picture; white is the largest difference");
+    add_text(*compare_app, "--junit", "FILE.xml", options->junit,
+             "write the result as JUnit's XML, a test case for each frame, for CI services");
     compare_app->add_flag("--json", options->json, "print JSON in place of the table");
     compare_app->add_flag("-q,--quiet", options->quiet, "print nothing; the exit code is the result");
     compare_app->footer(compare_footer);

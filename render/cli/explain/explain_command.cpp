@@ -80,9 +80,9 @@ int explain(const ExplainOptions& options) {
 void add_explain_command(CLI::App& app, Command& command) {
     CLI::App* explain_app = app.add_subcommand("explain", "describe a scene without rendering it");
     const auto options = std::make_shared<ExplainOptions>();
-    explain_app->add_option("scene", options->scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
-        ->required()
-        ->type_name("SCENE");
+    add_text(*explain_app, "scene", "SCENE", options->scene,
+             "scene file: " + list_endings(scene_formats(), FormatUse::load))
+        ->required();
     explain_app->add_flag("--json", options->json, "print everything as JSON");
     explain_app->add_flag(
         "--fingerprint", options->fingerprint,
@@ -92,13 +92,10 @@ void add_explain_command(CLI::App& app, Command& command) {
         add_value(*explain_app, "--at", options->at,
                   "print world matrix, visibility, bounds and points of every object at this time (s) as JSON");
     add_value(*explain_app, "--objects", options->objects, "number of objects that the text lists; 0: all");
-    explain_app->add_option("--camera", options->camera, "name of a camera or of its node; default: the scene's choice")
-        ->type_name("NAME");
-    explain_app
-        ->add_option(
-            "--frames", options->frames,
-            "frames whose effects plan is made, such as 1-10,20-40x2; default: all of a short shot, else some of it")
-        ->type_name("LIST");
+    add_text(*explain_app, "--camera", "NAME", options->camera,
+             "name of a camera or of its node; default: the scene's choice");
+    add_text(*explain_app, "--frames", "LIST", options->frames,
+             "frames whose effects plan is made, such as 1-10,20-40x2; default: all of a short shot, else some of it");
     add_load_limits(*explain_app, options->limits);
     add_setting_options(*explain_app, options->settings);
     explain_app->footer(

@@ -149,9 +149,8 @@ void add_job_options(CLI::App& app, FarmOptions& options) {
         ->default_str("render");
     app.add_flag("--aovs", options.aovs, "as of `aleph render`");
     app.add_flag("--importance", options.scene.importance, "as of `aleph maps`");
-    app.add_option("--cache", options.cache, "as of `aleph render`; a folder")->type_name("FOLDER");
-    app.add_option("--checkpoint", options.checkpoint, "as of `aleph render`, for frames that take long")
-        ->type_name("SECONDS");
+    add_text(app, "--cache", "FOLDER", options.cache, "as of `aleph render`; a folder");
+    add_text(app, "--checkpoint", "SECONDS", options.checkpoint, "as of `aleph render`, for frames that take long");
     app.add_flag("--submit", options.submit, "run the script that submits the tasks, too");
 }
 
@@ -160,9 +159,9 @@ void add_slurm(CLI::App& farm, Command& command) {
     const auto options = std::make_shared<FarmOptions>();
     add_job_options(*slurm, *options);
     FarmResources& resources = options->resources;
-    slurm->add_option("--time", resources.time, "time of a task, such as 2:00:00")->type_name("TIME");
-    slurm->add_option("--memory", resources.memory, "memory of a task, such as 4G")->type_name("SIZE");
-    slurm->add_option("--partition", resources.partition, "partition of the cluster")->type_name("NAME");
+    add_text(*slurm, "--time", "TIME", resources.time, "time of a task, such as 2:00:00");
+    add_text(*slurm, "--memory", "SIZE", resources.memory, "memory of a task, such as 4G");
+    add_text(*slurm, "--partition", "NAME", resources.partition, "partition of the cluster");
     add_value(*slurm, "--cpus", resources.cpus, "processors of a task, which it uses all; 0: the cluster's default");
     slurm->footer(
         "The folder `farm` beside the frames gets plain scripts: task.1.sh runs a task, submit.1.sh submits all of "
@@ -179,11 +178,9 @@ void add_parallel(CLI::App& farm, Command& command) {
     CLI::App* parallel = farm.add_subcommand("parallel", "the same for GNU parallel, on this host or on several");
     const auto options = std::make_shared<FarmOptions>();
     add_job_options(*parallel, *options);
-    parallel
-        ->add_option("--hosts", options->resources.hosts,
-                     "hosts, such as one,two, which have this program, the scene and the output under the same paths")
-        ->delimiter(',')
-        ->type_name("HOST,...");
+    add_text(*parallel, "--hosts", "HOST,...", options->resources.hosts,
+             "hosts, such as one,two, which have this program, the scene and the output under the same paths")
+        ->delimiter(',');
     add_value(*parallel, "--jobs", options->resources.jobs, "tasks at a time on each host");
     parallel->footer(
         "Examples:\n"
@@ -202,7 +199,7 @@ void add_farm_command(CLI::App& app, Command& command) {
     const auto submit = std::make_shared<bool>(false);
     const auto add = [&](const char* name, const char* help) {
         CLI::App* sub = farm->add_subcommand(name, help);
-        sub->add_option("folder", *folder, "folder of the frames or of the study")->required()->type_name("FOLDER");
+        add_text(*sub, "folder", "FOLDER", *folder, "folder of the frames or of the study")->required();
         return sub;
     };
     add("status",

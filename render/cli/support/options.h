@@ -34,6 +34,13 @@ T parse_value(std::string_view text, const std::string& option);
 template <class T>
 CLI::Option* add_value(CLI::App& app, const std::string& option, T& value, const std::string& help);
 
+/// Adds an option that fills `value`, a text or several.
+/// @param type  the value's name in help: "FILE"
+template <class T>
+CLI::Option* add_text(CLI::App& app, const std::string& option, const char* type, T& value, const std::string& help) {
+    return app.add_option(option, value, help)->type_name(type);
+}
+
 /// A time of a clock.
 /// @throws CLI::ConversionError for what is no number, InputError (the option) for one that is not above 0
 double parse_seconds(const std::string& text, const std::string& option);

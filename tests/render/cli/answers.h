@@ -8,6 +8,7 @@
 
 namespace aleph {
 
+namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 using Words = std::vector<std::string>;
@@ -26,5 +27,13 @@ inline void expect_answer(const Ended& ended, int code, const std::string& part)
     EXPECT_EQ(ended.code, code) << part;
     EXPECT_THAT(ended.err, HasSubstr(part));
 }
+
+/// Runs the program in processes of its own.
+class ProgramTest : public testing::Test {
+  protected:
+    Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
+
+    const ScratchFolder folder_;
+};
 
 }  // namespace aleph

@@ -10,8 +10,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 class Budgets : public RenderCommand {
   protected:
     /// @return the exit code

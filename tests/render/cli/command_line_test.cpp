@@ -182,17 +182,26 @@ TEST(CommandLine, OU05_FullDiskIsExitCode1AndLeavesNothing) {
                     folder.path().string(), picture);
     EXPECT_EQ(output_of(command + "; [ $? = 1 ]"),
               fmt::format("aleph: error: {}: cannot write: File too large\n", picture));
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
         EXPECT_EQ(entry.path().extension(), ".exr") << entry.path();
     }
 }
 
-TEST(CommandLine, OU05_ResultsThatCannotBePrintedAreAnError) {
-    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+TEST(CommandLine, OU05_ResultsThatCannotBePrintedAreAnErrorProgressThatIsLostIsNone) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
     const TwoPictures files(0.0f);
-    const std::string command =
-        fmt::format("'{0}' compare '{1}' '{1}' >/dev/full 2>/dev/null", program_path("aleph"), files.a);
-    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+    const std::string compare = fmt::format("compare '{0}' '{0}'", files.a);
+    const auto code_of = [](const std::string& words) {
+        return WEXITSTATUS(std::system(fmt::format("'{}' {}", program_path("aleph"), words).c_str()));
+    };
+    for (const std::string& words : {compare, std::string("--help"), std::string("--version"),
+                                     std::string("render --help"), std::string("study --help")})
+        EXPECT_EQ(code_of(words + " >/dev/full 2>/dev/null"), 1) << words;
+    EXPECT_EQ(
+        code_of(fmt::format("render '{}' --frames 0-2 --size 16x12 --spp 1 -o '{}/' 2>/dev/full >/dev/null",
+                            (source_folder() / "scenes/cornell/scene.json").string(), files.folder.path().string())),
+        0);
+    EXPECT_TRUE(fs::exists(files.folder / "cornell.0002.exr"));
 }
 
 TEST(CommandLine, OU06_DifferenceIntoAMissingFolder) {

@@ -10,8 +10,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 ChannelImage grey(float value, int width = 6, int height = 5) {
     return grey_image(width, height, value);
 }

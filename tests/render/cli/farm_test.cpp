@@ -14,8 +14,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 TEST(FrameList, IsWrittenAsItIsRead) {
     for (const char* text : {"7", "1-4", "1-3,7,9-10", "-5--3,-1-2", "4,3,2"})
         EXPECT_EQ(format_frame_list(parse_frame_list(text)), text);
@@ -59,7 +57,7 @@ void damage_pixels(const fs::path& file) {
     FAIL() << "every change is in the last rows";
 }
 
-class FarmTest : public testing::Test {
+class FarmTest : public ProgramTest {
   protected:
     FarmTest() {
         fs::create_directories(folder_ / "it's a folder");
@@ -67,7 +65,6 @@ class FarmTest : public testing::Test {
         words_ = {scene_, "--frames", "1-10", "--size", "32x24", "--gather", "16", "--spp", "1", "--checkpoint", "60"};
     }
 
-    Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
     Words with(const Words& begin, const Words& end) const { return joined(joined(begin, words_), end); }
     /// Runs a task of the first round as a scheduler does.
     int run_task(int task, const std::string& round = "1") const {
@@ -82,7 +79,6 @@ class FarmTest : public testing::Test {
         return read_bytes(folder_ / "status");
     }
 
-    const ScratchFolder folder_;
     const fs::path scene_ = folder_ / "it's a folder/scene.json", out_ = folder_ / "it's a folder/out";
     Words words_;
     mutable int code_ = 0;

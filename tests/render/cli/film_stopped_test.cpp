@@ -6,9 +6,7 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
-class StoppedFilm : public testing::Test {
+class StoppedFilm : public ProgramTest {
   protected:
     StoppedFilm() {
         write_sliding_box(folder_ / "scene.json");
@@ -19,9 +17,7 @@ class StoppedFilm : public testing::Test {
         const Words words{"render", folder_ / "scene.json", "-o", folder_ / "out" / output, "-t", "1"};
         return joined(joined(words, {"--frames", "1-6", "--size", "32x24", "--gather", "16", "--spp", "1"}), more);
     }
-    Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
 
-    const ScratchFolder folder_;
     const fs::path frames_ = folder_ / "out/.film.mp4.frames";
 };
 

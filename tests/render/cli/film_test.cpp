@@ -6,8 +6,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A coloured box that passes coloured walls in nine frames.
 void write_passing_box(const fs::path& path) {
     std::ofstream(path) << R"({"aleph": 1, "exposure": 1, "fps": "30000/1001", "frames": [1, 9], "nodes": [
@@ -19,7 +17,7 @@ void write_passing_box(const fs::path& path) {
          "material": {"base_color": [0.1, 0.8, 0.2]}}]})";
 }
 
-class Films : public testing::Test {
+class Films : public ProgramTest {
   protected:
     Films() {
         write_passing_box(folder_ / "scene.json");
@@ -29,7 +27,6 @@ class Films : public testing::Test {
     Words words(const std::string& command, const std::string& output, const Words& more = {}) const {
         return joined({command, folder_ / "scene.json", "-o", folder_ / "out" / output, "-t", "2"}, more);
     }
-    Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
     Ended render(const std::string& output, const Words& more = {}) const {
         return run(words("render", output, joined({"--size", "64x48", "--gather", "16", "--spp", "4"}, more)));
     }
@@ -41,8 +38,6 @@ class Films : public testing::Test {
         return read_image(folder_ / "out" / name);
     }
     Words left() const { return names_in(folder_ / "out"); }
-
-    const ScratchFolder folder_;
 };
 
 TEST_F(Films, HasTheFramesOfThePictures) {

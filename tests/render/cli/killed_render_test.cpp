@@ -1,7 +1,4 @@
 // A render that is stopped or killed: finished frames stay whole, and --resume makes the others.
-// Standard output and standard error that cannot be written.
-
-#include <stdlib.h>
 
 #include <nlohmann/json.hpp>
 
@@ -11,9 +8,7 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
-class KilledRender : public testing::Test {
+class KilledRender : public ProgramTest {
   protected:
     KilledRender() {
         write_sliding_box(folder_ / "scene.json");
@@ -26,7 +21,6 @@ class KilledRender : public testing::Test {
         const Words words{"render", folder_ / "scene.json", "--frames", frames, "-o", output, "--size", "32x24"};
         return joined(joined(words, {"--gather", "16", "--spp", "1", "-q"}), more);
     }
-    Ended run(const Words& words) const { return StartedProgram(words, folder_ / "log").wait(); }
 
     /// The files are those of a render that was not stopped, and nothing else is there.
     void expect_whole() const {
@@ -35,8 +29,6 @@ class KilledRender : public testing::Test {
             EXPECT_TRUE(read_bytes(folder_ / "out" / name) == read_bytes(folder_ / "whole" / name)) << name;
         }
     }
-
-    const ScratchFolder folder_;
 };
 
 using Inodes = std::map<std::string, ino_t>;
@@ -243,24 +235,6 @@ TEST_F(KilledRender, WhatCannotBeResumedIsSaid) {
         if (more.front() == "--budget") std::erase_if(all, [](const auto& w) { return w == "--spp" || w == "1"; });
         expect_answer(run_command(all, more), 2, "--resume: " + more.front());
     }
-}
-
-TEST(LostOutput, HelpThatIsLostIsAFailure) {
-    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
-    for (const char* words : {"--help", "--version", "render --help", "study --help"}) {
-        const std::string command = "'" + program_path("aleph") + "' " + words + " >/dev/full 2>/dev/null";
-        EXPECT_EQ(WEXITSTATUS(::system(command.c_str())), 1) << words;
-    }
-}
-
-TEST(LostOutput, ProgressThatIsLostDoesNotEndARender) {
-    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
-    const ScratchFolder folder;
-    const std::string command =
-        "'" + program_path("aleph") + "' render '" + (source_folder() / "scenes/cornell/scene.json").string() +
-        "' --frames 0-2 --size 16x12 --spp 1 -o '" + folder.path().string() + "/' 2>/dev/full >/dev/null";
-    EXPECT_EQ(WEXITSTATUS(::system(command.c_str())), 0);
-    EXPECT_TRUE(std::filesystem::exists(folder / "cornell.0002.exr"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Runs `aleph maps` on pictures of a texture that moves.
 
 #include "engine/image/image_file.h"
+#include "render/output/frame_files.h"
 #include "render/settings/frame_pattern.h"
 #include "tests/render/cli/answers.h"
 #include "tests/support/image_patterns.h"
@@ -20,16 +21,6 @@ inline Image<Rgb> picture(int frame) {
                         [&](int x, int y) { return smooth_texture(x - 4.0 * frame, y - 8.0 * frame, 10.0); });
 }
 
-inline ChannelImage as_channels(const Image<Rgb>& image) {
-    ChannelImage file;
-    for (int c = 0; c < 3; ++c) {
-        Channel channel{std::string(1, "RGB"[c]), Image<float>(image.width, image.height)};
-        for (std::size_t i = 0; i < image.size(); ++i) channel.values.pixels[i] = image.pixels[i][c];
-        file.channels.push_back(std::move(channel));
-    }
-    return file;
-}
-
 /// A folder with frames f.0001.exr and so on.
 struct Frames {
     ScratchFolder folder;
@@ -37,7 +28,7 @@ struct Frames {
         for (int frame = first; frame <= last; ++frame) write(frame, picture(frame));
     }
     std::filesystem::path file(int frame) const { return folder / insert_number("f.####.exr", {2, 4, 4}, frame); }
-    void write(int frame, const Image<Rgb>& image) const { write_exr(file(frame), as_channels(image)); }
+    void write(int frame, const Image<Rgb>& image) const { write_exr(file(frame), make_color_image(image)); }
     std::string pattern() const { return (folder / "f.####.exr").string(); }
     std::string out() const { return (folder / "out").string(); }
     /// Runs `aleph maps` on all of them, into the folder `out`.

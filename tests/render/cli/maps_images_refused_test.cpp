@@ -9,8 +9,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Exit code 2, one line that holds every part.
 void expect_refusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
     const Ran ran = run_maps(arguments);

@@ -49,7 +49,7 @@ TEST(MapsImages, MotionIsYUpForwardAndBackwardAtTheLastFrame) {
         EXPECT_EQ(median_of(*maps.find("motion.valid")), 1.0f) << frame;
         EXPECT_NEAR(median_of(*maps.find("velocity.image")), std::hypot(4.0, 8.0) / 31.0 * 24.0, 0.1) << frame;
         // The picture itself is the estimate.
-        EXPECT_EQ(maps.find("estimate.G")->pixels, as_channels(picture(frame)).channels[1].values.pixels);
+        EXPECT_EQ(maps.find("estimate.G")->pixels, make_color_image(picture(frame)).channels[1].values.pixels);
     }
 }
 
@@ -124,7 +124,7 @@ TEST(MapsImages, ExposureAndViewingReachTheMaps) {
 
 TEST(MapsImages, TheFirstFrameNamesRateAndViewing) {
     const Frames frames(2, 2);
-    ChannelImage first = as_channels(picture(1));
+    ChannelImage first = make_color_image(picture(1));
     first.metadata["framesPerSecond"] = std::array<int, 2>{24000, 1001};
     first.metadata["pixelsPerDegree"] = 40.0;
     first.metadata["whiteLuminance"] = 200.0;
@@ -158,7 +158,7 @@ TEST(MapsImages, PngIsDecodedFromSrgb) {
 TEST(MapsImages, OneChannelIsGrey) {
     const ScratchFolder folder;
     ChannelImage grey;
-    grey.channels.push_back({"Y", as_channels(picture(0)).channels[0].values});
+    grey.channels.push_back({"Y", make_color_image(picture(0)).channels[0].values});
     write_exr(folder / "y.exr", grey);
     const Image<Rgb> loaded = read_picture_frame(folder / "y.exr").color;
     EXPECT_EQ(loaded.pixels, picture(0).pixels);

@@ -13,7 +13,7 @@ void add_flat(ChannelImage& file, const std::string& name, float value) {
 
 /// The picture in a layer of its own.
 ChannelImage in_layer(const std::string& layer, int frame) {
-    ChannelImage file = as_channels(picture(frame));
+    ChannelImage file = make_color_image(picture(frame));
     for (Channel& channel : file.channels) channel.name = layer + '.' + channel.name;
     return file;
 }
@@ -61,7 +61,7 @@ TEST(MapsLayers, BlendersPassesAreReadWithTheirSigns) {
         EXPECT_EQ(at("motion.valid", 5, 5), -3.0f) << "not a number";
         EXPECT_EQ(at("forward.u", 5, 5), 0.0f);
         EXPECT_EQ(at("motion.valid", width - 1, 30), -2.0f) << "leaves the picture";
-        EXPECT_EQ(maps.find("estimate.G")->pixels, as_channels(picture(frame)).channels[1].values.pixels);
+        EXPECT_EQ(maps.find("estimate.G")->pixels, make_color_image(picture(frame)).channels[1].values.pixels);
         EXPECT_NEAR(at("velocity.image", 30, 30), std::hypot(3.0, 2.0) / 31.0 * 30.0, 1e-4);
         EXPECT_THAT(std::get<std::string>(maps.metadata.at("motion:definition")), HasSubstr("the picture's file"));
     }
@@ -70,7 +70,7 @@ TEST(MapsLayers, BlendersPassesAreReadWithTheirSigns) {
 TEST(MapsLayers, OurOwnMotionComesBackAsItWas) {
     const Frames frames(1, 0);
     const auto own = [](int frame) {
-        ChannelImage file = as_channels(picture(frame));
+        ChannelImage file = make_color_image(picture(frame));
         add_flat(file, "forward.u", 1.25f);
         add_flat(file, "forward.v", -0.5f);
         add_flat(file, "motion.valid", 1.0f);
@@ -122,7 +122,7 @@ TEST(MapsLayers, LayersAreChosenByName) {
                   "several layers hold colour: Other.Combined, ViewLayer.Combined; choose one with "
                   "--layer");
     ASSERT_EQ(maps_of(frames, several, {"--layer", "Other.Combined", "--motion-layer", "Other.Speed"}).code, 0);
-    EXPECT_EQ(frames.maps(1).find("estimate.R")->pixels, as_channels(picture(8)).channels[0].values.pixels);
+    EXPECT_EQ(frames.maps(1).find("estimate.R")->pixels, make_color_image(picture(8)).channels[0].values.pixels);
     EXPECT_EQ((*frames.maps(1).find("forward.u"))(30, 30), -1.0f);
 }
 

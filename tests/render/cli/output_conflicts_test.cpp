@@ -11,8 +11,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* scene_text = R"({"aleph": 1, "include": ["part.gltf"], "exposure": 1, "camera": "eye",
   "images": {"tex": "tex.png"}, "materials": {"m": {"base_color_texture": "tex"}}, "environment": [1, 1, 1],
   "cameras": {"lens": {"fov": 50}},

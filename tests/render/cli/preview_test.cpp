@@ -7,9 +7,7 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
-class Preview : public testing::Test {
+class Preview : public ProgramTest {
   protected:
     Preview() {
         write_sliding_box(folder_ / "scene.json");
@@ -20,10 +18,8 @@ class Preview : public testing::Test {
     }
     Ended run(const std::string& output, const Words& more = {}) const {
         const Words words{"preview", folder_ / "scene.json", "-t", "2", "-o", folder_ / "out" / output};
-        return StartedProgram(joined(words, more), folder_ / "log").wait();
+        return ProgramTest::run(joined(words, more));
     }
-
-    const ScratchFolder folder_;
 };
 
 TEST_F(Preview, OfALongShotHasEvenlySpreadFramesAndTheirSheet) {
@@ -57,7 +53,7 @@ TEST_F(Preview, TheSheetAloneNeedsNoFfmpeg) {
     // Where no name is given, the sheet is made.
     const fs::path before = fs::current_path();
     fs::current_path(folder_ / "out");
-    const Ended unnamed = StartedProgram({"preview", folder_ / "scene.json", "--frames", "7"}, folder_ / "log").wait();
+    const Ended unnamed = ProgramTest::run({"preview", folder_ / "scene.json", "--frames", "7"});
     fs::current_path(before);
     expect_answer(unnamed, 0, "warning: the sheet of frames is made, and no film");
     const Words names = names_in(folder_ / "out");

@@ -1,11 +1,14 @@
 // The --stats file while frames are made.
 // Messages of the command line about frames that are copies.
 
-#include <unistd.h>
+#include <fmt/ranges.h>
+
 #include <nlohmann/json.hpp>
 
 #include "render/cli/frame_writer.h"
 #include "render/cli/support/statistics_file.h"
+#include "tests/support/read_bytes.h"
+#include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -15,11 +18,7 @@ namespace fs = std::filesystem;
 
 class StatisticsFileTest : public testing::Test {
   protected:
-    void SetUp() override {
-        scene_.source.file = "a \"frames\": [] b.json";
-        path_ = fs::path(testing::TempDir()) / fmt::format("aleph_statistics_{}.json", getpid());
-    }
-    void TearDown() override { fs::remove(path_); }
+    StatisticsFileTest() { scene_.source.file = "a \"frames\": [] b.json"; }
 
     static FrameStatistics frame(int number) {
         FrameStatistics frame;
@@ -27,12 +26,13 @@ class StatisticsFileTest : public testing::Test {
         frame.keyframes.resize(2);
         return frame;
     }
-    std::string text() const {
-        std::ifstream in(path_, std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
+    std::string whole(const std::vector<int>& numbers, double exposure) const {
+        std::vector<std::string> rows;
+        for (const int number : numbers) rows.push_back(format_frame_statistics(frame(number)));
+        return format_statistics(fmt::format("{}", fmt::join(rows, ",\n")), scene_, settings_, exposure);
     }
     std::vector<int> frames() const {
-        const auto json = nlohmann::json::parse(text());
+        const auto json = nlohmann::json::parse(read_bytes(path_));
         EXPECT_EQ(json.at("scene"), scene_.source.file);
         std::vector<int> frames;
         for (const auto& one : json.at("frames")) frames.push_back(one.at("frame"));
@@ -41,7 +41,8 @@ class StatisticsFileTest : public testing::Test {
 
     Scene scene_;
     RenderSettings settings_;
-    fs::path path_;
+    const ScratchFolder folder_;
+    const fs::path path_ = folder_ / "statistics.json";
 };
 
 TEST_F(StatisticsFileTest, HasTheFirstFrameAtOnceAndAllAtTheEnd) {
@@ -53,7 +54,7 @@ TEST_F(StatisticsFileTest, HasTheFirstFrameAtOnceAndAllAtTheEnd) {
     file.add(2, frame(9), "");
     file.finish();
     EXPECT_EQ(frames(), (std::vector<int>{7, 8, 9}));
-    EXPECT_EQ(text(), format_statistics({frame(7), frame(8), frame(9)}, scene_, settings_, 2.0));
+    EXPECT_EQ(read_bytes(path_), whole({7, 8, 9}, 2.0));
 }
 
 TEST_F(StatisticsFileTest, HasTheFinishedFramesAfterAnError) {
@@ -67,7 +68,7 @@ TEST_F(StatisticsFileTest, HasTheFinishedFramesAfterAnError) {
 }
 
 TEST_F(StatisticsFileTest, RowsOfFinishedFramesSurvive) {
-    const fs::path rows = path_.parent_path() / ("." + path_.filename().string() + ".rows");
+    const fs::path rows = folder_ / ".statistics.json.rows";
     {
         StatisticsFile file(path_, scene_, settings_, 1.0);
         file.note(frame(1), "one");
@@ -90,14 +91,14 @@ TEST_F(StatisticsFileTest, RowsOfFinishedFramesSurvive) {
     file.finish();
     EXPECT_EQ(frames(), (std::vector<int>{1, 2, 4}));
     EXPECT_EQ(kept.at("four"), format_frame_statistics(frame(4), "four"));
-    EXPECT_TRUE(read_statistics_rows(path_.parent_path() / "no such file").empty());
+    EXPECT_TRUE(read_statistics_rows(folder_ / "no such file").empty());
     std::ofstream(path_) << "no JSON";
     EXPECT_TRUE(read_statistics_rows(path_).empty());
 }
 
 TEST_F(StatisticsFileTest, LooksLikeAnyOtherJson) {
-    for (const std::vector<FrameStatistics>& list : {{}, {frame(1)}, std::vector{frame(1), frame(-2)}}) {
-        const std::string text = format_statistics(list, scene_, settings_, 1.0);
+    for (const std::vector<int>& list : {{}, {1}, std::vector{1, -2}}) {
+        const std::string text = whole(list, 1.0);
         const auto json = nlohmann::ordered_json::parse(text);
         EXPECT_EQ(json.at("frames").size(), list.size());
         EXPECT_EQ(text, json.dump(2) + "\n");

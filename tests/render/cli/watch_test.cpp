@@ -11,8 +11,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// What a program writes into a file, as it comes.
 class LogLines {
   public:
@@ -85,7 +83,7 @@ class FakeViewer {
 
 constexpr const char* watching = "; Ctrl-C ends\n";
 
-class Watch : public testing::Test {
+class Watch : public ProgramTest {
   protected:
     /// Starts a watched render of a scene with a lamp and a painted wall.
     StartedProgram start(const Words& more) const {
@@ -124,8 +122,6 @@ class Watch : public testing::Test {
             for (const float value : image.find(std::string(1, "RGB"[c]))->pixels) sum[c] += value / (16 * 12);
         return sum;
     }
-
-    const ScratchFolder folder_;
 };
 
 TEST_F(Watch, RendersAgainWhenAFileOfTheSceneChanges) {

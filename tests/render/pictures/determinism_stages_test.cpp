@@ -176,7 +176,8 @@ Everything do_everything(const std::filesystem::path& folder) {
     statistics.frame = 2;
     statistics.seconds.fill = 0.125;
     statistics.peak_memory_mib = 12.5;
-    all.statistics = format_statistics(format_frame_statistics(statistics), all.scene, all.settings, sequence.exposure());
+    all.statistics =
+        format_statistics(format_frame_statistics(statistics), all.scene, all.settings, sequence.exposure());
     return all;
 }
 
