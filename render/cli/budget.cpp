@@ -70,10 +70,9 @@ void apply_budget(PreparedScene& prepared, const SceneOptions& options, Budget& 
 }
 
 std::string describe_choice(const BudgetStatistics& budget) {
-    std::string text = fmt::format(
-        "aleph: budget {:g} s: error {:g} chosen, predicted {:.3g} s, of which the pilot took "
-        "{:.2g} s\n",
-        budget.asked, budget.error, budget.predicted, budget.pilot);
+    std::string text =
+        fmt::format("aleph: budget {:g} s: error {:g} chosen, predicted {:.3g} s, of which the pilot took {:.2g} s\n",
+                    budget.asked, budget.error, budget.predicted, budget.pilot);
     if (budget.predicted > budget.asked) {
         text += fmt::format(
             "aleph: warning: the budget of {:g} s is too small: error {:g}, the largest that a budget chooses, is "

@@ -124,17 +124,17 @@ FrameRate film_rate(const SceneOptions& options, const std::vector<int>& frames,
     const std::int64_t step = frames.size() > 1 ? std::int64_t{frames[1]} - frames[0] : 1;
     for (std::size_t i = 1; i < frames.size(); ++i) {
         if (step > 0 && std::int64_t{frames[i]} - frames[i - 1] == step) continue;
-        throw InputError("", "--frames",
-                         fmt::format("frame {} follows frame {}: a film has frames at one distance, such as 1-100 or "
-                                     "1-100x2",
-                                     frames[i], frames[i - 1]));
+        throw InputError(
+            "", "--frames",
+            fmt::format("frame {} follows frame {}: a film has frames at one distance, such as 1-100 or 1-100x2",
+                        frames[i], frames[i - 1]));
     }
     const std::int64_t slower = std::gcd(scene.numerator, step), denominator = scene.denominator * (step / slower);
     const std::int64_t common = std::gcd(scene.numerator / slower, denominator);
     const FrameRate rate{scene.numerator / slower / common, denominator / common};
     if (lower_extension(options.film) == ".gif" && rate.numerator > fastest_gif * rate.denominator) {
-        refuse(options.film, fmt::format("a GIF has at most {} frames a second, the film {}; choose every second "
-                                         "frame (--frames 1-100x2), or write .mp4",
+        refuse(options.film, fmt::format("a GIF has at most {} frames a second, the film {}; choose every second frame "
+                                         "(--frames 1-100x2), or write .mp4",
                                          fastest_gif, describe_rate(rate)));
     }
     return rate;

@@ -208,8 +208,8 @@ void add_preview_command(CLI::App& app, Command& command) {
                      "the film, name.mp4, .mov, .webm or .gif, made by the program ffmpeg, with the sheet name.png "
                      "beside it; or name.png, the sheet alone; default: SCENE.preview.mp4");
     preview->add_flag("--motion", options->motion,
-                      fmt::format("draw lines of motion: from points of the picture, marked red, to where they are "
-                                  "{} frames later at their present speed",
+                      fmt::format("draw lines of motion: from points of the picture, marked red, to where they are {} "
+                                  "frames later at their present speed",
                                   motion_line_frames));
     add_watch_options(*preview, options->watch);
     preview->footer(preview_footer);

@@ -16,24 +16,22 @@ namespace {
 
 constexpr const char* render_footer =
     "--error is the largest error, in differences that a viewer just sees; without any of --error, --accuracy, "
-    "--gather, --spp, --sampling, --light-samples and --integrator it is 1. It chooses accuracy, gather rays, "
-    "bounces and samples; options given beside it override them. Afterwards the program prints what share of the "
-    "pixels it expects to err by more; --aovs has the error of every pixel and its causes.\n"
+    "--gather, --spp, --sampling, --light-samples and --integrator it is 1. It chooses accuracy, gather rays, bounces "
+    "and samples; options given beside it override them. Afterwards the program prints what share of the pixels it "
+    "expects to err by more; --aovs has the error of every pixel and its causes.\n"
     "--budget measures a part of up to three frames first. The error it chooses is printed and stored in the "
     "statistics (--stats): --error with that number makes the same bytes again. The time is an estimate.\n"
     "--verify measures what the estimate says: blocks of 16 pixels, the same ones whenever the same frames are "
     "rendered, against path traced references, as a viewer sees the frames around them. -q does not silence it.\n"
-    "--accuracy is the error that irradiance caching may make where the viewer is strictest. Elsewhere the Aleph "
-    "map "
+    "--accuracy is the error that irradiance caching may make where the viewer is strictest. Elsewhere the Aleph map "
     "allows more, which saves time; with --guide none the accuracy is the same everywhere.\n"
-    "Without --error indirect light is computed at lighting keyframes, every --light-step frames, at both sides of "
-    "a cut and at the last frame; frames between two of them interpolate. A frame rendered alone takes two of them "
-    "and their middle, a sequence two more for each step. --error computes few records for every frame instead, "
-    "and --integrator path none; for a --cache file give --light-step 10 beside --error.\n"
+    "Without --error indirect light is computed at lighting keyframes, every --light-step frames, at both sides of a "
+    "cut and at the last frame; frames between two of them interpolate. A frame rendered alone takes two of them and "
+    "their middle, a sequence two more for each step. --error computes few records for every frame instead, and "
+    "--integrator path none; for a --cache file give --light-step 10 beside --error.\n"
     "--resume goes on where a render was stopped, by SIGTERM, SIGINT or anything else: each file has the fingerprint "
-    "of "
-    "what it was made from, and one that is cut or of something else is made again. SIGTERM and SIGINT then exit with "
-    "75, without --resume or --checkpoint with 143 and 130. SIGUSR1 prints a line and writes the picture so far "
+    "of what it was made from, and one that is cut or of something else is made again. SIGTERM and SIGINT then exit "
+    "with 75, without --resume or --checkpoint with 143 and 130. SIGUSR1 prints a line and writes the picture so far "
     "(NAME.partial.EXT, until the frame is finished). The rows of --stats and the light of --cache are kept.\n"
     "A film (-o film.mp4, .mov, .webm, .gif) is made by the program ffmpeg from PNG files in a hidden folder, "
     ".film.mp4.frames, which is removed then; after a stop --resume goes on with them. The film has the scene's frame "
@@ -46,8 +44,7 @@ constexpr const char* render_footer =
     "Examples:\n"
     "  aleph render scenes/pool/scene.json --frames 20 -o frame.exr                  no visible error\n"
     "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png          a quick look\n"
-    "  aleph render scenes/pool/scene.json --budget 600 -o out/                      the whole shot in ten "
-    "minutes\n"
+    "  aleph render scenes/pool/scene.json --budget 600 -o out/                      the whole shot in ten minutes\n"
     "  aleph render scenes/pool/scene.json --error 1 --verify 60 -o out/             and how much is really seen\n"
     "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
     "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json --resume   go on after a stop\n"
@@ -118,17 +115,16 @@ void add_render_command(CLI::App& app, Command& command) {
             "stops it: --resume goes on from there")
         ->type_name("SECONDS");
     add_text(*render_app, "--budget", "SECONDS", options->budget,
-             "seconds of a clock, with the threads given, that all the frames asked for may take, loading and "
-             "choosing included: picks the smallest error (--error, .1 to 10) that is predicted to fit");
+             "seconds of a clock, with the threads given, that all the frames asked for may take, loading and choosing "
+             "included: picks the smallest error (--error, .1 to 10) that is predicted to fit");
     add_text(*render_app, "--verify", "SECONDS", options->verify,
-             "afterwards check the frames for so many seconds of a clock (at least 4 blocks of pixels): blocks "
-             "of random frames are path traced, and the share of the pixels that are seen to differ is printed "
-             "with its interval at 95 %");
-    add_text(
-        *render_app, "--cache", "FILE", options->cache,
-        "keep the indirect light of lighting keyframes (--light-step) in this file, and use what it has; a file of "
-        "another scene, other settings or another build is refused; a folder (FOLDER/) may be shared by processes "
-        "and scenes");
+             "afterwards check the frames for so many seconds of a clock (at least 4 blocks of pixels): blocks of "
+             "random frames are path traced, and the share of the pixels that are seen to differ is printed with its "
+             "interval at 95 %");
+    add_text(*render_app, "--cache", "FILE", options->cache,
+             "keep the indirect light of lighting keyframes (--light-step) in this file, and use what it has; a file "
+             "of another scene, other settings or another build is refused; a folder (FOLDER/) may be shared by "
+             "processes and scenes");
     render_app->footer(render_footer);
     render_app->callback([options, &command] { command = [options] { return render(*options); }; });
 }

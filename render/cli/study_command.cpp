@@ -223,27 +223,27 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
         ->delimiter(',')
         ->check(CLI::IsMember(std::ranges::find(setting_table(), "vision", &Setting::key)->choices));
     add_text(study, "--judge", "NAME=FOLDER", options.judges,
-             "maps of visible differences by another program, 1 where a difference is just visible: for each "
-             "picture that study.json names, a file of the same name in this folder, or for a study of one "
-             "variant files by frame, NAME=maps.####.exr; the page shows where they and our thresholds disagree")
+             "maps of visible differences by another program, 1 where a difference is just visible: for each picture "
+             "that study.json names, a file of the same name in this folder, or for a study of one variant files by "
+             "frame, NAME=maps.####.exr; the page shows where they and our thresholds disagree")
         ->allow_extra_args(false);
     add_text(study, "--pictures", "NAME=other.####.exr", options.pictures,
-             "a variant that another program made: frames of the scene, of the study's size, with the exposure "
-             "that `aleph explain` prints; its errors are measured, and no costs")
+             "a variant that another program made: frames of the scene, of the study's size, with the exposure that "
+             "`aleph explain` prints; its errors are measured, and no costs")
         ->allow_extra_args(false);
     add_text(study, "-o,--output", "FOLDER", options.output, "folder of the results; default: NAME-study");
     add_value(study, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
     study.add_flag(
         "--viewer-test", options.extras.viewer_test,
-        "also write viewer-test.html: a test in which viewers say which of two sequences had the errors, the "
-        "reference or a variant; several consecutive --frames make sequences. It pools the results of several viewers");
+        "also write viewer-test.html: a test in which viewers say which of two sequences had the errors, the reference "
+        "or a variant; several consecutive --frames make sequences. It pools the results of several viewers");
     add_text(study, "--errors", "VARIANT", options.extras.errors,
              "also write errors.jpg: where the errors of this variant lie, in visible thresholds of every viewer; may "
              "be given several times, for variants side by side")
         ->allow_extra_args(false);
     add_text(study, "--shard", "N/M", options.part,
-             "only make every M-th reference and run, from the N-th on, and compare nothing: several machines "
-             "share a study so, which the same command without it then finishes, with as many threads");
+             "only make every M-th reference and run, from the N-th on, and compare nothing: several machines share a "
+             "study so, which the same command without it then finishes, with as many threads");
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");
     study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");
 }

@@ -59,8 +59,8 @@ void add_watch_options(CLI::App& app, WatchOptions& options) {
     app.add_flag("--watch", options.watch,
                  "start again whenever the scene file or a file that it uses changes, until Ctrl-C");
     add_text(app, "--viewer", "HOST:PORT", options.viewer,
-             "with --watch: a viewer on this machine that shows every file once it is written, tev or another one "
-             "with its protocol, if it runs")
+             "with --watch: a viewer on this machine that shows every file once it is written, tev or another one with "
+             "its protocol, if it runs")
         ->capture_default_str()
         ->needs("--watch");
 }

@@ -53,8 +53,8 @@ OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int6
         const std::int64_t from = first->first + 1, to = second->first - 1;
         throw InputError(
             "", "--images",
-            fmt::format("{} missing between {} and {}; add what is missing, choose a stretch without "
-                        "gaps with --frames, or say --cuts {} if a new shot begins there",
+            fmt::format("{} missing between {} and {}; add what is missing, choose a stretch without gaps with "
+                        "--frames, or say --cuts {} if a new shot begins there",
                         from == to ? fmt::format("frame {} is", from) : fmt::format("frames {} to {} are", from, to),
                         display_name(first->second), display_name(second->second), second->first));
     }

@@ -74,8 +74,7 @@ const std::vector<ChannelInfo>& channel_table() {
         {{"threshold.noise"},
          "noise of single pixels that goes unseen, standard deviation, cd/m2",
          "standard deviation of the luminance of single pixels that goes unseen; new in every frame, but of a camera "
-         "that "
-         "never moves",
+         "that never moves",
          "cd/m2, above 0",
          as_surfaces},
         {{"estimate.R", "estimate.G", "estimate.B"},
@@ -114,8 +113,7 @@ const std::vector<ChannelInfo>& channel_table() {
         {{"CryptoObject00.r", "CryptoObject00.g", "CryptoObject00.b", "CryptoObject00.a"},
          "Cryptomatte of the objects, by path (scene)",
          "Cryptomatte at the pixel's centre: the path's hash and its coverage, then no second object; the manifest is "
-         "in "
-         "the attributes cryptomatte/...",
+         "in the attributes cryptomatte/...",
          "no unit; coverage 0 or 1",
          "0"},
         // Pictures and the work for them, which `aleph render` alone writes.

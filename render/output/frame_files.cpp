@@ -112,8 +112,7 @@ void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene)
 std::string define_motion(const FrameOutput& output, MotionSource source) {
     if (output.motion_from_picture) {
         return "forward.u/.v: position in frame N+1 minus position in frame N, pixels, x right, y up; from the "
-               "picture's "
-               "file";
+               "picture's file";
     }
     const char* what = source == MotionSource::model    ? "of the surface point under the pixel's centre"
                        : source == MotionSource::raster ? "of the surface point, to 8 bits, minus the pixel's centre"

@@ -95,8 +95,8 @@ void bind_nodes_and_meshes(py::module_& module) {
     auto mesh = bind_elements<Mesh>(module, "Mesh", "Meshes", "Triangles of one material.");
     mesh.def_property(
             "positions", [](const Element<Mesh>& e) { return copy_points(e.get().positions); }, &set_positions,
-            "A copy of the points, (points, 3), metres in the space of its node. Those of a mesh that neither "
-            "deforms nor is made from a shape may be assigned.")
+            "A copy of the points, (points, 3), metres in the space of its node. Those of a mesh that neither deforms "
+            "nor is made from a shape may be assigned.")
         .def_property_readonly(
             "triangles",
             [](const Element<Mesh>& e) {

@@ -67,8 +67,8 @@ void add_motion(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
         frame, "motion", "To the next frame, pixels, x right, y down, (h, w, 2).");
     add_map<std::int8_t, &FrameOutput::motion, &MotionField::validity>(
         frame, "motion_valid",
-        "1: valid; 0: background; -1: behind the camera; -2: leaves the picture; -3: no counterpart; "
-        "-4: hidden there.");
+        "1: valid; 0: background; -1: behind the camera; -2: leaves the picture; -3: no counterpart; -4: hidden "
+        "there.");
     add_map<double, &FrameOutput::backward, &MotionField::displacement>(frame, "backward",
                                                                         "To the frame before, as `motion`.");
     add_map<std::int8_t, &FrameOutput::backward, &MotionField::validity>(frame, "backward_valid", "As `motion_valid`.");
@@ -107,10 +107,10 @@ void save(const Frame& frame, const py::object& to) {
 }  // namespace
 
 void bind_frames(py::module_& module) {
-    py::class_<Frame, std::shared_ptr<Frame>> frame(module, "Frame",
-                                                    "A frame and its maps, as read-only arrays of shape (height, "
-                                                    "width, ...) that share its memory; row 0 is at the "
-                                                    "top. What was not computed is None.");
+    py::class_<Frame, std::shared_ptr<Frame>> frame(
+        module, "Frame",
+        "A frame and its maps, as read-only arrays of shape (height, width, ...) that share its memory; row 0 is at "
+        "the top. What was not computed is None.");
     add_pictures(frame);
     add_motion(frame);
     add_perception(frame);

@@ -62,10 +62,9 @@ Range parse_item(std::string_view item) {
 
 std::vector<int> parse_frame_list(std::string_view text) {
     if (text.find(':') != std::string_view::npos) {
-        refuse(
-            text,
-            "':' means a step to Slurm and a stagger to Fileseq; write a step as 1-20x2, and a stagger as the frames "
-            "in their order");
+        refuse(text,
+               "':' means a step to Slurm and a stagger to Fileseq; write a step as 1-20x2, and a stagger as the "
+               "frames in their order");
     }
     std::vector<int> frames;
     std::unordered_set<int> seen;

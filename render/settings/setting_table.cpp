@@ -53,30 +53,28 @@ std::vector<Setting>& all_settings() {
         size_setting(),
         number_setting("seed", "seed of all random numbers", at(&S::seed), 0, 4294967295.0),
         // The model of vision, and how its map becomes accuracy.
-        without_scene(choice_setting(
-            "guide",
-            "what the Aleph map considers: nothing (none), contrast (spatial), contrast and motion (full), or also "
-            "where viewers look (saliency)",
-            at(&S::perception, &Perception::guide),
-            {{"none", Guide::none},
-             {"spatial", Guide::spatial},
-             {"full", Guide::full},
-             {"saliency", Guide::saliency}})),
+        without_scene(choice_setting("guide",
+                                     "what the Aleph map considers: nothing (none), contrast (spatial), contrast and "
+                                     "motion (full), or also where viewers look (saliency)",
+                                     at(&S::perception, &Perception::guide),
+                                     {{"none", Guide::none},
+                                      {"spatial", Guide::spatial},
+                                      {"full", Guide::full},
+                                      {"saliency", Guide::saliency}})),
         choice_setting("estimate",
                        "quick estimate for the model of vision: base colour and emission (flat), or direct light with "
                        "shadows (direct)",
                        at(&S::guide, &G::estimate), {{"flat", EstimateKind::flat}, {"direct", EstimateKind::direct}}),
-        without_scene(choice_setting(
-            "motion",
-            "source of motion: the scene, exact (model) or by rasterized maps of 8 bits (raster); or a comparison of "
-            "two quick estimates, by optical flow (flow), a census search that is checked (image), or one as printed "
-            "(census)",
-            at(&S::guide, &G::motion),
-            {{"model", MotionSource::model},
-             {"raster", MotionSource::raster},
-             {"flow", MotionSource::flow},
-             {"image", MotionSource::image},
-             {"census", MotionSource::census}})),
+        without_scene(choice_setting("motion",
+                                     "source of motion: the scene, exact (model) or by rasterized maps of 8 bits "
+                                     "(raster); or a comparison of two quick estimates, by optical flow (flow), a "
+                                     "census search that is checked (image), or one as printed (census)",
+                                     at(&S::guide, &G::motion),
+                                     {{"model", MotionSource::model},
+                                      {"raster", MotionSource::raster},
+                                      {"flow", MotionSource::flow},
+                                      {"image", MotionSource::image},
+                                      {"census", MotionSource::census}})),
         without_scene(vision_setting()),
         without_scene(choice_setting(
             "bands",
@@ -101,14 +99,14 @@ std::vector<Setting>& all_settings() {
                        "largest error that is asked for; sets sampling, adapter, accuracy, gather, light_step, bounces "
                        "and spp, which override it when they are given beside it; 0: none is asked for",
                        at(&S::error), 0.0, 1000.0, "just visible differences"),
-        without_scene(number_setting(
-            "accuracy",
-            "ambient accuracy, as RADIANCE names it: the error that irradiance caching may make where the viewer is "
-            "strictest, so that smaller is more accurate; 0: rays of every sample's own",
-            at(&S::cache, &C::accuracy), 0.0, 1.0)),
+        without_scene(
+            number_setting("accuracy",
+                           "ambient accuracy, as RADIANCE names it: the error that irradiance caching may make where "
+                           "the viewer is strictest, so that smaller is more accurate; 0: rays of every sample's own",
+                           at(&S::cache, &C::accuracy), 0.0, 1.0)),
         number_setting("gather",
-                       "rays over the hemisphere for one irradiance value; 0: what the accuracy needs, or 2 "
-                       "where every sample has its own",
+                       "rays over the hemisphere for one irradiance value; 0: what the accuracy needs, or 2 where "
+                       "every sample has its own",
                        at(&S::cache, &C::gather), 0, 1 << 20, "rays"),
         number_setting("bounces", "bounces of indirect diffuse light; the quick estimate has at most 1",
                        at(&S::light, &L::bounces), 0, 1000),

@@ -88,8 +88,7 @@ void add_limits(CLI::App& app, CompareSettings& s) {
 }
 
 constexpr const char* compare_footer =
-    "Exit code: 0 the same; 1 different, or a NaN or infinity in either; 2 unreadable, or other sizes or "
-    "channels.\n"
+    "Exit code: 0 the same; 1 different, or a NaN or infinity in either; 2 unreadable, or other sizes or channels.\n"
     "variance.Y and error are compared only if --channels names them; samples.Y, records.Y, invalid.Y, cache.count "
     "and\n"
     "cache.radius only if both pictures have them.\n\n"
@@ -116,11 +115,11 @@ void add_compare_command(CLI::App& app, Command& command) {
     compare_app->add_option("first", options->first, "a picture (EXR, PNG, JPEG, HDR), or a sequence")->required();
     compare_app->add_option("second", options->second, "the reference")->required();
     add_text(*compare_app, "--threshold", "MAPS.exr", options->threshold,
-             "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where "
-             "their luminance differs by more than its threshold.Y; replaces --tolerance and --relative");
+             "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where their "
+             "luminance differs by more than its threshold.Y; replaces --tolerance and --relative");
     add_text(*compare_app, "--seen", "MAPS.exr", options->seen,
-             "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where a "
-             "viewer who looks there sees a difference; replaces --tolerance and --relative");
+             "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where a viewer "
+             "who looks there sees a difference; replaces --tolerance and --relative");
     add_text(*compare_app, "--seen-out", "FILE", options->seen_out,
              "write what is seen, flickers and lasts, in just visible differences: three panels (.png), or the "
              "channels seen.Y, flicker.Y and lasting.Y (.exr)");

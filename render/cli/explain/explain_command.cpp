@@ -86,8 +86,8 @@ void add_explain_command(CLI::App& app, Command& command) {
     explain_app->add_flag("--json", options->json, "print everything as JSON");
     explain_app->add_flag(
         "--fingerprint", options->fingerprint,
-        "print what pictures of the scene depend on, as JSON: SHA-1 of the program and of the content "
-        "of all files that it reads, and the settings that `aleph render` has with these options");
+        "print what pictures of the scene depend on, as JSON: SHA-1 of the program and of the content of all files "
+        "that it reads, and the settings that `aleph render` has with these options");
     CLI::Option* at =
         add_value(*explain_app, "--at", options->at,
                   "print world matrix, visibility, bounds and points of every object at this time (s) as JSON");

@@ -166,8 +166,8 @@ void add_slurm(CLI::App& farm, Command& command) {
     slurm->footer(
         "The folder `farm` beside the frames gets plain scripts: task.1.sh runs a task, submit.1.sh submits all of "
         "them. A minute before its time is up Slurm tells a task to stop, and it exits with 75; where the cluster has "
-        "RequeueExit=75 it then goes on by itself, elsewhere `aleph farm collate --submit` submits "
-        "what is left. A task on a node that dies is begun again. Nothing that is finished is made twice.\n\n"
+        "RequeueExit=75 it then goes on by itself, elsewhere `aleph farm collate --submit` submits what is left. A "
+        "task on a node that dies is begun again. Nothing that is finished is made twice.\n\n"
         "Examples:\n"
         "  aleph farm slurm scene.json --frames 0-749 --error 1 -o out/ --tasks 40 --time 2:00:00 --submit\n"
         "  aleph farm slurm scenes/studies/knob.json -o out/knob --tasks 8 --cpus 2");

@@ -55,8 +55,8 @@ std::string filters_420(const PictureSize& size) {
                               size.height + below, right, below);
     }
     return filters +
-           "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_inp+full_chroma_int,"
-           "format=yuv420p,setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=bt709";
+           "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_inp+full_chroma_int,format="
+           "yuv420p,setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=bt709";
 }
 
 /// Compression without visible loss.

@@ -46,13 +46,11 @@ fs::path full_pattern(const std::string& pattern, const std::string& scene_name)
         refuse_pattern(pattern,
                        "films are written by `aleph render`, `maps` and `preview`; name .exr, .png or .hdr files");
     const std::string extension = path.extension().string();
-    refuse_pattern(
-        pattern,
-        fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/', for motion .flo, and "
-                    "films: .mp4, .mov, .webm and .gif",
-                    extension.find_first_of("#%") == std::string::npos && !extension.empty()
-                        ? fmt::format("the extension {} is not known", printable(extension))
-                        : "the name has no extension"));
+    refuse_pattern(pattern, fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/', for "
+                                        "motion .flo, and films: .mp4, .mov, .webm and .gif",
+                                        extension.find_first_of("#%") == std::string::npos && !extension.empty()
+                                            ? fmt::format("the extension {} is not known", printable(extension))
+                                            : "the name has no extension"));
 }
 
 }  // namespace
