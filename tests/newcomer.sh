@@ -124,58 +124,51 @@ is grep -q '"spp": 8,' twice.json
 scene() {
   printf '{"aleph": 1, "frames": [0, 20], "environment": [1, 1, 1], %s "nodes": [{"name": "n", %s}]}\n' "${3:-}" "$2" >"$1.json"
 }
-scene radians '"camera": {"fov": 0.7}'
-answers 0 'looks like radians' aleph explain radians.json
-scene turned '"rotation": {"axis": [1, 0, 0], "degrees": -1.5708}'
-answers 0 'look like radians' aleph explain turned.json
-scene operated '"operations": [{"rotate_y": 1.5708}]'
-answers 0 'look like radians' aleph explain operated.json
-scene jumps '"camera": {}, "translation": {"interpolation": "step", "keys": [[0, [0, 0, 5]], [10, [3, 0, 5]]]}'
-answers 0 'step keys move it at frame 10, which is not in "cuts"' aleph explain jumps.json
-scene cut '"camera": {}' '"cuts": [50],'
-answers 0 'the cut at frame 50 lies outside the frames 0 to 20' aleph explain cut.json
-scene nothing '"shape": {"type": "box"}, "scale": 0'
-answers 0 'the scale is 0' aleph explain nothing.json
+# explains CODE PART NODE [MORE]: the answer for such a scene.
+explains() {
+  scene key "${@:3}"
+  answers "$1" "$2" aleph explain key.json
+}
+explains 0 'looks like radians' '"camera": {"fov": 0.7}'
+explains 0 'look like radians' '"rotation": {"axis": [1, 0, 0], "degrees": -1.5708}'
+explains 0 'look like radians' '"operations": [{"rotate_y": 1.5708}]'
+explains 0 'step keys move it at frame 10, which is not in "cuts"' \
+  '"camera": {}, "translation": {"interpolation": "step", "keys": [[0, [0, 0, 5]], [10, [3, 0, 5]]]}'
+explains 0 'the cut at frame 50 lies outside the frames 0 to 20' '"camera": {}' '"cuts": [50],'
+explains 0 'the scale is 0' '"shape": {"type": "box"}, "scale": 0'
 answers 0 'warning: frame 100 lies outside the shot, which has the frames 0 to 59' \
   aleph render first.json "${quick[@]}" --frames 0,100 -o outside/
 
 # Keys and values of other formats; commas.
-scene key '"position": [0, 0, 1]'
-answers 2 '/nodes/0/position: unknown key "position"; a node'"'"'s place is "translation"' aleph explain key.json
-scene key '"rotation": [0, 90, 0]'
-answers 2 '"operations": [{"rotate_z": 0}, {"rotate_y": 90}, {"rotate_x": 0}]' aleph explain key.json
-scene key '"light": {"type": "area"}'
-answers 2 'a "shape" and a "material" that has "emission"' aleph explain key.json
-scene key '"camera": {}' '"settings": {"sampling": "progressive"},'
-answers 2 'write "error": 1' aleph explain key.json
-scene key '"shape": "sphere"'
-answers 2 'write {"type": "sphere"}' aleph explain key.json
-scene key '"parent": "wheel"' '"include": "car.glb",'
-answers 2 'name the node that has the "include"' aleph explain key.json
+explains 2 '/nodes/0/position: unknown key "position"; a node'"'"'s place is "translation"' '"position": [0, 0, 1]'
+explains 2 '"operations": [{"rotate_z": 0}, {"rotate_y": 90}, {"rotate_x": 0}]' '"rotation": [0, 90, 0]'
+explains 2 'a "shape" and a "material" that has "emission"' '"light": {"type": "area"}'
+explains 2 'write "error": 1' '"camera": {}' '"settings": {"sampling": "progressive"},'
+explains 2 'write {"type": "sphere"}' '"shape": "sphere"'
+explains 2 'name the node that has the "include"' '"parent": "wheel"' '"include": "car.glb",'
 printf '{"aleph": 1,\n "fps": 30\n "frames": [0, 1]}\n' >key.json
 answers 2 'line 2, column 11: not valid JSON: a comma is missing here' aleph explain key.json
 
 # Keys that are computed on load: easing, look_at, follow_path and named values, and a slip in each.
 scene eased '"camera": {}, "translation": {"interpolation": "ease", "keys": [[0, [0, 0, 5]], [20, [0, 1, 5]]]}'
 answers 0 'cubic' aleph explain eased.json --json
-scene key '"translation": {"interpolation": "ease-in", "keys": [[0, [0, 0, 5]], [20, [0, 1, 5]]]}'
-answers 2 '"smooth", "ease", "ease_in" or "ease_out", found the text "ease-in"' aleph explain key.json
+explains 2 '"smooth", "ease", "ease_in" or "ease_out", found the text "ease-in"' \
+  '"translation": {"interpolation": "ease-in", "keys": [[0, [0, 0, 5]], [20, [0, 1, 5]]]}'
 scene looking '"camera": {}, "translation": [0, 1, 5], "look_at": [0, 0, 0]'
 silent aleph render looking.json "${quick[@]}" --frames 0 -q -o looking.exr
-scene key '"camera": {}, "look_at": "bal"}, {"name": "ball"'
-answers 2 '/nodes/0/look_at: there is no node called "bal"; did you mean "ball"?' aleph explain key.json
-scene key '"camera": {"target": [0, 0, 0]}'
-answers 2 '"look_at" of the node' aleph explain key.json
+explains 2 '/nodes/0/look_at: there is no node called "bal"; did you mean "ball"?' \
+  '"camera": {}, "look_at": "bal"}, {"name": "ball"'
+explains 2 '"look_at" of the node' '"camera": {"target": [0, 0, 0]}'
 scene moving '"camera": {}, "follow_path": {"points": [[0, 0, 5], [2, 1, 4]], "at": {"keys": [[0, 0], [20, 1]]}}'
 silent aleph render moving.json "${quick[@]}" --frames 0,20 -q -o moving/
-scene key '"follow_path": {"points": [[0, 0, 5], [2, 1, 4]], "at": 0, "aligned": true}'
-answers 2 'unknown key "aligned"; did you mean "align"?' aleph explain key.json
+explains 2 'unknown key "aligned"; did you mean "align"?' \
+  '"follow_path": {"points": [[0, 0, 5], [2, 1, 4]], "at": 0, "aligned": true}'
 scene shared '"camera": {}, "translation": [0, {"named": "height"}, 5]' '"named": {"height": 1.5},'
 silent aleph render shared.json "${quick[@]}" --frames 0 -q -o shared.exr
-scene key '"translation": [0, {"named": "hight"}, 5]' '"named": {"height": 1.5},'
-answers 2 'there is no named value "hight"; did you mean "height"?' aleph explain key.json
-scene key '"translation": {"named": "height"}' '"named": {"height": 1.5},'
-answers 2 '/nodes/0/translation: expected 3 numbers or an object with "keys" or "values", found 1.5; this value is defined at /named/height' aleph explain key.json
+explains 2 'there is no named value "hight"; did you mean "height"?' \
+  '"translation": [0, {"named": "hight"}, 5]' '"named": {"height": 1.5},'
+explains 2 '/nodes/0/translation: expected 3 numbers or an object with "keys" or "values", found 1.5; this value is defined at /named/height' \
+  '"translation": {"named": "height"}' '"named": {"height": 1.5},'
 
 # Scenes for other programs.
 answers 2 'must end in .json or .glb' aleph export first.json -o first.obj
@@ -190,8 +183,7 @@ answers 0 '"object_ids": [' aleph explain first.json --json
 answers 0 'v positive upwards' bash -c 'grep -a "" both/first-maps.0000.exr'
 answers 0 'uint32_to_float32' bash -c 'grep -a "" both/first-maps.0000.exr'
 answers 0 '/ball' bash -c 'grep -a "" both/first-maps.0000.exr'
-scene refused '"shape": {"type": "box"}'
-answers 0 'rendering is refused: camera: the scene has no camera' aleph explain refused.json
+explains 0 'rendering is refused: camera: the scene has no camera' '"shape": {"type": "box"}'
 
 # The effects plan: what is left out, and what cannot be named.
 answers 0 'glossy_reflection' aleph explain first.json

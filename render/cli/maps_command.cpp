@@ -1,10 +1,12 @@
 // `aleph maps`: the maps of a scene's frames, or of frames without a scene.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <ranges>
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
@@ -12,13 +14,13 @@
 #include "engine/scene/scene_hash.h"
 #include "render/cli/commands.h"
 #include "render/cli/film.h"
-#include "render/cli/maps_help.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/write_frames.h"
 #include "render/compare/visible_difference.h"
 #include "render/images/image_sequence.h"
 #include "render/images/picture_frame.h"
+#include "render/output/channel_table.h"
 #include "render/settings/fingerprint.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/frame_pattern.h"
@@ -124,24 +126,6 @@ void check_frames(const PreparedImages& images) {
         find_other_frame(images.files, images.prepared.scene.film.cuts, frame);
 }
 
-/// Pixels of the pictures that were no numbers.
-struct ReplacedPixels {
-    std::uint64_t pixels = 0;
-    std::int64_t first_frame = 0;
-
-    void add(const FrameStatistics& frame) {
-        if (pixels == 0) first_frame = frame.frame;
-        pixels += frame.estimate.sanitized.replaced;
-    }
-    void warn() const {
-        if (pixels == 0) return;
-        std::cerr << fmt::format(
-            "aleph: warning: {} pixels of the pictures, the first in frame {}, are NaN or infinite; they count as the "
-            "median of their neighbours\n",
-            pixels, first_frame);
-    }
-};
-
 /// What the maps of all frames depend on.
 std::string identity_of(const PreparedScene& prepared, const MapsOptions& options) {
     const auto& [color, motion, depth] = options.layers;
@@ -150,27 +134,6 @@ std::string identity_of(const PreparedScene& prepared, const MapsOptions& option
                                   motion, depth, describe_content(options.common, maps_request)));
 }
 
-/// SHA-1 of the pictures, each read once.
-class PictureHashes {
-  public:
-    explicit PictureHashes(const FrameFiles& files) : files_(files) {}
-
-    /// Empty where there is no such frame.
-    const std::string& find(std::int64_t frame) {
-        const auto [known, is_new] = known_.emplace(frame, "");
-        const auto file = files_.find(frame);
-        if (is_new && file != files_.end()) {
-            const Bytes bytes = read_regular_file(file->second, file->second.string(), "");
-            known->second = hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-        }
-        return known->second;
-    }
-
-  private:
-    const FrameFiles& files_;
-    std::map<std::int64_t, std::string> known_;
-};
-
 void write_image_maps(const MapsOptions& options) {
     const PreparedImages images = prepare_images(options);
     check_frames(images);
@@ -178,25 +141,84 @@ void write_image_maps(const MapsOptions& options) {
     prepare_frames_output(prepared, options.common, maps_request);
     const ThreadLimit limit(find_threads(options.common.threads));
     ImageSequence sequence(prepared.scene, images.files, prepared.settings, options.layers);
-    ReplacedPixels replaced;
+    std::uint64_t replaced = 0;  // pixels of the pictures that were no numbers
+    int first_replaced = 0;      // the frame of the first of them
     const auto make = [&](int frame, const FrameRequest&) {
         FrameOutput maps = sequence.compute_maps(frame);
-        replaced.add(maps.statistics);
+        if (replaced == 0) first_replaced = frame;
+        replaced += maps.statistics.estimate.sanitized.replaced;
         return maps;
     };
-    PictureHashes hashes(images.files);
+    std::map<std::int64_t, std::string> hashes;  // SHA-1 of the pictures, each read once; empty where there is none
+    const auto hash_of = [&](std::int64_t frame) {
+        const auto [known, is_new] = hashes.emplace(frame, "");
+        const auto file = images.files.find(frame);
+        if (is_new && file != images.files.end()) {
+            const Bytes bytes = read_regular_file(file->second, file->second.string(), "");
+            known->second = hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        }
+        return known->second;
+    };
     const std::string identity = identity_of(prepared, options);
     // A frame's motion needs one of its neighbours.
-    const FramePrints prints{
-        identity, [&](int frame) {
-            return hash_bytes(fmt::format("{}\n{}\n{}\n{}\n{}", identity, frame, hashes.find(frame - 1),
-                                          hashes.find(frame), hashes.find(frame + 1)));
-        }};
+    const FramePrints prints{identity, [&](int frame) {
+                                 return hash_bytes(fmt::format("{}\n{}\n{}\n{}\n{}", identity, frame,
+                                                               hash_of(frame - 1), hash_of(frame), hash_of(frame + 1)));
+                             }};
     FrameClaims claims = claim_frames(prepared, options.common, prints);
     write_frames({prepared.scene, prepared.settings, *prepared.scene.film.exposure, prepared.frames, prepared.name,
                   make, claims, prints.of},
                  options.common, maps_request);
-    if (!options.common.quiet) replaced.warn();
+    if (options.common.quiet || replaced == 0) return;
+    std::cerr << fmt::format(
+        "aleph: warning: {} pixels of the pictures, the first in frame {}, are NaN or infinite; they count as the "
+        "median of their neighbours\n",
+        replaced, first_replaced);
+}
+
+constexpr std::size_t line_length = 112, indent = 27;  // of the channels in the help
+
+/// "  NAMES    HELP", in lines of at most line_length.
+std::string format_channel(const ChannelInfo& info) {
+    std::string text, line = fmt::format("  {}", fmt::join(info.names, " "));
+    const auto new_line = [&] {
+        text += line + "\n";
+        line = std::string(indent, ' ');
+    };
+    if (line.size() + 1 > indent) new_line();
+    line.resize(indent, ' ');
+    for (const auto part : std::views::split(info.help, ' ')) {
+        const std::string_view word(part.begin(), part.end());
+        if (line.size() > indent && line.size() + 1 + word.size() > line_length) new_line();
+        if (line.size() > indent) line += ' ';
+        line += word;
+    }
+    return text + line + "\n";
+}
+
+constexpr const char* after_channels =
+    "\n"
+    "With --images, framesPerSecond, whiteLuminance, pixelsPerDegree and displayPersistence come from the first EXR\n"
+    "file if it has them. --fps and --set viewing.KEY=N override them; KEY is display_white, pixels_per_degree or\n"
+    "persistence. Motion and depth come from the files that hold them. Else motion is found by comparison, by optical\n"
+    "flow where the program was built with it (--motion names another way): it is unreliable without detail in the\n"
+    "picture, and the faster things move. Pixels whose motion is not confirmed from the other picture count as still.\n"
+    "\n"
+    "Examples:\n"
+    "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
+    "  aleph maps scenes/pool/scene.json --frames 20 -o maps.png      six maps in one picture, to look at\n"
+    "  aleph maps --images 'shot/frame.####.png' --fps 24 -o maps/\n"
+    "  aleph maps scenes/pool/scene.json -o motion.####.flo           motion in Middlebury's format\n"
+    "  aleph maps --images 'shot/frame.####.png' --motion census -o maps/   motion as the thesis finds it\n"
+    "  aleph maps --images 'quick.####.exr' --importance -o importance.####.png\n"
+    "  aleph maps --images 'blender.####.exr' --layer ViewLayer.Combined -o maps/\n"
+    "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?";
+
+/// The channels (channel_table), where values of the shot come from, and examples.
+std::string maps_footer() {
+    std::string text = "EXR channels (render: only of `aleph render`; scene: not with --images):\n";
+    for (const ChannelInfo& info : channel_table()) text += format_channel(info);
+    return text + after_channels;
 }
 
 }  // namespace

@@ -18,9 +18,10 @@ namespace aleph {
 
 namespace {
 
-/// Writes one line without control characters.
-void report(std::ostream& errors, const std::string& message) {
+/// Writes one line without control characters. @return the code
+int report(std::ostream& errors, const std::string& message, int code) {
     errors << "aleph: error: " << printable(message, 4000) << "\n" << std::flush;
+    return code;
 }
 
 /// @throws OutputError where some of what was printed is lost
@@ -164,24 +165,19 @@ int run_command(const Command& command, std::ostream& errors) {
         errors << "aleph: " << e.what() << "\n" << std::flush;
         return e.exit_code();
     } catch (const InputError& e) {
-        report(errors, e.what());
-        return exit_bad_input;
+        return report(errors, e.what(), exit_bad_input);
     } catch (const CLI::Error& e) {
-        report(errors, e.what());
-        return exit_bad_input;
+        return report(errors, e.what(), exit_bad_input);
     } catch (const std::bad_alloc&) {
-        report(errors, "out of memory");
-        return exit_failed;
+        return report(errors, "out of memory", exit_failed);
     } catch (const std::exception& e) {
-        report(errors, e.what());
-        return exit_failed;
+        return report(errors, e.what(), exit_failed);
     }
 }
 
 int run_program(CLI::App& app, const Command& command, int argc, const char* const* argv, std::ostream& errors) {
     const auto refuse = [&](const std::string& reason) {
-        report(errors, fmt::format("{} ({})", reason, where_to_look(app)));
-        return exit_bad_input;
+        return report(errors, fmt::format("{} ({})", reason, where_to_look(app)), exit_bad_input);
     };
     let_last_value_count(app);
     try {

@@ -194,8 +194,7 @@ TEST(CommandLine, OU05_ResultsThatCannotBePrintedAreAnErrorProgressThatIsLostIsN
     const auto code_of = [](const std::string& words) {
         return WEXITSTATUS(std::system(fmt::format("'{}' {}", program_path("aleph"), words).c_str()));
     };
-    for (const std::string& words : {compare, std::string("--help"), std::string("--version"),
-                                     std::string("render --help"), std::string("study --help")})
+    for (const std::string& words : Words{compare, "--help", "--version", "render --help", "study --help"})
         EXPECT_EQ(code_of(words + " >/dev/full 2>/dev/null"), 1) << words;
     EXPECT_EQ(
         code_of(fmt::format("render '{}' --frames 0-2 --size 16x12 --spp 1 -o '{}/' 2>/dev/full >/dev/null",

@@ -115,13 +115,5 @@ TEST_F(Films, WhatCannotBeAFilmIsRefusedAndLeavesNothing) {
     }
 }
 
-TEST_F(Films, WithoutFfmpegNothingIsRendered) {
-    const ScopedPath path(folder_.path());
-    expect_answer(render("new/film.mp4"), 1,
-                  "film.mp4: films are made by the program ffmpeg, which is not in PATH: install it");
-    EXPECT_EQ(left(), Words{});
-    EXPECT_EQ(render("frame.png", {"--frames", "5"}).code, 0);
-}
-
 }  // namespace
 }  // namespace aleph

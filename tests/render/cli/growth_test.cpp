@@ -1,36 +1,12 @@
 // Work that grows no faster than the scene: bytes allocated for deep and for wide scenes of n and 2n nodes.
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "engine/load/load_scene.h"
 #include "render/cli/explain/explain.h"
 #include "render/output/frame_files.h"
 #include "render/surface/node_paths.h"
+#include "tests/support/allocations.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
-
-namespace {
-
-std::atomic<std::size_t> allocated = 0;
-
-}  // namespace
-
-// Not inlined: GCC would take malloc and delete, or new and free, for a pair that does not match.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    allocated += size;
-    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-    throw std::bad_alloc();
-}
-
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 namespace aleph {
 namespace {
@@ -38,7 +14,7 @@ namespace {
 constexpr int few = 1500;
 
 /// A glTF file of nodes without names that all show one triangle.
-std::string gltf_text(int count, bool deep) {
+std::string gltf_of_nodes(int count, bool deep) {
     std::string nodes, roots = "0";
     for (int i = 0; i < count; ++i) {
         nodes += i == 0 ? "{\"mesh\": 0" : ", {\"mesh\": 0";
@@ -55,7 +31,7 @@ std::string gltf_text(int count, bool deep) {
 }
 
 /// A scene file of nodes, each the parent of the next one if it is deep.
-std::string scene_text(int count, bool deep) {
+std::string scene_of_nodes(int count, bool deep) {
     std::string nodes;
     for (int i = 0; i < count; ++i) {
         const std::string number = std::to_string(i);
@@ -66,54 +42,44 @@ std::string scene_text(int count, bool deep) {
     return R"({"aleph": 1, "meshes": {"box": {"shape": {"type": "box"}}}, "nodes": [)" + nodes + "]}";
 }
 
-/// The size of all allocations of some work, bytes.
-std::size_t bytes_of(const std::function<void()>& work) {
-    const std::size_t before = allocated;
-    work();
-    return allocated - before;
-}
+/// The bytes that each part of the work with a scene allocates.
+using Costs = std::vector<std::pair<std::string, std::size_t>>;
 
-struct Cost {
-    std::size_t load, explain, moment, frame;
-};
-
-Cost cost_of(const std::filesystem::path& file, const std::string& text) {
+Costs costs_of(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file) << text;
     Scene scene;
-    Cost cost{};
-    cost.load = bytes_of([&] { scene = load_scene(file); });
-    cost.explain = bytes_of([&] {
+    Costs costs;
+    const auto add = [&](const char* part, const std::function<void()>& work) {
+        costs.emplace_back(part, count_allocations(work).bytes);
+    };
+    add("loading", [&] { scene = load_scene(file); });
+    add("explain", [&] {
         RenderSettings settings;
         settings.picture.width = settings.picture.height = 4;
         explain_text(explain_scene(scene, settings, "", {}), 0);
     });
-    cost.moment = bytes_of([&] { explain_moment(scene, 0.0); });
-    cost.frame = bytes_of([&] {
+    add("explain --at", [&] { explain_moment(scene, 0.0); });
+    add("a frame's file", [&] {
         FrameOutput output;
         output.hits = Image<Hit>(1, 1);
         make_frame_image(output, true, scene, RenderSettings(), 1.0);
     });
-    return cost;
+    return costs;
 }
 
 TEST(Growth, TwiceTheNodesCostAtMostTwiceTheBytesAndATenth) {
     const ScratchFolder folder;
     for (const bool deep : {false, true}) {
         for (const bool gltf : {false, true}) {
-            const auto cost = [&](int count) {
-                return gltf ? cost_of(folder / "scene.gltf", gltf_text(count, deep))
-                            : cost_of(folder / "scene.json", scene_text(count, deep));
-            };
-            const Cost once = cost(few), twice = cost(2 * few);
             SCOPED_TRACE(std::string(gltf ? "glTF, " : "scene file, ") + (deep ? "deep" : "wide"));
-            const auto check = [&](const char* part, std::size_t Cost::*bytes) {
-                EXPECT_LE(static_cast<double>(twice.*bytes), 2.2 * static_cast<double>(once.*bytes))
-                    << part << ": " << once.*bytes << " and " << twice.*bytes << " bytes";
+            const auto costs = [&](int count) {
+                return gltf ? costs_of(folder / "scene.gltf", gltf_of_nodes(count, deep))
+                            : costs_of(folder / "scene.json", scene_of_nodes(count, deep));
             };
-            check("loading", &Cost::load);
-            check("explain", &Cost::explain);
-            check("explain --at", &Cost::moment);
-            check("a frame's file", &Cost::frame);
+            const Costs once = costs(few), twice = costs(2 * few);
+            for (std::size_t i = 0; i < once.size(); ++i)
+                EXPECT_LE(static_cast<double>(twice[i].second), 2.2 * static_cast<double>(once[i].second))
+                    << once[i].first << ": " << once[i].second << " and " << twice[i].second << " bytes";
         }
     }
 }

@@ -106,12 +106,5 @@ TEST_F(Conflicts, OutputsThatAreHardLinksOfEachOtherAreTwoFiles) {
     EXPECT_NO_THROW(refuse_overwriting({file("sc.json")}, {{file("tex.png"), "--output"}, {file("hard.png"), "--o"}}));
 }
 
-TEST_F(Conflicts, OtherNamesAreTaken) {
-    const Ran ran = run_command({"render", file("sc.json"), "-q", "--size", "8x8", "--spp", "1", "--frames", "0", "-o",
-                                 file("out.png"), "--stats", file("out.json")});
-    EXPECT_EQ(ran.code, exit_done) << ran.errors;
-    EXPECT_TRUE(fs::exists(file("out.png")));
-}
-
 }  // namespace
 }  // namespace aleph
