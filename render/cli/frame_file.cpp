@@ -47,30 +47,19 @@ std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, 
     StageClock clock;
     std::size_t changed = 0;
     const PictureTexts texts{{fingerprint_key, fingerprint}};
-    switch (output_format(path)) {
-        case OutputFormat::flow:
-            write_flow(path, output.motion);
-            break;
-        case OutputFormat::png:
-            if (importance) {
-                write_importance(path, output, texts);
-            } else if (output.shaded.color.empty()) {
-                write_map_preview(path, output, texts);
-            } else {
-                write_png(path, output.shaded.color, texts);
-            }
-            break;
-        case OutputFormat::hdr:
-            changed = write_hdr(path, output.shaded.color, texts);
-            break;
-        case OutputFormat::exr:
-            if (importance) {
-                write_importance(path, output, texts);
-            } else {
-                write_exr(path,
-                          with_texts(make_frame_image(output, maps, job.scene, job.settings, job.exposure), texts));
-            }
-            break;
+    const OutputFormat format = output_format(path);
+    if (format == OutputFormat::flow) {
+        write_flow(path, output.motion);
+    } else if (importance) {
+        write_importance(path, output, texts);
+    } else if (format == OutputFormat::exr) {
+        write_exr(path, with_texts(make_frame_image(output, maps, job.scene, job.settings, job.exposure), texts));
+    } else if (format == OutputFormat::hdr) {
+        changed = write_hdr(path, output.shaded.color, texts);
+    } else if (output.shaded.color.empty()) {
+        write_map_preview(path, output, texts);
+    } else {
+        write_png(path, output.shaded.color, texts);
     }
     StageSeconds& seconds = output.statistics.seconds;
     clock.add_to(seconds.write);
@@ -86,17 +75,10 @@ void remove_unfinished(const std::filesystem::path& file) {
 
 void write_partial(const std::filesystem::path& file, const Image<Rgb>& color) {
     const std::filesystem::path partial = partial_file(file);
-    switch (output_format(file)) {
-        case OutputFormat::png:
-            return write_png(partial, color);
-        case OutputFormat::hdr:
-            write_hdr(partial, color);
-            return;
-        case OutputFormat::exr:
-            return write_exr(partial, make_color_image(color));
-        case OutputFormat::flow:
-            return;
-    }
+    const OutputFormat format = output_format(file);
+    if (format == OutputFormat::png) write_png(partial, color);
+    if (format == OutputFormat::hdr) write_hdr(partial, color);
+    if (format == OutputFormat::exr) write_exr(partial, make_color_image(color));
 }
 
 }  // namespace aleph

@@ -26,31 +26,7 @@ namespace {
 
 constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
 
-bool fits(const Setting& setting, const SettingValue& value) {
-    const double* const number = std::get_if<double>(&value);
-    const std::string* const text = std::get_if<std::string>(&value);
-    const auto in_range = [&](double v) { return v >= setting.min && v <= setting.max; };  // false for NaN
-    switch (setting.type) {
-        case SettingType::size: {
-            const auto size = text != nullptr ? parse_picture_size(*text) : std::nullopt;
-            return size && in_range(size->width) && in_range(size->height);
-        }
-        case SettingType::whole_number:
-            return number != nullptr && in_range(*number) && *number == std::floor(*number);
-        case SettingType::number:
-            return number != nullptr && in_range(*number);
-        case SettingType::choice:
-            return text != nullptr && std::ranges::find(setting.choices, *text) != setting.choices.end();
-        case SettingType::names:
-            return text != nullptr;  // find_mismatch looks at the names
-        case SettingType::boolean:
-            return std::holds_alternative<bool>(value);
-    }
-    return false;
-}
-
-}  // namespace
-
+/// The allowed values in words: "a number from 0 to 1", "one of flat, direct".
 std::string describe_values(const Setting& setting) {
     switch (setting.type) {
         case SettingType::size:
@@ -70,24 +46,41 @@ std::string describe_values(const Setting& setting) {
     return {};
 }
 
+}  // namespace
+
 std::string find_mismatch(const Setting& setting, const SettingValue& value) {
+    const double* const number = std::get_if<double>(&value);
     const std::string* const text = std::get_if<std::string>(&value);
-    if (!fits(setting, value)) return "expected " + describe_values(setting);
-    if (setting.type == SettingType::size) {
-        const PictureSize size = parse_picture_size(*text).value_or(PictureSize{});
-        if (std::int64_t{size.width} * size.height > max_pixels) {
+    const auto in_range = [&](double v) { return v >= setting.min && v <= setting.max; };  // false for NaN
+    switch (setting.type) {
+        case SettingType::size: {
+            const auto size = text != nullptr ? parse_picture_size(*text) : std::nullopt;
+            if (!size || !in_range(size->width) || !in_range(size->height)) break;
+            if (std::int64_t{size->width} * size->height <= max_pixels) return {};
             return "more than 2^28 pixels; expected " + describe_values(setting);
         }
-    }
-    if (setting.type == SettingType::names) {
-        std::string unknown;
-        parse_effects(*text, unknown);
-        if (!unknown.empty()) {
+        case SettingType::whole_number:
+            if (number != nullptr && in_range(*number) && *number == std::floor(*number)) return {};
+            break;
+        case SettingType::number:
+            if (number != nullptr && in_range(*number)) return {};
+            break;
+        case SettingType::choice:
+            if (text != nullptr && std::ranges::find(setting.choices, *text) != setting.choices.end()) return {};
+            break;
+        case SettingType::names: {
+            if (text == nullptr) break;
+            std::string unknown;
+            parse_effects(*text, unknown);
+            if (unknown.empty()) return {};
             return fmt::format("there is no effect {}; known are {}", printable(unknown),
                                fmt::join(setting.choices, ", "));
         }
+        case SettingType::boolean:
+            if (std::holds_alternative<bool>(value)) return {};
+            break;
     }
-    return {};
+    return "expected " + describe_values(setting);
 }
 
 }  // namespace aleph

@@ -42,9 +42,6 @@ struct PictureSize {
 /// "640x480": two numbers of any range.
 std::optional<PictureSize> parse_picture_size(const std::string& text);
 
-/// The allowed values in words: "a number from 0 to 1", "one of flat, direct".
-std::string describe_values(const Setting& setting);
-
 /// Why the setting cannot have this value; empty if it can.
 std::string find_mismatch(const Setting& setting, const SettingValue& value);
 
