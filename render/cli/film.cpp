@@ -62,8 +62,9 @@ void remove_frames(const fs::path& folder) {
 
 FilmFrames list_frames(const FrameJob& job, const SceneOptions& options) {
     FilmFrames frames;
-    for (const int frame : job.frames) frames.files.push_back(output_path(options.output, job.name, frame));
-    frames.rate = film_rate(options, job.frames, job.scene.film.frame_rate);
+    const ClaimedOutput& output = job.claims.output();
+    for (const int frame : output.frames) frames.files.push_back(output.file(frame));
+    frames.rate = film_rate(options, output.frames, job.scene.film.frame_rate);
     frames.ending = lower_extension(options.film);
     frames.threads = find_threads(options.threads);
     return frames;
@@ -152,7 +153,7 @@ bool is_film_finished(const SceneOptions& options, const std::string& fingerprin
 }
 
 void finish_film(const FrameJob& job, const SceneOptions& options) {
-    const std::string fingerprint = film_fingerprint(options, job.frames, job.scene.film.frame_rate, job.fingerprint);
+    const std::string fingerprint = job.claims.output().identity;
     const RenderSignals signals;
     const auto stop_if_asked = [&] {
         if (options.watch != nullptr && options.watch->is_changed()) throw SceneChanged();

@@ -12,7 +12,6 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/frame_file.h"
-#include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
 #include "render/cli/watch.h"
 #include "render/guide/error_report.h"
@@ -101,6 +100,7 @@ std::string describe_copies(const std::vector<FinishedFrame>& frames) {
 
 FrameWriter::FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request)
     : job_(job),
+      output_(job.claims.output()),
       options_(options),
       request_(request),
       statistics_(options.stats, job.scene, job.settings, job.exposure,
@@ -111,16 +111,16 @@ FrameWriter::FrameWriter(const FrameJob& job, const SceneOptions& options, const
 void FrameWriter::make_all() {
     RenderSignals signals;
     const char* const title = request_.frame ? "render" : "maps";
-    Progress progress(job_.title != nullptr ? job_.title : title, static_cast<double>(job_.frames.size()),
+    Progress progress(job_.title != nullptr ? job_.title : title, static_cast<double>(output_.frames.size()),
                       progress_look(options_.quiet));
-    std::vector<std::size_t> left(job_.frames.size());
+    std::vector<std::size_t> left(output_.frames.size());
     std::iota(left.begin(), left.end(), 0);
     while (!left.empty()) {
         const std::size_t before = left.size();
         std::erase_if(left, [&](std::size_t place) { return !is_busy(place, progress, signals); });
         if (left.size() < before || left.empty()) continue;
         stop_if_asked(signals);
-        progress.update(done_, fmt::format("frame {}: another process makes it", job_.frames[left.front()]));
+        progress.update(done_, fmt::format("frame {}: another process makes it", output_.frames[left.front()]));
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
 }
@@ -140,7 +140,7 @@ void FrameWriter::finish() {
 }
 
 bool FrameWriter::is_busy(std::size_t place, Progress& progress, RenderSignals& signals) {
-    const int frame = job_.frames[place];
+    const int frame = output_.frames[place];
     const Claim claim = job_.claims.claim(frame);
     if (claim == Claim::busy) return true;
     if (claim == Claim::ours) {
@@ -155,9 +155,9 @@ bool FrameWriter::is_busy(std::size_t place, Progress& progress, RenderSignals& 
 }
 
 void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& signals) {
-    const int frame = job_.frames[place];
-    const std::filesystem::path file = output_path(options_.output, job_.name, frame);
-    const std::string fingerprint = job_.fingerprint(frame);
+    const int frame = output_.frames[place];
+    const std::filesystem::path file = output_.file(frame);
+    const std::string fingerprint = output_.fingerprint(frame);
     std::optional<FrameCheckpoint> checkpoint;
     StageClock since;
     double waited = 0.0;
@@ -205,7 +205,7 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
 
 void FrameWriter::print_status(int frame, const char* stage, double fraction) const {
     std::cerr << fmt::format("aleph: {} of {} frames are finished; frame {}: {}, {:.0f} %\n",
-                             kept_.size() + made_.size(), job_.frames.size(), frame, stage, 100.0 * fraction);
+                             kept_.size() + made_.size(), output_.frames.size(), frame, stage, 100.0 * fraction);
 }
 
 void FrameWriter::stop_if_asked(const RenderSignals& signals) const {
@@ -214,7 +214,7 @@ void FrameWriter::stop_if_asked(const RenderSignals& signals) const {
     const bool again = options_.resume || options_.checkpoint > 0.0;
     throw Stopped(fmt::format("stopped by {}: {} of {} frames are finished; {}",
                               signals.received() == SIGINT ? "SIGINT" : "SIGTERM", kept_.size() + made_.size(),
-                              job_.frames.size(),
+                              output_.frames.size(),
                               options_.resume ? "the same command goes on with the others"
                                               : "the same command with --resume makes the others"),
                   again ? static_cast<int>(exit_again) : 128 + signals.received());
@@ -222,7 +222,7 @@ void FrameWriter::stop_if_asked(const RenderSignals& signals) const {
 
 bool FrameWriter::keep_row(std::size_t place) {
     if (options_.stats.empty()) return true;
-    const auto row = rows_.find(job_.fingerprint(job_.frames[place]));
+    const auto row = rows_.find(output_.fingerprint(output_.frames[place]));
     if (row != rows_.end()) statistics_.keep(place, row->second);
     return row != rows_.end();
 }
@@ -237,14 +237,12 @@ void FrameWriter::keep_rows() {
 }
 
 void FrameWriter::print_files() const {
-    const auto file = [&](int frame) {
-        return printable(output_path(options_.output, job_.name, frame).string(), 400);
-    };
-    std::string text = fmt::format("aleph: wrote {}", file(job_.frames.front()));
+    const auto file = [&](int frame) { return printable(output_.file(frame).string(), 400); };
+    std::string text = fmt::format("aleph: wrote {}", file(output_.frames.front()));
     if (!options_.film.empty()) {
-        text = fmt::format("aleph: {} frames of {}", job_.frames.size(), printable(options_.film, 400));
-    } else if (job_.frames.size() > 1)
-        text += fmt::format(" to {} ({} frames)", file(job_.frames.back()), job_.frames.size());
+        text = fmt::format("aleph: {} frames of {}", output_.frames.size(), printable(options_.film, 400));
+    } else if (output_.frames.size() > 1)
+        text += fmt::format(" to {} ({} frames)", file(output_.frames.back()), output_.frames.size());
     if (!kept_.empty()) text += fmt::format(", {} of them finished before or by other processes", kept_.size());
     if (!options_.stats.empty()) text += fmt::format(", statistics in {}", printable(options_.stats, 400));
     std::cerr << text << "\n";

@@ -24,11 +24,8 @@ struct FrameJob {
     const Scene& scene;  ///< its frame rate, viewing conditions and file
     const RenderSettings& settings;
     double exposure;  ///< factor on radiance
-    const std::vector<int>& frames;
-    const std::string& name;  ///< of the files, where --output does not say
     std::function<FrameOutput(int frame, const FrameRequest& request)> make;
-    FrameClaims& claims;                                ///< which of them are to be made now
-    std::function<std::string(int frame)> fingerprint;  ///< of a frame's file
+    FrameClaims& claims;  ///< the frames, their files, and which of them are to be made now
     std::optional<Budget> budget = std::nullopt;
     /// Checks the frames once they are written. @param estimated  share of the pixels that are beyond, where it is
     /// known
@@ -71,6 +68,7 @@ class FrameWriter {
     void print_files() const;
 
     const FrameJob& job_;
+    const ClaimedOutput& output_;
     const SceneOptions& options_;
     const FrameRequest& request_;
     StatisticsFile statistics_;

@@ -166,9 +166,8 @@ void write_image_maps(const MapsOptions& options) {
                                                                hash_of(frame - 1), hash_of(frame), hash_of(frame + 1)));
                              }};
     FrameClaims claims = claim_frames(prepared, options.common, prints);
-    write_frames({prepared.scene, prepared.settings, *prepared.scene.film.exposure, prepared.frames, prepared.name,
-                  make, claims, prints.of},
-                 options.common, maps_request);
+    write_frames({prepared.scene, prepared.settings, *prepared.scene.film.exposure, make, claims}, options.common,
+                 maps_request);
     if (options.common.quiet || replaced == 0) return;
     std::cerr << fmt::format(
         "aleph: warning: {} pixels of the pictures, the first in frame {}, are NaN or infinite; they count as the "

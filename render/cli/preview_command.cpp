@@ -148,14 +148,7 @@ PreviewFrames make_film(PreparedScene& prepared, const SceneOptions& options, bo
     FrameClaims claims = claim_frames(prepared, options, prints);
     PreviewFrames frames(prepared, options.camera, motion);
     const auto make = [&](int frame, const FrameRequest& asked) { return frames.make(frame, asked); };
-    FrameJob job{frames.sequence().scene(),
-                 prepared.settings,
-                 frames.sequence().exposure(),
-                 prepared.frames,
-                 prepared.name,
-                 make,
-                 claims,
-                 prints.of};
+    FrameJob job{frames.sequence().scene(), prepared.settings, frames.sequence().exposure(), make, claims};
     job.title = "preview";
     write_frames(job, options, preview_request);
     return frames;

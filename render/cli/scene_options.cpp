@@ -68,13 +68,13 @@ constexpr const char* hidden_group = "";  // of options that help leaves out
 
 /// --KEY for a setting of the table; read_settings reads it.
 void add_setting_option(CLI::App& app, const Setting& setting) {
-    app.add_option(option_name(setting.key), setting_help(setting))
+    const std::string help = setting_help(setting);
+    app.add_option(option_name(setting.key), help)
         ->type_name(value_name(setting))
         ->default_str(setting_text(setting.get(RenderSettings())))
         ->group(setting.rare ? hidden_group : settings_group);
 }
 
-/// --help-all
 void add_full_help(CLI::App& app) {
     app.add_flag_callback(
         "--help-all",

@@ -25,7 +25,6 @@ class SceneWatch {
     /// @throws InputError (--viewer)
     SceneWatch(const std::filesystem::path& scene, const std::string& viewer) : scene_(scene), viewer_(viewer) {}
 
-    /// Has the viewer show a file.
     void show(const std::filesystem::path& file) { viewer_.show(file); }
 
     /// Takes the files of the scene that is loaded now in place of those before.

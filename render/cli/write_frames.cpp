@@ -105,9 +105,7 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
         if (judged) pictures.keep(frame, output.shaded.color);
         return output;
     };
-    FrameJob job{sequence.scene(), prepared.settings, sequence.exposure(),
-                 prepared.frames,  prepared.name,     make,
-                 claims,           prints.of,         budget};
+    FrameJob job{sequence.scene(), prepared.settings, sequence.exposure(), make, claims, budget};
     if (!cache.empty()) job.keep_light = [&] { sequence.save_light(); };
     if (judged) {
         judged->film.exposure = sequence.exposure();

@@ -32,7 +32,6 @@ std::string describe_content(const SceneOptions& options, const FrameRequest& re
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
                            const std::string& cache = "");
 
-/// The claims on frames of a scene or of pictures.
 FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const FramePrints& prints);
 
 /// Makes every frame that is not finished and writes it; waits for those that other processes make. The statistics

@@ -69,7 +69,6 @@ constexpr const EffectName& describe(Effect effect) {
     return effect_list[static_cast<std::size_t>(effect)];
 }
 
-/// A set of effects.
 class EffectSet {
   public:
     EffectSet() = default;

@@ -19,7 +19,6 @@ struct FilmFrames {
     int threads = 0;     ///< of the encoder; 0: its choice
 };
 
-/// Size of a file's picture.
 PictureSize read_picture_size(const std::filesystem::path& file);
 
 /// Returns whether a film of this size has one more column or row, as its pixels are stored: H.264 and VP9 hold

@@ -14,7 +14,6 @@ namespace aleph {
 /// The executable file of that name in a folder of PATH; empty: there is none.
 std::filesystem::path find_program(const std::string& name);
 
-/// The end of a program.
 struct ProgramEnd {
     int code = -1;          ///< exit code, or -1 where a signal ended it
     bool took_all = false;  ///< it read all that it was given

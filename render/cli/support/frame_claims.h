@@ -47,6 +47,7 @@ class FrameClaims {
     void release(int frame);
 
     bool is_finished(int frame) const;
+    const ClaimedOutput& output() const { return output_; }
     /// Frames with a file that was there before and could not be kept: cut, or of something else.
     int replaced() const { return replaced_; }
 

@@ -23,7 +23,6 @@ Json short_number(double value) {
     return value == std::floor(value) ? Json(static_cast<std::int64_t>(value)) : Json(value);
 }
 
-/// The default in JSON.
 Json default_of(const Setting& setting) {
     const SettingValue value = setting.get(RenderSettings());
     const double* const number = std::get_if<double>(&value);
