@@ -115,10 +115,4 @@ PicturePair read_pair(const ChannelImage& a, const ChannelImage& b) {
     return pair;
 }
 
-VisibleMaps compare_stills(const ChannelImage& a, const ChannelImage& b, const ChannelImage& maps) {
-    VisibleDifference difference(read_viewing(maps));
-    difference.add(0, read_pair(a, b), read_motion(maps));
-    return std::move(difference.finish().front());
-}
-
 }  // namespace aleph

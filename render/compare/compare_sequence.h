@@ -35,11 +35,6 @@ class VisibleCount {
 /// @throws InputError if either has no R, G, B
 PicturePair read_pair(const ChannelImage& a, const ChannelImage& b);
 
-/// Visible differences of two still pictures: nothing flickers.
-/// @param maps  of the reference (`aleph maps`), for its motion and how it is shown
-/// @throws InputError if the pictures have no R, G, B, or sizes differ
-VisibleMaps compare_stills(const ChannelImage& a, const ChannelImage& b, const ChannelImage& maps);
-
 struct FrameComparison {
     std::int64_t frame = 0;
     CompareResult result;

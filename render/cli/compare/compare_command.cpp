@@ -3,48 +3,14 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/errors.h"
 #include "render/cli/commands.h"
 #include "render/cli/compare/compare_command.h"
-#include "render/cli/support/output_conflicts.h"
 
 namespace aleph {
 
 namespace {
-
-int compare_pictures(const CompareOptions& options) {
-    if (!options.cuts.empty()) throw InputError("", "--cuts", "applies to sequences only");
-    refuse_overwriting({options.first, options.second, options.threshold, options.seen},
-                       {{options.difference, "--diff"}, {options.seen_out, "--seen-out"}, {options.junit, "--junit"}});
-    const ChannelImage first = read_image(options.first), second = read_image(options.second);
-    ChannelImage map;
-    if (!options.threshold.empty()) map = read_image(options.threshold);
-    CompareResult result = compare_images(first, second, options.settings, options.threshold.empty() ? nullptr : &map);
-    std::optional<VisibleShares> visible;
-    if (!options.seen.empty()) {
-        const ChannelImage maps = read_image(options.seen);
-        const VisibleMaps seen = compare_stills(first, second, maps);
-        VisibleCount count;
-        count.add(seen, maps.find("saliency.Y"));
-        visible = count.shares();
-        result.same = result.same && visible->seen <= options.settings.share;
-        if (!options.seen_out.empty()) write_seen(options.seen_out, seen);
-    }
-    if (options.json) {
-        nlohmann::ordered_json json = comparison_json(result);
-        json["visible"] = shares_json(visible);
-        fmt::print("{}\n", json.dump(2));
-    } else if (!options.quiet) {
-        print_comparison(options, result, visible);
-    }
-    if (!options.difference.empty()) write_png(options.difference, difference_picture(first, second, options.settings));
-    if (!options.junit.empty()) {
-        write_junit(options.junit, {make_junit_case(options.first, result, visible, options.settings, result.same)});
-    }
-    return result.same ? exit_done : exit_different;
-}
 
 void check_numbers(const CompareSettings& s) {
     if (s.tolerance < 0.0 || s.relative < 0.0 || s.share < 0.0 || s.share > 100.0) {
@@ -73,7 +39,8 @@ int compare(CompareOptions options) {
             "", "",
             fmt::format("'{}' is a sequence and '{}' one picture", printable(sequence, 400), printable(picture, 400)));
     }
-    return first ? compare_frames(options) : compare_pictures(options);
+    if (!first && !options.cuts.empty()) throw InputError("", "--cuts", "applies to sequences only");
+    return compare_frames(options);
 }
 
 void add_limits(CLI::App& app, CompareSettings& s) {

@@ -3,7 +3,6 @@
 // XML, which CI services show.
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -28,22 +27,17 @@ struct CompareOptions {
 /// file is a picture, whatever its name.
 bool names_sequence(const std::string& argument);
 
-/// Pairs the frames of both sequences by number, compares them and prints the result.
+/// Compares two pictures, or pairs the frames of two sequences by number, and prints the result.
 /// @return the exit code
 /// @throws InputError naming frames without partner or maps; a frame that is unreadable or of another shape
 int compare_frames(const CompareOptions& options);
 
-/// Prints one picture's table.
-void print_comparison(const CompareOptions& options, const CompareResult& result,
-                      const std::optional<VisibleShares>& visible);
-nlohmann::ordered_json shares_json(const std::optional<VisibleShares>& shares);
-nlohmann::ordered_json comparison_json(const CompareResult& result);
+/// Prints the result of two pictures: a table, or JSON.
+void print_comparison(const CompareOptions& options, const FrameComparison& comparison);
 
-/// One line per frame, and a summary.
+/// One line per frame, and a summary; or JSON.
 void print_sequence(const CompareOptions& options, const std::vector<FrameComparison>& frames,
                     const SequenceSummary& summary);
-
-void print_sequence_json(const std::vector<FrameComparison>& frames, const SequenceSummary& summary);
 
 /// The options whose limits are exceeded, such as "--max-rms"; the share's has a row of its own.
 std::string exceeded_options(const CompareResult& result);
@@ -59,8 +53,7 @@ struct JunitCase {
 };
 
 /// One test case of two pictures, in words.
-JunitCase make_junit_case(const std::string& name, const CompareResult& result,
-                          const std::optional<VisibleShares>& visible, const CompareSettings& settings, bool same);
+JunitCase make_junit_case(const std::string& name, const FrameComparison& comparison, const CompareSettings& settings);
 
 /// Writes one test suite.
 /// @throws OutputError

@@ -13,7 +13,9 @@ namespace aleph {
 
 namespace {
 
-FrameFiles find_sequence(const std::string& argument, const std::string& option) {
+/// The frames of a sequence; of a picture frame 0.
+FrameFiles find_frames(const std::string& argument, const std::string& option) {
+    if (!names_sequence(argument)) return {{0, argument}};
     std::error_code error;
     return std::filesystem::is_directory(argument, error) ? find_folder_frames(argument, option)
                                                           : find_frame_files(argument, option);
@@ -42,7 +44,7 @@ void check_partners(const CompareOptions& options, const FrameFiles& first, cons
 /// The maps of every frame; a single file serves a sequence of one frame. Nothing without the option.
 FrameFiles find_maps(const std::string& argument, const std::string& option, const FrameFiles& first) {
     if (argument.empty()) return {};
-    if (names_sequence(argument)) return find_sequence(argument, option);
+    if (names_sequence(argument)) return find_frames(argument, option);
     if (first.size() > 1) {
         throw InputError("", option,
                          "one file cannot serve several frames: give a pattern or a folder of `aleph maps`");
@@ -50,9 +52,10 @@ FrameFiles find_maps(const std::string& argument, const std::string& option, con
     return {{first.begin()->first, argument}};
 }
 
-/// The file of a frame's picture; empty without the option.
-std::string output_file(const std::string& pattern, const std::string& option, std::int64_t frame) {
-    if (pattern.empty()) return {};
+/// The file of a frame's picture, of two pictures as it is named; empty without the option.
+std::string output_file(const CompareOptions& options, const std::string& pattern, const std::string& option,
+                        std::int64_t frame) {
+    if (pattern.empty() || !names_sequence(options.first)) return pattern;
     const auto field = find_number_field(pattern, option);
     if (!field) throw InputError("", option, "several frames need a name such as diff.####.png");
     return insert_number(pattern, *field, static_cast<int>(frame));
@@ -66,8 +69,8 @@ void check_outputs(const CompareOptions& options, const std::vector<const FrameF
     }
     std::vector<OutputFile> outputs;
     for (const auto& [frame, file] : *inputs.front()) {
-        outputs.push_back({output_file(options.difference, "--diff", frame), "--diff"});
-        outputs.push_back({output_file(options.seen_out, "--seen-out", frame), "--seen-out"});
+        outputs.push_back({output_file(options, options.difference, "--diff", frame), "--diff"});
+        outputs.push_back({output_file(options, options.seen_out, "--seen-out", frame), "--seen-out"});
     }
     outputs.push_back({options.junit, "--junit"});
     refuse_overwriting(read, outputs);
@@ -90,16 +93,18 @@ bool names_sequence(const std::string& argument) {
 }
 
 int compare_frames(const CompareOptions& options) {
-    const FrameFiles first = find_sequence(options.first, "first"), second = find_sequence(options.second, "second");
+    const bool is_sequence = names_sequence(options.first);
+    const FrameFiles first = find_frames(options.first, "first"), second = find_frames(options.second, "second");
     const FrameFiles thresholds = find_maps(options.threshold, "--threshold", first);
     const FrameFiles seen = find_maps(options.seen, "--seen", first);
     check_partners(options, first, second, thresholds, seen);
     check_outputs(options, {&first, &second, &thresholds, &seen});
     SequenceComparison sequence(options.settings, parse_cuts(options.cuts), [&](const VisibleMaps& visible) {
-        if (!options.seen_out.empty()) write_seen(output_file(options.seen_out, "--seen-out", visible.frame), visible);
+        if (!options.seen_out.empty())
+            write_seen(output_file(options, options.seen_out, "--seen-out", visible.frame), visible);
     });
     {
-        Progress progress("compare", static_cast<double>(first.size()), terminal_look(options.quiet));
+        Progress progress("compare", static_cast<double>(first.size()), terminal_look(options.quiet || !is_sequence));
         for (const auto& [frame, file] : first) {
             const ChannelImage a = read_image(file), b = read_image(second.at(frame));
             const ChannelImage threshold = thresholds.empty() ? ChannelImage{} : read_image(thresholds.at(frame));
@@ -108,10 +113,12 @@ int compare_frames(const CompareOptions& options) {
                 sequence.add(frame, a, b,
                              {thresholds.empty() ? nullptr : &threshold, seen.empty() ? nullptr : &visible});
             } catch (const InputError& e) {
+                if (!is_sequence) throw;
                 throw InputError(printable(file.string(), 400), e.place(), e.reason());
             }
             if (!options.difference.empty())
-                write_png(output_file(options.difference, "--diff", frame), difference_picture(a, b, options.settings));
+                write_png(output_file(options, options.difference, "--diff", frame),
+                          difference_picture(a, b, options.settings));
             progress.update(static_cast<double>(sequence.frames().size()), fmt::format("frame {}", frame));
         }
         sequence.finish();
@@ -120,15 +127,15 @@ int compare_frames(const CompareOptions& options) {
     if (!options.junit.empty()) {
         std::vector<JunitCase> cases;
         for (const FrameComparison& frame : sequence.frames()) {
-            cases.push_back(make_junit_case(first.at(frame.frame).string(), frame.result, frame.visible,
-                                            options.settings, frame.same));
+            cases.push_back(make_junit_case(first.at(frame.frame).string(), frame, options.settings));
         }
         write_junit(options.junit, cases);
     }
-    if (options.json) {
-        print_sequence_json(sequence.frames(), summary);
-    } else if (!options.quiet) {
+    if (options.quiet && !options.json) return summary.same() ? exit_done : exit_different;
+    if (is_sequence) {
         print_sequence(options, sequence.frames(), summary);
+    } else {
+        print_comparison(options, sequence.frames().front());
     }
     return summary.same() ? exit_done : exit_different;
 }

@@ -74,6 +74,60 @@ nlohmann::ordered_json threshold_json(const std::optional<ThresholdDifference>& 
             {"display_white", figures->display_white}};
 }
 
+nlohmann::ordered_json shares_json(const std::optional<VisibleShares>& shares) {
+    if (!shares) return nullptr;
+    nlohmann::ordered_json json{{"seen", shares->seen}, {"flicker", shares->flicker}, {"lasting", shares->lasting}};
+    json["noticed"] = shares->noticed ? nlohmann::ordered_json(*shares->noticed) : nlohmann::ordered_json();
+    return json;
+}
+
+nlohmann::ordered_json comparison_json(const FrameComparison& comparison) {
+    const CompareResult& result = comparison.result;
+    nlohmann::ordered_json json{
+        {"same", comparison.same}, {"size", {result.width, result.height}}, {"all", difference_json(result.all)}};
+    json["colour"] = result.colour ? difference_json(*result.colour) : nlohmann::ordered_json();
+    json["nan"] = {result.a.nan, result.b.nan};
+    json["inf"] = {result.a.inf, result.b.inf};
+    json["beyond"] = pixels_json(result, result.beyond);
+    json["luminance"] = result.luminance ? luminance_json(*result.luminance, result) : nlohmann::ordered_json();
+    json["threshold"] = threshold_json(result.threshold);
+    json["exceeded"] = result.exceeded;
+    json["channels"] = nlohmann::ordered_json::array();
+    for (const ChannelDifference& channel : result.channels) {
+        nlohmann::ordered_json entry{{"name", channel.name}};
+        entry.update(difference_json(channel.difference));
+        entry["at"] = {channel.x, channel.y};
+        entry["beyond"] = channel.beyond;
+        json["channels"].push_back(entry);
+    }
+    json["visible"] = shares_json(comparison.visible);
+    return json;
+}
+
+nlohmann::ordered_json sequence_json(const std::vector<FrameComparison>& frames, const SequenceSummary& summary) {
+    nlohmann::ordered_json json{{"same", summary.same()}, {"frames", nlohmann::ordered_json::array()}};
+    for (const FrameComparison& frame : frames) {
+        nlohmann::ordered_json entry{{"frame", frame.frame}};
+        entry.update(comparison_json(frame));
+        json["frames"].push_back(std::move(entry));
+    }
+    json["all"] = {{"frames", summary.frames},
+                   {"different", summary.different},
+                   {"worst_frame", summary.worst_frame},
+                   {"max", summary.max_abs},
+                   {"rms", summary.rms},
+                   {"nan", {summary.a.nan, summary.b.nan}},
+                   {"inf", {summary.a.inf, summary.b.inf}},
+                   {"beyond", {{"pixels", summary.beyond}, {"percent", summary.percent(summary.beyond)}}},
+                   {"threshold", threshold_json(summary.threshold)},
+                   {"visible", shares_json(summary.visible)}};
+    return json;
+}
+
+void print_json(const nlohmann::ordered_json& json) {
+    fmt::print("{}\n", json.dump(2));
+}
+
 /// The reference's noise, and what it adds.
 void print_noise(const ThresholdFigures& figures) {
     if (!figures.noise) return;
@@ -143,34 +197,6 @@ void print_summary(const SequenceSummary& summary) {
 
 }  // namespace
 
-nlohmann::ordered_json comparison_json(const CompareResult& result) {
-    nlohmann::ordered_json json{
-        {"same", result.same}, {"size", {result.width, result.height}}, {"all", difference_json(result.all)}};
-    json["colour"] = result.colour ? difference_json(*result.colour) : nlohmann::ordered_json();
-    json["nan"] = {result.a.nan, result.b.nan};
-    json["inf"] = {result.a.inf, result.b.inf};
-    json["beyond"] = pixels_json(result, result.beyond);
-    json["luminance"] = result.luminance ? luminance_json(*result.luminance, result) : nlohmann::ordered_json();
-    json["threshold"] = threshold_json(result.threshold);
-    json["exceeded"] = result.exceeded;
-    json["channels"] = nlohmann::ordered_json::array();
-    for (const ChannelDifference& channel : result.channels) {
-        nlohmann::ordered_json entry{{"name", channel.name}};
-        entry.update(difference_json(channel.difference));
-        entry["at"] = {channel.x, channel.y};
-        entry["beyond"] = channel.beyond;
-        json["channels"].push_back(entry);
-    }
-    return json;
-}
-
-nlohmann::ordered_json shares_json(const std::optional<VisibleShares>& shares) {
-    if (!shares) return nullptr;
-    nlohmann::ordered_json json{{"seen", shares->seen}, {"flicker", shares->flicker}, {"lasting", shares->lasting}};
-    json["noticed"] = shares->noticed ? nlohmann::ordered_json(*shares->noticed) : nlohmann::ordered_json();
-    return json;
-}
-
 std::string exceeded_options(const CompareResult& result) {
     std::string options;
     for (std::string name : result.exceeded) {
@@ -181,8 +207,9 @@ std::string exceeded_options(const CompareResult& result) {
     return options;
 }
 
-void print_comparison(const CompareOptions& options, const CompareResult& result,
-                      const std::optional<VisibleShares>& visible) {
+void print_comparison(const CompareOptions& options, const FrameComparison& comparison) {
+    if (options.json) return print_json(comparison_json(comparison));
+    const auto& [frame, result, visible, same] = comparison;
     fmt::print("{} against {}: {}x{}\n", options.first, options.second, result.width, result.height);
     fmt::print("  {:<24} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "channel", "max", "at x,y", "RMS", "relative MSE",
                "beyond");
@@ -207,39 +234,18 @@ void print_comparison(const CompareOptions& options, const CompareResult& result
     if (const std::string limits = exceeded_options(result); !limits.empty()) {
         fmt::print("  {:<24} {}\n", "above its limit", limits);
     }
-    fmt::print("{}\n", result.same ? "same" : "different");
+    fmt::print("{}\n", same ? "same" : "different");
 }
 
 void print_sequence(const CompareOptions& options, const std::vector<FrameComparison>& frames,
                     const SequenceSummary& summary) {
+    if (options.json) return print_json(sequence_json(frames, summary));
     fmt::print("{} against {}: {} frames, {}x{}\n", options.first, options.second, frames.size(),
                frames.front().result.width, frames.front().result.height);
     print_head(summary);
     for (const FrameComparison& frame : frames) print_frame(frame);
     print_summary(summary);
     fmt::print("{}\n", summary.same() ? "same" : "different");
-}
-
-void print_sequence_json(const std::vector<FrameComparison>& frames, const SequenceSummary& summary) {
-    nlohmann::ordered_json json{{"same", summary.same()}, {"frames", nlohmann::ordered_json::array()}};
-    for (const FrameComparison& frame : frames) {
-        nlohmann::ordered_json entry{{"frame", frame.frame}};
-        entry.update(comparison_json(frame.result));
-        entry["same"] = frame.same;
-        entry["visible"] = shares_json(frame.visible);
-        json["frames"].push_back(std::move(entry));
-    }
-    json["all"] = {{"frames", summary.frames},
-                   {"different", summary.different},
-                   {"worst_frame", summary.worst_frame},
-                   {"max", summary.max_abs},
-                   {"rms", summary.rms},
-                   {"nan", {summary.a.nan, summary.b.nan}},
-                   {"inf", {summary.a.inf, summary.b.inf}},
-                   {"beyond", {{"pixels", summary.beyond}, {"percent", summary.percent(summary.beyond)}}},
-                   {"threshold", threshold_json(summary.threshold)},
-                   {"visible", shares_json(summary.visible)}};
-    fmt::print("{}\n", json.dump(2));
 }
 
 void write_seen(const std::filesystem::path& path, const VisibleMaps& maps) {

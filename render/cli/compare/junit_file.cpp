@@ -25,8 +25,8 @@ std::string escape_xml(const std::string& text) {
 
 }  // namespace
 
-JunitCase make_junit_case(const std::string& name, const CompareResult& result,
-                          const std::optional<VisibleShares>& visible, const CompareSettings& settings, bool same) {
+JunitCase make_junit_case(const std::string& name, const FrameComparison& comparison, const CompareSettings& settings) {
+    const auto& [frame, result, visible, same] = comparison;
     JunitCase test{name, {}};
     if (same) return test;
     const auto add = [&](const std::string& reason) { test.failure += (test.failure.empty() ? "" : "; ") + reason; };

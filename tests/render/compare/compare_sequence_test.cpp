@@ -109,11 +109,12 @@ TEST(CompareSequence, SharesAreWeighedBySaliency) {
     maps.channels.push_back({"saliency.Y", Image<float>(picture_width, picture_height, 0.25f)});
     maps.channels.back().values(0, 0) = 1.0f;
     for (ChannelImage* each : {&picture, &reference}) each->channels[0].values(0, 0) = float_nan;
-    const VisibleMaps seen = compare_stills(picture, reference, maps);
-    VisibleCount count;
-    count.add(seen, maps.find("saliency.Y"));
-    EXPECT_NEAR(count.shares().seen, 100.0 / 80.0, 1e-9);
-    EXPECT_NEAR(count.shares().noticed.value(), 100.0 / (0.25 * 79.0 + 1.0), 1e-4);
+    SequenceComparison sequence({.tolerance = unlimited});
+    sequence.add(0, picture, reference, {.visible = &maps});
+    sequence.finish();
+    const VisibleShares shares = sequence.frames().front().visible.value();
+    EXPECT_NEAR(shares.seen, 100.0 / 80.0, 1e-9);
+    EXPECT_NEAR(shares.noticed.value(), 100.0 / (0.25 * 79.0 + 1.0), 1e-4);
 }
 
 TEST(CompareSequence, NanIsDifferent) {
