@@ -124,10 +124,6 @@ nlohmann::ordered_json sequence_json(const std::vector<FrameComparison>& frames,
     return json;
 }
 
-void print_json(const nlohmann::ordered_json& json) {
-    fmt::print("{}\n", json.dump(2));
-}
-
 /// The reference's noise, and what it adds.
 void print_noise(const ThresholdFigures& figures) {
     if (!figures.noise) return;
@@ -208,7 +204,7 @@ std::string exceeded_options(const CompareResult& result) {
 }
 
 void print_comparison(const CompareOptions& options, const FrameComparison& comparison) {
-    if (options.json) return print_json(comparison_json(comparison));
+    if (options.json) return fmt::print("{}\n", comparison_json(comparison).dump(2));
     const auto& [frame, result, visible, same] = comparison;
     fmt::print("{} against {}: {}x{}\n", options.first, options.second, result.width, result.height);
     fmt::print("  {:<24} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "channel", "max", "at x,y", "RMS", "relative MSE",
@@ -239,7 +235,7 @@ void print_comparison(const CompareOptions& options, const FrameComparison& comp
 
 void print_sequence(const CompareOptions& options, const std::vector<FrameComparison>& frames,
                     const SequenceSummary& summary) {
-    if (options.json) return print_json(sequence_json(frames, summary));
+    if (options.json) return fmt::print("{}\n", sequence_json(frames, summary).dump(2));
     fmt::print("{} against {}: {} frames, {}x{}\n", options.first, options.second, frames.size(),
                frames.front().result.width, frames.front().result.height);
     print_head(summary);
