@@ -15,7 +15,6 @@
 #include "render/cli/support/statistics_file.h"
 #include "render/frame/frame_output.h"
 #include "render/output/frame_files.h"
-#include "render/output/verified_statistics.h"
 
 namespace aleph {
 

@@ -8,7 +8,7 @@
 #include "render/cli/scene_options.h"
 #include "render/cli/support/progress.h"
 #include "render/frame/sequence.h"
-#include "render/output/verified_statistics.h"
+#include "render/output/frame_files.h"
 #include "render/verify/probe.h"
 
 namespace aleph {

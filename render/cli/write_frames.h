@@ -10,7 +10,6 @@
 #include "render/cli/scene_options.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
-#include "render/output/verified_statistics.h"
 #include "render/settings/measure.h"
 
 namespace aleph {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/output/verified_statistics.h"
+#include "render/output/frame_files.h"
 #include "render/verify/probe_reference.h"
 
 namespace aleph {

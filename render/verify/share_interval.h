@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "render/output/verified_statistics.h"
+#include "render/output/frame_files.h"
 
 namespace aleph {
 

@@ -50,27 +50,26 @@ int explain(const ExplainOptions& options) {
     Scene scene = load_or_list_missing(options.scene, options.limits);
     if (options.moment) {
         print_json(explain_moment(scene, options.at));
+        return exit_done;
+    }
+    RenderSettings settings;
+    apply_settings(settings, scene.source.settings, options.scene);
+    SettingMap given = options.settings;
+    if (options.fingerprint) add_default_error(scene.source.settings, given);
+    set_scene_numbers(scene, given, "--set");
+    apply_settings(settings, given, "");
+    std::vector<int> frames = options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);
+    std::ranges::sort(frames);
+    if (options.fingerprint) {
+        std::cout << format_fingerprint(make_fingerprint(scene, settings, list_camera_shots(scene, options.camera)))
+                  << "\n";
+        return exit_done;
+    }
+    const nlohmann::ordered_json explained = explain_scene(scene, settings, options.camera, frames);
+    if (options.json) {
+        print_json(explained);
     } else {
-        RenderSettings settings;
-        apply_settings(settings, scene.source.settings, options.scene);
-        SettingMap given = options.settings;
-        if (options.fingerprint) add_default_error(scene.source.settings, given);
-        set_scene_numbers(scene, given, "--set");
-        apply_settings(settings, given, "");
-        std::vector<int> frames =
-            options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);
-        std::ranges::sort(frames);
-        if (options.fingerprint) {
-            std::cout << format_fingerprint(make_fingerprint(scene, settings, list_camera_shots(scene, options.camera)))
-                      << "\n";
-            return exit_done;
-        }
-        const nlohmann::ordered_json explained = explain_scene(scene, settings, options.camera, frames);
-        if (options.json) {
-            print_json(explained);
-        } else {
-            std::cout << explain_text(explained, options.objects);
-        }
+        std::cout << explain_text(explained, options.objects);
     }
     return exit_done;
 }
