@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "engine/load/load_scene.h"
-#include "engine/surface/shapes.h"
+#include "engine/scene_file/scene_text.h"
 #include "render/cli/commands.h"
 #include "render/cli/explain/explain.h"
 #include "tests/render/expect_fields.h"
@@ -21,45 +20,17 @@ using nlohmann::ordered_json;
 /// A carrier that turns and moves, a box on it, a second box of the same name, a hidden one, a camera, a light that
 /// dims.
 Scene make_scene() {
-    Scene scene;
-    scene.source.file = "made.json";
-    scene.film.frame_rate = {24, 1};
-    scene.film.exposure = 2.0;
-    Material paint;
-    paint.name = "paint";
-    scene.materials = {paint, paint};
-    scene.materials[1].name = "spare";
-    Shape box;
-    box.kind = Shape::Kind::box;
-    box.size = {2.0, 4.0, 6.0};
-    scene.meshes.push_back(make_shape_mesh(box, 0, "box"));
-
-    Node carrier;
-    carrier.name = "carrier";
-    carrier.transform.translation.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 0.5, 2.0}};
-    carrier.transform.translation.values = {{0, 0, 0}, {10, 0, 0}, {10, 20, 0}};
-    carrier.transform.axis_rotation = AxisRotation{{0, 0, 1}, {}};
-    carrier.transform.axis_rotation->angle.sampling = {
-        .kind = TimeSampling::Kind::uniform, .start = 0.0, .period = 0.5, .times = {}};
-    carrier.transform.axis_rotation->angle.values = {0.0, std::numbers::pi / 2.0};
-    Node on{.name = "box", .parent = 0, .meshes = {0}};
-    Node twin = on;
-    Node hidden = on;
-    hidden.name = "hidden";
-    hidden.visible = 0.0;
-    Node eye;
-    eye.name = "eye";
-    eye.camera = 0;
-    eye.transform.translation = glm::dvec3(0, 0, 50);
-    Node lamp;
-    lamp.name = "lamp";
-    lamp.light = 0;
-    scene.nodes = {carrier, on, twin, hidden, eye, lamp};
-    scene.cameras.emplace_back();
-    scene.lights.emplace_back();
-    scene.lights[0].intensity.sampling = {
-        .kind = TimeSampling::Kind::uniform, .start = 0.0, .period = 0.5, .times = {}};
-    scene.lights[0].intensity.values = {5.0, 5.0};
+    Scene scene = read_scene_text(R"({"aleph": 1, "fps": 24, "exposure": 2, "materials": {"paint": {}, "spare": {}},
+        "meshes": {"box": {"shape": {"type": "box", "size": [2, 4, 6]}, "material": "paint"}}, "nodes": [
+        {"name": "carrier", "translation": {"keys": [[0, [0, 0, 0]], [12, [10, 0, 0]], [48, [10, 20, 0]]]},
+         "rotation": {"axis": [0, 0, 1], "degrees": {"values": [0, 90], "period": 12}}},
+        {"name": "box", "parent": "carrier", "mesh": "box"}, {"name": "twin", "parent": "carrier", "mesh": "box"},
+        {"name": "hidden", "parent": "carrier", "mesh": "box", "visible": false},
+        {"name": "eye", "translation": [0, 0, 50], "camera": {"fov": 45}},
+        {"name": "lamp", "light": {"type": "point", "intensity": {"values": [5, 5], "period": 12}}}]})",
+                                  "made.json")
+                      .scene;
+    scene.nodes[2].name = "box";
     return scene;
 }
 
