@@ -25,6 +25,7 @@
 #include "perception/sanitize.h"
 #include "perception/threshold.h"
 #include "tests/benchmarks/raw_embree.h"
+#include "tests/support/all_pixels.h"
 #include "tests/support/first_hits.h"
 #include "tests/support/paths.h"
 
@@ -62,20 +63,18 @@ struct Inputs {
     /// A checker on every surface, a gradient behind: edges and texture enough for the maps of perception.
     Image<Rgb> compute_estimate(const Image<Hit>& seen, const ScenePose& frame) const {
         Image<Rgb> image(width, height);
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                const Hit& hit = seen(x, y);
-                if (hit.instance == no_index) {
-                    image(x, y) = Rgb(0.3f, 0.4f, 0.6f) * (1.0f - 0.5f * static_cast<float>(y) / height);
-                    continue;
-                }
-                const Instance& instance = frame.instances[hit.instance];
-                const glm::dvec3 p = surface_point(scene.meshes[instance.mesh], hit);
-                const glm::dvec3 cell = glm::floor(8.0 * p + 0.5);
-                const bool odd = std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0) > 0.5;
-                const float hue = 0.37f * static_cast<float>(hit.instance);
-                image(x, y) = (odd ? 0.7f : 0.2f) * Rgb(0.6f + 0.4f * std::sin(hue), 0.6f + 0.4f * std::cos(hue), 0.5f);
+        for (const auto [x, y] : all_pixels(width, height)) {
+            const Hit& hit = seen(x, y);
+            if (hit.instance == no_index) {
+                image(x, y) = Rgb(0.3f, 0.4f, 0.6f) * (1.0f - 0.5f * static_cast<float>(y) / height);
+                continue;
             }
+            const Instance& instance = frame.instances[hit.instance];
+            const glm::dvec3 p = surface_point(scene.meshes[instance.mesh], hit);
+            const glm::dvec3 cell = glm::floor(8.0 * p + 0.5);
+            const bool odd = std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0) > 0.5;
+            const float hue = 0.37f * static_cast<float>(hit.instance);
+            image(x, y) = (odd ? 0.7f : 0.2f) * Rgb(0.6f + 0.4f * std::sin(hue), 0.6f + 0.4f * std::cos(hue), 0.5f);
         }
         return image;
     }
@@ -157,7 +156,8 @@ void threshold_noise(benchmark::State& state) {
     const NoiseVisibility noise({}, {}, NoiseOverTime::fresh);
     const Image<float>& velocity = inputs().velocity;
     for (auto _ : state)
-        benchmark::DoNotOptimize(compute_noise_threshold(noise, inputs().estimate, 100.0, luminance, velocity, velocity).pixels.data());
+        benchmark::DoNotOptimize(
+            compute_noise_threshold(noise, inputs().estimate, 100.0, luminance, velocity, velocity).pixels.data());
 }
 
 /// Copies each image once: what a stage reads and writes, without its arithmetic.

@@ -51,9 +51,7 @@ TEST(BandResponse, ContrastUnderTheNoiseThresholdIsNone) {
 
 TEST(BandResponse, OnePixelCheckerIsAllFinestBand) {
     Image<float> image(64, 48);
-    for (int y = 0; y < 48; ++y) {
-        for (int x = 0; x < 64; ++x) image(x, y) = (x + y) % 2 == 0 ? 0.2f : 0.8f;
-    }
+    for (const auto [x, y] : all_pixels(64, 48)) image(x, y) = (x + y) % 2 == 0 ? 0.2f : 0.8f;
     const auto response = compute_band_response(image);
     for (const float r : response[0].pixels) ASSERT_NEAR(r, 1.0, 1e-4);
 }

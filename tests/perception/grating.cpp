@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/all_pixels.h"
+
 namespace aleph {
 
 namespace {
@@ -36,9 +38,7 @@ int nearest_half_cycles(double rho, double pixels_per_degree) {
 
 Image<Rgb> make_grating(const Grating& grating) {
     Image<Rgb> picture(Grating::width, Grating::height);
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) picture(x, y) = Rgb(static_cast<float>(grating.value(x)));
-    }
+    for (const auto [x, y] : all_pixels(picture)) picture(x, y) = Rgb(static_cast<float>(grating.value(x)));
     return picture;
 }
 

@@ -90,9 +90,8 @@ TEST(CacheFill, RoundsCostLittleCornell) {
 
 TEST(CacheFill, GuidedAccuracyToo) {
     Fill fill(load("cornell"), 320, 240, 0.15);
-    for (int y = 0; y < 240; ++y) {
-        for (int x = 0; x < 320; ++x) fill.alpha(x, y) = 0.1f + 0.8f * static_cast<float>((x / 40 + y / 40) % 2);
-    }
+    for (const auto [x, y] : all_pixels(320, 240))
+        fill.alpha(x, y) = 0.1f + 0.8f * static_cast<float>((x / 40 + y / 40) % 2);
     const double rounds = static_cast<double>(count_in_rounds(fill));
     const double sequential = static_cast<double>(count_sequentially(fill));
     EXPECT_LE(rounds, 1.03 * sequential) << rounds << " against " << sequential;
@@ -108,14 +107,12 @@ TEST(CacheFill, EverySampleIsCoveredAfterwards) {
         fill_cache(cache, fill.context, fill.centers, tally);
         RayTask task(fill.stage.rays);
         std::size_t uncovered = 0, asked = 0;
-        for (int y = 0; y < 120; ++y) {
-            for (int x = 0; x < 160; ++x) {
-                if (fill.centers.hits(x, y).instance == no_index) continue;
-                const PixelSurface s = make_pixel_surface(fill.stage.shading, fill.stage.view, fill.centers, x, y);
-                if (!s.material.has_diffuse()) continue;
-                ++asked;
-                if (!cache.covers({s.point.position, s.point.normal, fill.alpha(x, y), &task})) ++uncovered;
-            }
+        for (const auto [x, y] : all_pixels(160, 120)) {
+            if (fill.centers.hits(x, y).instance == no_index) continue;
+            const PixelSurface s = make_pixel_surface(fill.stage.shading, fill.stage.view, fill.centers, x, y);
+            if (!s.material.has_diffuse()) continue;
+            ++asked;
+            if (!cache.covers({s.point.position, s.point.normal, fill.alpha(x, y), &task})) ++uncovered;
         }
         EXPECT_GT(asked, 5000u);
         EXPECT_LE(uncovered, asked / 1000) << name;

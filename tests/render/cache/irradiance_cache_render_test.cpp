@@ -117,9 +117,7 @@ TEST(IrradianceCache, IC13_TheSameRecordsFromAnyNumberOfThreads) {
     RenderSettings settings = plain_settings(0.15, 64);
     settings.light.light_samples = 4;
     Image<float> accuracy(96, 72);
-    for (int y = 0; y < 72; ++y) {
-        for (int x = 0; x < 96; ++x) accuracy(x, y) = x < 48 ? 0.15f : 0.6f;  // as a guide would give
-    }
+    for (const auto [x, y] : all_pixels(96, 72)) accuracy(x, y) = x < 48 ? 0.15f : 0.6f;  // as a guide would give
     const LightingContext lighting = stage.lighting();
     const IndirectContext context{lighting, stage.view, settings, accuracy, 0, scene_radius(stage.shading), {}};
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);

@@ -20,13 +20,10 @@ struct SidePixel {
 std::vector<SidePixel> gather_sides(const Stage& stage, const std::function<bool(const glm::vec3& normal)>& is_side) {
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
     std::vector<SidePixel> sides;
-    for (int y = 0; y < stage.view.height; ++y) {
-        for (int x = 0; x < stage.view.width; ++x) {
-            if (centers.hits(x, y).instance != thing) continue;
-            const PixelSurface surface = make_pixel_surface(stage.shading, stage.view, centers, x, y);
-            if (is_side(surface.point.normal))
-                sides.push_back({x, y, luminance(gather_indirect(stage, surface, 2048))});
-        }
+    for (const auto [x, y] : all_pixels(stage.view)) {
+        if (centers.hits(x, y).instance != thing) continue;
+        const PixelSurface surface = make_pixel_surface(stage.shading, stage.view, centers, x, y);
+        if (is_side(surface.point.normal)) sides.push_back({x, y, luminance(gather_indirect(stage, surface, 2048))});
     }
     return sides;
 }
@@ -105,17 +102,15 @@ TEST(IrradianceCache, IC19_BehindAClosedFenceItIsDark) {
     for (const double accuracy : {0.0, 0.05, 0.15, 0.3, 0.5, 1.0}) {
         const ShadedFrame out = shade(stage, plain_settings(accuracy, accuracy > 0.0 ? 256 : 64));
         int dark = 0, leaking = 0, lit = 0;
-        for (int y = 0; y < 48; ++y) {
-            for (int x = 0; x < 64; ++x) {
-                if (centers.hits(x, y).instance == no_index) continue;
-                const PixelSurface surface = make_pixel_surface(stage.shading, stage.view, centers, x, y);
-                const float from_fence = surface.point.position.x + static_cast<float>(stage.shading.anchor.x);
-                if (from_fence > 0.01f) {
-                    ++dark;
-                    leaking += out.color(x, y) != Rgb(0.0f);
-                } else if (from_fence < -0.05f) {
-                    lit += out.color(x, y).x > 0.01f;
-                }
+        for (const auto [x, y] : all_pixels(64, 48)) {
+            if (centers.hits(x, y).instance == no_index) continue;
+            const PixelSurface surface = make_pixel_surface(stage.shading, stage.view, centers, x, y);
+            const float from_fence = surface.point.position.x + static_cast<float>(stage.shading.anchor.x);
+            if (from_fence > 0.01f) {
+                ++dark;
+                leaking += out.color(x, y) != Rgb(0.0f);
+            } else if (from_fence < -0.05f) {
+                lit += out.color(x, y).x > 0.01f;
             }
         }
         EXPECT_EQ(leaking, 0) << "of " << dark << " pixels at accuracy " << accuracy;
@@ -173,18 +168,16 @@ DarkRoom render_two_rooms(double thickness, double accuracy, double min_radius_p
     const ShadedFrame out = shade(stage, settings);
     const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
     DarkRoom found;
-    for (int y = 0; y < 48; ++y) {
-        for (int x = 0; x < 64; ++x) {
-            if (hits.hits(x, y).instance == no_index) continue;
-            const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
-            const double from_wall = s.point.position.x + stage.shading.anchor.x - 0.5 * thickness;
-            if (from_wall > 0.0) {
-                ++found.dark;
-                found.leaking += out.color(x, y) != Rgb(0.0f);
-            } else if (from_wall < -thickness - 0.05) {
-                ++found.lit;
-                found.darkest_lit = std::min(found.darkest_lit, out.color(x, y).x);
-            }
+    for (const auto [x, y] : all_pixels(64, 48)) {
+        if (hits.hits(x, y).instance == no_index) continue;
+        const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
+        const double from_wall = s.point.position.x + stage.shading.anchor.x - 0.5 * thickness;
+        if (from_wall > 0.0) {
+            ++found.dark;
+            found.leaking += out.color(x, y) != Rgb(0.0f);
+        } else if (from_wall < -thickness - 0.05) {
+            ++found.lit;
+            found.darkest_lit = std::min(found.darkest_lit, out.color(x, y).x);
         }
     }
     return found;
@@ -223,14 +216,12 @@ TEST(IrradianceCache, IC08_BarsBeforeAShiningPaneStayDark) {
     for (const double accuracy : {0.05, 0.15, 0.3, 0.5}) {
         const ShadedFrame out = shade(stage, plain_settings(accuracy, 256));
         int fronts = 0, leaking = 0;
-        for (int y = 0; y < 72; ++y) {
-            for (int x = 0; x < 96; ++x) {
-                if (hits.hits(x, y).instance <= 0) continue;
-                const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
-                if (s.point.normal.z < 0.99f) continue;
-                ++fronts;
-                leaking += out.color(x, y) != Rgb(0.0f);
-            }
+        for (const auto [x, y] : all_pixels(96, 72)) {
+            if (hits.hits(x, y).instance <= 0) continue;
+            const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
+            if (s.point.normal.z < 0.99f) continue;
+            ++fronts;
+            leaking += out.color(x, y) != Rgb(0.0f);
         }
         EXPECT_EQ(leaking, 0) << "accuracy " << accuracy << ", of " << fronts;
         EXPECT_GT(fronts, 300);

@@ -63,14 +63,12 @@ TEST(MirrorPlaces, PathsArriveAtTheWall) {
         EXPECT_TRUE(found.any);
         EXPECT_EQ(counts.specular, static_cast<std::uint64_t>(width * height));
         EXPECT_NEAR(found.places.solid_angle, std::pow(stage.view.pixels_per_unit, -2.0), 1e-9);
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
-                expect_near(found.places.directions(x, y), {ray.x, ray.y, -ray.z}, 1e-6);
-                const double distance = 11.0 / std::abs(ray.z);
-                ASSERT_EQ(found.places.hits(x, y).instance, 1);
-                EXPECT_NEAR(found.places.hits(x, y).distance, distance, 1e-5 * distance);
-            }
+        for (const auto [x, y] : all_pixels(width, height)) {
+            const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
+            expect_near(found.places.directions(x, y), {ray.x, ray.y, -ray.z}, 1e-6);
+            const double distance = 11.0 / std::abs(ray.z);
+            ASSERT_EQ(found.places.hits(x, y).instance, 1);
+            EXPECT_NEAR(found.places.hits(x, y).distance, distance, 1e-5 * distance);
         }
     });
 }
@@ -113,13 +111,11 @@ TEST(MirrorPlaces, GlassIsLookedThrough) {
         .lighting = lighting, .view = stage.view, .settings = settings, .accuracy = alpha, .progress = {}};
     RayCounts counts;
     const MirrorPlaces found = cast_mirror_places(context, cast_centers(stage.rays, stage.view, nullptr), counts);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
-            ASSERT_EQ(found.places.hits(x, y).instance, 1);
-            expect_near(found.places.directions(x, y), ray, 1e-6);
-            EXPECT_NEAR(found.places.hits(x, y).distance, 9.0 / std::abs(ray.z), 1e-4);
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
+        ASSERT_EQ(found.places.hits(x, y).instance, 1);
+        expect_near(found.places.directions(x, y), ray, 1e-6);
+        EXPECT_NEAR(found.places.hits(x, y).distance, 9.0 / std::abs(ray.z), 1e-4);
     }
 }
 

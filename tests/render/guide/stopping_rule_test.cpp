@@ -206,10 +206,8 @@ TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
 /// Every pixel's two samples differ by twice its deviation.
 Image<PixelSamples> pixels_of_deviations(int width, int height, const std::function<float(int, int)>& deviation) {
     Image<PixelSamples> pixels(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            for (const float sign : {-1.0f, 1.0f}) pixels(x, y).add(grey(10.0f + sign * deviation(x, y)));
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        for (const float sign : {-1.0f, 1.0f}) pixels(x, y).add(grey(10.0f + sign * deviation(x, y)));
     }
     return pixels;
 }
@@ -262,13 +260,11 @@ TEST(StoppingRule, AnOutlineNeedsFewerSamplesThanItsOwnErrorSays) {
         }
     });
     double taken = 0.0, energy = 0.0, alone = 0.0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const double deviation = plan.outlines(x, y) == Outline::none ? 1.0 : 8.0;
-            taken += pixels(x, y).taken();
-            energy += std::pow(luminance(pixels(x, y).mean()) - 10.0, 2.0) / (width * height);
-            alone += std::pow(error_deviations * deviation / tolerance, 2.0);
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const double deviation = plan.outlines(x, y) == Outline::none ? 1.0 : 8.0;
+        taken += pixels(x, y).taken();
+        energy += std::pow(luminance(pixels(x, y).mean()) - 10.0, 2.0) / (width * height);
+        alone += std::pow(error_deviations * deviation / tolerance, 2.0);
     }
     EXPECT_LT(std::sqrt(energy) * error_deviations, 1.1 * tolerance);
     EXPECT_LT(taken, 0.7 * alone);

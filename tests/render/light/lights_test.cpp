@@ -168,9 +168,7 @@ TEST(Lights, TexturedLampHasTheTexturesMeanPower) {
 TEST(Lights, ASharesTextureIsAveraged) {
     Scene scene = make_lamp_scene(2.0, 1.5);
     SceneImage image{.floats = Image<glm::vec4>(64, 64)};
-    for (int y = 0; y < 64; ++y) {
-        for (int x = 0; x < 64; ++x) image.floats(x, y) = glm::vec4((x + y) % 2 == 0 ? 1.0f : 0.0f);
-    }
+    for (const auto [x, y] : all_pixels(64, 64)) image.floats(x, y) = glm::vec4((x + y) % 2 == 0 ? 1.0f : 0.0f);
     scene.images.push_back(image);
     scene.materials[0].textures[TextureSlot::emission] = {.image = 0, .nearest = true};
     const Stage stage(std::move(scene));

@@ -66,14 +66,12 @@ TEST(AskedError, FaintLampsCountAtAnyError) {
     settings.light.bounces = 0;
     const ShadedFrame out = Sequence(scene, settings).render(0).shaded;
     double found = 0.0, expected = 0.0;
-    for (int y = 0; y < 12; ++y) {
-        for (int x = 0; x < 16; ++x) {
-            found += luminance(out.color(x, y));
-            const glm::dvec3 point((x + 0.5) / 6.0 - 16.0 / 12.0, 1.0 - (y + 0.5) / 6.0, 0.0);
-            for (const auto& [place, intensity] : lamps) {
-                const glm::dvec3 away = place - point;
-                expected += 0.5 / std::numbers::pi * intensity * away.z / std::pow(glm::length(away), 3.0);
-            }
+    for (const auto [x, y] : all_pixels(16, 12)) {
+        found += luminance(out.color(x, y));
+        const glm::dvec3 point((x + 0.5) / 6.0 - 16.0 / 12.0, 1.0 - (y + 0.5) / 6.0, 0.0);
+        for (const auto& [place, intensity] : lamps) {
+            const glm::dvec3 away = place - point;
+            expected += 0.5 / std::numbers::pi * intensity * away.z / std::pow(glm::length(away), 3.0);
         }
     }
     EXPECT_NEAR(found / expected, 1.0, 0.01);

@@ -190,17 +190,15 @@ TEST(Frame, KF17_MirroredSceneIsTheMirroredPicture) {
     const Image<Rgb> one = shade(plain, settings).color, other = shade(mirrored, settings).color;
     const SampleHits hits = cast_centers(mirrored.rays, mirrored.view, nullptr);
     int differing = 0, lit = 0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const float a = one(x, y).x, b = other(width - 1 - x, y).x;
-            if (std::abs(a - b) > 1e-4f + 1e-3f * a) ++differing;
-            if (a > 0.01f) ++lit;
-            if (hits.hits(x, y).instance == no_index) continue;
-            const PixelSurface s = make_pixel_surface(mirrored.shading, mirrored.view, hits, x, y);
-            EXPECT_GT(glm::dot(s.point.normal, s.view), -0.2f);  // shading normals may lean away at silhouettes
-            EXPECT_GT(glm::dot(s.point.geometric, s.view), 0.0f);
-            EXPECT_TRUE(s.point.front) << "a mirrored outside is still an outside";
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const float a = one(x, y).x, b = other(width - 1 - x, y).x;
+        if (std::abs(a - b) > 1e-4f + 1e-3f * a) ++differing;
+        if (a > 0.01f) ++lit;
+        if (hits.hits(x, y).instance == no_index) continue;
+        const PixelSurface s = make_pixel_surface(mirrored.shading, mirrored.view, hits, x, y);
+        EXPECT_GT(glm::dot(s.point.normal, s.view), -0.2f);  // shading normals may lean away at silhouettes
+        EXPECT_GT(glm::dot(s.point.geometric, s.view), 0.0f);
+        EXPECT_TRUE(s.point.front) << "a mirrored outside is still an outside";
     }
     EXPECT_GT(lit, width * height / 3);
     EXPECT_LE(differing, width * height / 100);  // rays along edges and shadow borders
@@ -215,11 +213,9 @@ TEST(Frame, KF17_MirroredWithLampAndBounce) {
             settings.seed = run + trial.seed;
             const Image<Rgb> a = shade(plain, settings).color, b = shade(mirrored, settings).color;
             double sum_a = 0.0, sum_b = 0.0;  // of the left half and of its mirror image
-            for (int y = 0; y < 24; ++y) {
-                for (int x = 0; x < 16; ++x) {
-                    sum_a += a(x, y).x;
-                    sum_b += b(31 - x, y).x;
-                }
+            for (const auto [x, y] : all_pixels(16, 24)) {
+                sum_a += a(x, y).x;
+                sum_b += b(31 - x, y).x;
             }
             one.add(sum_a);
             other.add(sum_b);

@@ -63,15 +63,13 @@ void expect_mean(const Scene& scene, RenderSettings settings, const Truth& truth
         }
         double truth_sum = 0.0;
         std::size_t beyond = 0;
-        for (int y = 0; y < settings.picture.height; ++y) {
-            for (int x = 0; x < settings.picture.width; ++x) {
-                const double expected = truth(x, y);
-                truth_sum += expected;
-                const Mean& found = pixels[static_cast<std::size_t>(y) * settings.picture.width + x];
-                // Where few samples met anything, their spread says little.
-                const double error = std::max(found.error(), darkest_error * std::sqrt(expected * (1.0 - expected)));
-                if (std::abs(found.mean() - expected) > 3.0 * error + 1e-5) ++beyond;
-            }
+        for (const auto [x, y] : all_pixels(settings.picture)) {
+            const double expected = truth(x, y);
+            truth_sum += expected;
+            const Mean& found = pixels[static_cast<std::size_t>(y) * settings.picture.width + x];
+            // Where few samples met anything, their spread says little.
+            const double error = std::max(found.error(), darkest_error * std::sqrt(expected * (1.0 - expected)));
+            if (std::abs(found.mean() - expected) > 3.0 * error + 1e-5) ++beyond;
         }
         const double chance = 0.012 * static_cast<double>(count);  // Student's t of 11 degrees of freedom
         trial.at_most(static_cast<double>(beyond), std::sqrt(chance), chance);
@@ -85,11 +83,9 @@ int count_beyond_threshold(const Scene& scene, RenderSettings settings, const Tr
     follow_error(settings, 1.0);
     const FrameOutput out = Sequence(scene, settings).render(0);
     int beyond = 0;
-    for (int y = 0; y < settings.picture.height; ++y) {
-        for (int x = 0; x < settings.picture.width; ++x) {
-            const double error = std::abs(luminance(out.shaded.color(x, y)) - truth(x, y));
-            if (error * scene.film.viewing.display_white > out.limits.threshold(x, y)) ++beyond;
-        }
+    for (const auto [x, y] : all_pixels(settings.picture)) {
+        const double error = std::abs(luminance(out.shaded.color(x, y)) - truth(x, y));
+        if (error * scene.film.viewing.display_white > out.limits.threshold(x, y)) ++beyond;
     }
     return beyond;
 }
@@ -296,9 +292,7 @@ TEST(SamplingRules, ARuleOfAProgramDecides) {
     settings.sampling.own_rule = &own;
     settings.sampling.spp = 256;
     const Image<float> samples = Sequence(scene, settings).render(0).shaded.samples;
-    for (int y = 0; y < 6; ++y) {
-        for (int x = 0; x < 8; ++x) EXPECT_EQ(samples(x, y), x < 4 ? samples(0, 0) : 64.0f);
-    }
+    for (const auto [x, y] : all_pixels(8, 6)) EXPECT_EQ(samples(x, y), x < 4 ? samples(0, 0) : 64.0f);
     EXPECT_LT(samples(0, 0), 64.0f);
     own.extra = 1;
     EXPECT_THROW(Sequence(scene, settings).render(0), InputError);

@@ -116,13 +116,11 @@ TEST(EnvironmentMap, SamplesFollowTheirDensity) {
     constexpr int columns = 16, rows = 8;
     std::vector<double> expected(columns * rows);
     double total = 0.0;
-    for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < columns; ++x) {
-            const double solid_angle = 2.0 * pi / columns * (std::cos(pi * y / rows) - std::cos(pi * (y + 1) / rows));
-            expected[y * columns + x] =
-                solid_angle * pdf_environment(map, direction_of((x + 0.5) / columns, (y + 0.5) / rows));
-            total += expected[y * columns + x];
-        }
+    for (const auto [x, y] : all_pixels(columns, rows)) {
+        const double solid_angle = 2.0 * pi / columns * (std::cos(pi * y / rows) - std::cos(pi * (y + 1) / rows));
+        expected[y * columns + x] =
+            solid_angle * pdf_environment(map, direction_of((x + 0.5) / columns, (y + 0.5) / rows));
+        total += expected[y * columns + x];
     }
     EXPECT_NEAR(total, 1.0, 1e-5);
     EXPECT_TRUE(holds([&](Trial& trial) {

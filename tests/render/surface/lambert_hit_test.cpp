@@ -30,24 +30,22 @@ TEST(LambertHit, IsTheSurfaceOfTheFullWay) {
     Tracer tracer(stage.rays);
     int met = 0;
     bool varied = false;
-    for (int y = 0; y < 30; ++y) {
-        for (int x = 0; x < 40; ++x) {
-            const CameraRay camera_ray = make_sample_ray(stage.view, centers.place, x, y);
-            const Ray ray{glm::vec3(camera_ray.origin - stage.rays.anchor()), glm::vec3(camera_ray.direction)};
-            glm::vec3 normal(0.0f);
-            const Hit hit = tracer.intersect(ray, &normal);
-            if (hit.instance == no_index) continue;
-            ++met;
-            ASSERT_TRUE(stage.shading.materials[stage.shading.instances[hit.instance].material].plain_lambert);
-            const SurfacePoint point = make_surface_point(stage.shading, hit, ray.direction);
-            const SurfaceMaterial material = evaluate_material(stage.shading, point, {});
-            const LambertHit found = make_lambert_hit(stage.shading, ray, hit, normal, 1e-3f);
-            const SurfacePlace place = make_surface_place(stage.shading, hit, ray.direction);
-            EXPECT_LT(glm::length(found.position - place.position), 1e-6f);
-            EXPECT_LT(glm::length(found.geometric - point.geometric), 1e-6f);
-            EXPECT_LT(glm::length(found.albedo - material.diffuse), 1e-6f);
-            varied = varied || found.albedo.x < 0.5f;
-        }
+    for (const auto [x, y] : all_pixels(40, 30)) {
+        const CameraRay camera_ray = make_sample_ray(stage.view, centers.place, x, y);
+        const Ray ray{glm::vec3(camera_ray.origin - stage.rays.anchor()), glm::vec3(camera_ray.direction)};
+        glm::vec3 normal(0.0f);
+        const Hit hit = tracer.intersect(ray, &normal);
+        if (hit.instance == no_index) continue;
+        ++met;
+        ASSERT_TRUE(stage.shading.materials[stage.shading.instances[hit.instance].material].plain_lambert);
+        const SurfacePoint point = make_surface_point(stage.shading, hit, ray.direction);
+        const SurfaceMaterial material = evaluate_material(stage.shading, point, {});
+        const LambertHit found = make_lambert_hit(stage.shading, ray, hit, normal, 1e-3f);
+        const SurfacePlace place = make_surface_place(stage.shading, hit, ray.direction);
+        EXPECT_LT(glm::length(found.position - place.position), 1e-6f);
+        EXPECT_LT(glm::length(found.geometric - point.geometric), 1e-6f);
+        EXPECT_LT(glm::length(found.albedo - material.diffuse), 1e-6f);
+        varied = varied || found.albedo.x < 0.5f;
     }
     EXPECT_GT(met, 200);
     EXPECT_TRUE(varied);
@@ -62,11 +60,9 @@ TEST(LambertHit, PacketsFindTheNormalsOfSingleRays) {
     const Stage stage(std::move(scene), 40, 30);
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
     std::vector<Ray> rays;
-    for (int y = 0; y < 30; ++y) {
-        for (int x = 0; x < 40; ++x) {
-            const CameraRay ray = make_sample_ray(stage.view, centers.place, x, y);
-            rays.push_back({glm::vec3(ray.origin - stage.rays.anchor()), glm::vec3(ray.direction)});
-        }
+    for (const auto [x, y] : all_pixels(40, 30)) {
+        const CameraRay ray = make_sample_ray(stage.view, centers.place, x, y);
+        rays.push_back({glm::vec3(ray.origin - stage.rays.anchor()), glm::vec3(ray.direction)});
     }
     Tracer tracer(stage.rays);
     std::vector<Hit> hits(rays.size());
