@@ -16,8 +16,7 @@ struct Penumbra {
     /// The lamp, and a half-plane over x < 0 that hides what lies beyond -x of it. Without the floor at y = 0.
     static Scene make_scene() {
         Scene scene;
-        const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(radiance));
-        add_mesh(scene, make_quad(2.0 * half, 2.0 * half, lamp), {0.0, height, 0.0}, z_to_down);
+        add_lamp(scene, 2.0 * half, glm::dvec3(radiance), {0.0, height, 0.0});
         add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0), true)),
                  {-10.0, edge, 0.0}, z_to_up);
         return scene;

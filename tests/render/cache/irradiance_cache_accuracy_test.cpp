@@ -36,7 +36,7 @@ PixelMeans render_runs(const Stage& stage, RenderSettings settings, std::uint32_
 Scene make_block_room(double fov) {
     Scene scene = make_lamp_room({-0.8, 1.0, 0.5});
     add_mesh(scene, make_box({0.8, 0.8, 0.8}, add_lambert(scene, {0.7, 0.1, 0.1})), {0.5, -1.1, -0.5},
-             glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
+             turn_about_y(0.4));
     add_camera(scene, {0.0, 0.0, 1.8}, {0.2, -1.4, -0.1}, fov);
     return scene;
 }

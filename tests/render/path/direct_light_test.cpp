@@ -190,18 +190,17 @@ TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
         const glm::vec3 local_view = basis.to_local(view);
         const SurfacePoint point = make_point(glm::vec3(0.0f), up);
         EXPECT_TRUE(holds([&](Trial& trial) {
-            std::mt19937 engine(5 + trial.seed);
-            std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+            RandomStream random({5 + trial.seed, 0, 0, 0});
             Mean lamp_only, lobe_only;
             for (int i = 0; i < trial.times(100'000); ++i) {
                 const LightSample sample = sample_light(lighting.stage.shading, lighting.stage.lights, 0,
-                                                        {point.position, up}, {unit(engine), unit(engine)});
+                                                        {point.position, up}, random.next_2d());
                 const float cosine = glm::dot(up, sample.direction);
                 lamp_only.add(cosine > 0.0f ? (evaluate_glossy(metal, local_view, basis.to_local(sample.direction)) *
                                                sample.incoming * cosine)
                                                   .x
                                             : 0.0);
-                const glm::vec3 local = sample_glossy(metal, local_view, {unit(engine), unit(engine)});
+                const glm::vec3 local = sample_glossy(metal, local_view, random.next_2d());
                 double found = 0.0;
                 if (local.z > 0.0f &&
                     lighting.task.tracer.intersect({point.ray_origin(), basis.to_world(local)}).instance == 0) {

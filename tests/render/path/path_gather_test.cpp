@@ -13,8 +13,7 @@ Scene make_box_scene(Walls walls) {
     const int white = add_lambert(scene, glm::dvec3(0.75), glm::dvec3(0.0), true);
     const int red = add_lambert(scene, {0.6, 0.1, 0.1}, glm::dvec3(0.0), true);
     add_small_room(scene, white, red, {9.0, 8.0, 6.0}, 0.6);
-    add_mesh(scene, make_box({0.6, 0.8, 0.6}, white), {0.3, -0.6, -0.2},
-             glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
+    add_mesh(scene, make_box({0.6, 0.8, 0.6}, white), {0.3, -0.6, -0.2}, turn_about_y(0.4));
     if (walls == Walls::glossy) {
         scene.materials[0].gloss.specular = 1.0;
         scene.materials[0].gloss.roughness = 0.5;

@@ -34,8 +34,7 @@ TEST(PathLights, MC10_ASquareNearbyIsSampledBySolidAngle) {
     for (const double distance : {1.0, 0.1, 1e-3}) {
         SCOPED_TRACE(distance);
         Scene scene;
-        const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
-        add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, distance, 0.0}, z_to_down);
+        add_lamp(scene, 1.0, glm::dvec3(1.0), {0.0, distance, 0.0});
         const Stage stage(std::move(scene));
         const double x = 0.5 / distance, a = std::sqrt(1.0 + x * x), expected = 4.0 / pi * x / a * std::atan(x / a);
         EXPECT_TRUE(holds([&](Trial& trial) {
@@ -79,8 +78,7 @@ TEST(PathLights, MC10_MC11_ALampInThePlaneOfThePointIsDark) {
     for (const glm::dquat& turn : {z_to_down, no_turn}) {
         for (const glm::dvec3& at : {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 3.0)}) {
             Scene scene;
-            const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
-            add_mesh(scene, make_quad(1.0, 1.0, lamp), at, turn);
+            add_lamp(scene, 1.0, glm::dvec3(1.0), at, turn);
             const Stage stage(std::move(scene));
             for (const int bounces : {0, 1}) {
                 const Mean found = estimate(stage, make_floor(glm::vec3(0.0f)), 500, by_paths(bounces, 2));

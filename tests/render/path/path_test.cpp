@@ -138,10 +138,9 @@ TEST(Path, VarianceTellsTheErrorOfThePixel) {
     // Smooth light on a floor that fills the picture: over seeds, pixel means spread as the variance says.
     Scene scene;
     const int grey = add_lambert(scene, glm::dvec3(0.6));
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(5.0));
     add_mesh(scene, make_quad(20.0, 20.0, grey), {0.0, -1.0, 0.0}, z_to_up);
     add_mesh(scene, make_quad(20.0, 20.0, grey), {0.0, 2.0, 0.0}, z_to_down);
-    add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.3, 1.5, 0.0}, z_to_down);
+    add_lamp(scene, 1.0, glm::dvec3(5.0), {0.3, 1.5, 0.0});
     add_camera(scene, glm::dvec3(0.0), {0.0, -1.0, -0.1}, 0.6);
     const Stage stage(std::move(scene), 12, 9);
     constexpr std::uint32_t seeds = 64;

@@ -3,7 +3,7 @@
 
 #include "render/shade/frame.h"
 #include "render/frame/sequence.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
 
@@ -23,8 +23,7 @@ Scene make_everything(bool mirrored = false) {
     Shape ball{.kind = Shape::Kind::sphere, .radius = 0.6, .segments = 32};
     add_mesh(scene, make_quad(6.0, 6.0, white), glm::dvec3(0.0), z_to_up, root);
     add_mesh(scene, make_shape_mesh(ball, 2), {0.7, 0.6, 0.2}, no_turn, root);
-    add_mesh(scene, make_box({0.8, 1.4, 0.8}, white), {-0.8, 0.7, -0.6}, glm::angleAxis(0.5, glm::dvec3(0.0, 1.0, 0.0)),
-             root);
+    add_mesh(scene, make_box({0.8, 1.4, 0.8}, white), {-0.8, 0.7, -0.6}, turn_about_y(0.5), root);
     add_mesh(scene, make_quad(1.0, 0.7, lamp), {-0.4, 2.5, 0.5}, z_to_down, root);
     add_light(scene, Light::Kind::point, glm::dvec3(2.0), {1.5, 1.5, 1.0}, no_turn, root);
     add_camera(scene, {0.0, 1.6, 4.0}, {0.0, 0.5, 0.0}, 0.9);
@@ -94,15 +93,11 @@ TEST(Frame, EmissionCoverageAndBackground) {
     scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.5, 0.25, 0.125));
     add_mesh(scene, make_quad(1.0, 20.0, add_lambert(scene, glm::dvec3(0.0), {2.0, 4.0, 8.0})), {0.5, 0.0, -2.0});
     add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
-    const Stage stage(std::move(scene), 16, 12);
-    RenderSettings settings = plain_settings(0.15, 16);
+    IndirectStage room(std::move(scene), 16, 12, 0.15, 16);
+    room.settings.light.bounces = 0;
     for (const int spp : {1, 16}) {
-        settings.sampling.spp = spp;
-        settings.light.bounces = 0;
-        const Image<float> accuracy(16, 12, 0.15f);
-        const LightingContext lighting = stage.lighting();
-        const IndirectContext context{lighting, stage.view, settings, accuracy, 0, 1.0f, {}};
-        const ShadedFrame out = shade_frame(context, cast_centers(stage.rays, stage.view, nullptr), 3.0);
+        room.settings.sampling.spp = spp;
+        const ShadedFrame out = shade_frame(room.context, room.centers, 3.0);
         // The lamp covers columns 8 (its edge lies on the pixels' border) to 8 + half the frame's height in m.
         EXPECT_EQ(out.color(9, 6), Rgb(6.0f, 12.0f, 24.0f));
         EXPECT_EQ(out.coverage(9, 6), 1.0f);
@@ -144,17 +139,6 @@ TEST(Frame, MC03_SamplesThatAreNotFiniteAreThrownAwayAndCounted) {
     }
     EXPECT_EQ(static_cast<double>(out.counts.invalid_samples), invalid);
     EXPECT_GT(invalid, 10.0);
-}
-
-TEST(Frame, ManySamplesOfOneValueKeepThatValue) {
-    // A float sum of 65,536 samples of .1 is off by 0.06 %.
-    Scene scene;
-    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.1, 0.7, 1.0 / 3.0));
-    const Stage stage(std::move(scene), 2, 2);
-    RenderSettings settings = plain_settings(0.15, 16);
-    settings.sampling.spp = 65'536;
-    settings.light.bounces = 0;
-    for (const Rgb& pixel : shade(stage, settings).color.pixels) EXPECT_EQ(pixel, Rgb(0.1f, 0.7f, 1.0f / 3.0f));
 }
 
 TEST(Frame, TheSeedChangesNoiseOnly) {

@@ -202,7 +202,7 @@ TEST(LightingKeyframes, IC14_AnObjectThatCrossesThePictureBetweenMoments) {
 TEST(LightingKeyframes, RecordsRideWithTheirSurfaces) {
     Scene scene = make_shot();
     Node turntable;
-    turntable.transform.rotation.values = {no_turn, glm::angleAxis(1.5, glm::dvec3(0, 1, 0))};
+    turntable.transform.rotation.values = {no_turn, turn_about_y(1.5)};
     scene.nodes.insert(scene.nodes.begin(), turntable);
     for (std::size_t n = 1; n + 1 < scene.nodes.size(); ++n) scene.nodes[n].parent = 0;
     scene.nodes.back().transform.translation = glm::dvec3(0.0, 9.0, 0.01);
