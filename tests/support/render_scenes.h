@@ -212,6 +212,22 @@ inline Mean mean_of_pixels(const ShadedFrame& frame) {
     return mean;
 }
 
+/// Luminance over independent pictures: of every pixel, and the sum of all.
+struct PictureMeans {
+    void add(const Image<Rgb>& picture) {
+        pixels.resize(picture.size());
+        double sum = 0.0;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            pixels[i].add(luminance(picture.pixels[i]));
+            sum += luminance(picture.pixels[i]);
+        }
+        all.add(sum);
+    }
+
+    std::vector<Mean> pixels;
+    Mean all;
+};
+
 /// Adds a camera at z = 5 m that looks along -z, by parallel rays; and exposure and range are those of a simple shot.
 inline void add_flat_view(Scene& scene, double half_height, const glm::dvec2& shutter = glm::dvec2(0.0)) {
     scene.film.exposure = 1.0;

@@ -4,6 +4,7 @@
 #include "render/cache/gather.h"
 #include "tests/support/directions.h"
 #include "tests/support/indirect_pictures.h"
+#include "tests/support/penumbra.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
 
@@ -77,13 +78,6 @@ TEST(Gather, BackOfTheCeilingIsLitByWhatMeetsIt) {
     Gathering gathering(make_lit_disc(5.0f, 64, {0.0, 1.0, 0.0}));
     EXPECT_EQ(gathering.at({0.0f, 2.0f, 0.0f}, -up, 256).irradiance, Rgb(0.0f));
     EXPECT_EQ(gathering.at({0.0f, 2.0f, 0.0f}, up, 256).irradiance, Rgb(0.0f));
-}
-
-/// Share of a point's hemisphere that a parallel rectangle takes, one corner straight above it (Howell's catalogue,
-/// B-4).
-double corner_factor(double width, double depth, double height) {
-    const double x = width / height, y = depth / height, a = std::sqrt(1.0 + x * x), b = std::sqrt(1.0 + y * y);
-    return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2.0 * pi);
 }
 
 Mesh make_quad_facing_down(double width, double depth, int material) {

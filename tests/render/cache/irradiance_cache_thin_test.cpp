@@ -66,10 +66,7 @@ TEST(IrradianceCache, IC18_TheSidesOfAPictureFrame) {
 
 TEST(IrradianceCache, IC18_TheRimOfATorusOnTheFloor) {
     Scene scene = make_lamp_room({0.0, 1.0, -1.5});
-    Shape torus;
-    torus.kind = Shape::Kind::torus;
-    torus.radius = 0.3;
-    torus.tube_radius = 0.03;
+    const Shape torus{.kind = Shape::Kind::torus, .radius = 0.3, .tube_radius = 0.03};
     add_mesh(scene, make_shape_mesh(torus, 0), {0.0, -1.47, 0.0});
     add_camera(scene, {0.0, -1.1, 1.4}, {0.0, -1.5, 0.2}, 0.5);
     expect_right_sides(std::move(scene), [](const glm::vec3& normal) { return normal.z > 0.6f && normal.y < 0.1f; });

@@ -3,6 +3,7 @@
 #include "render/path/direct_light.h"
 #include "tests/support/directions.h"
 #include "tests/support/lobes.h"
+#include "tests/support/penumbra.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
@@ -98,10 +99,9 @@ Scene make_square_lamp(const glm::dquat& turn, bool double_sided, double size = 
     return scene;
 }
 
-/// Form factor of a square overhead, four corners (Howell's catalogue, B-4).
+/// Of four corners.
 double square_factor(double size, double height) {
-    const double x = 0.5 * size / height, a = std::sqrt(1.0 + x * x);
-    return 4.0 * 2.0 * x / a * std::atan(x / a) / (2.0 * pi);
+    return 4.0 * corner_factor(0.5 * size, 0.5 * size, height);
 }
 
 TEST(DirectLight, SquareLampOverhead) {

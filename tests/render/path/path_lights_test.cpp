@@ -30,13 +30,13 @@ TEST(PathLights, MC10_ADiscAtAnyDistanceHasItsFormFactor) {
 }
 
 TEST(PathLights, MC10_ASquareNearbyIsSampledBySolidAngle) {
-    // Two triangles: no ray has to find them by chance, so direct light alone has the form factor (Howell B-4).
+    // Two triangles: no ray has to find them by chance, so direct light alone has the form factor.
     for (const double distance : {1.0, 0.1, 1e-3}) {
         SCOPED_TRACE(distance);
         Scene scene;
         add_lamp(scene, 1.0, glm::dvec3(1.0), {0.0, distance, 0.0});
         const Stage stage(std::move(scene));
-        const double x = 0.5 / distance, a = std::sqrt(1.0 + x * x), expected = 4.0 / pi * x / a * std::atan(x / a);
+        const double expected = 4.0 * corner_factor(0.5, 0.5, distance);
         EXPECT_TRUE(holds([&](Trial& trial) {
             const Mean found =
                 estimate(stage, make_floor(glm::vec3(0.0f)), trial.times(40'000), by_paths(0, 1), trial.seed);
@@ -110,7 +110,7 @@ TEST(PathLights, MC11_TrianglesWithoutAreaGiveNoLightAndTakeNone) {
     add_mesh(scene, nothing, {0.0, 1.0, 0.0}, z_to_down);
     const Stage stage(std::move(scene));
     EXPECT_EQ(stage.lights.count(), 1);
-    const double x = 0.5, a = std::sqrt(1.0 + x * x), expected = 4.0 / pi * x / a * std::atan(x / a);
+    const double expected = 4.0 * corner_factor(0.5, 0.5, 1.0);
     EXPECT_TRUE(holds([&](Trial& trial) {
         trial.near(estimate(stage, make_floor(glm::vec3(0.0f)), trial.times(4000), by_paths(0, 1), trial.seed),
                    expected, 1e-5);

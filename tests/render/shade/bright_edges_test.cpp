@@ -120,14 +120,8 @@ TEST(NoiseThreshold, AdaptationIsToWhatTheDisplayShows) {
     // A grey of half of white, with a quad of as much and with a lamp of ten thousand times as much in it.
     const auto threshold_beside = [](double lamp) {
         Scene scene = make_quad_before(glm::dvec3(lamp), glm::dvec3(0.5));
-        RenderSettings settings;
-        settings.error = 1.0;
-        settings.picture.width = 64;
-        settings.picture.height = 48;
-        FrameRequest request;
-        request.frame = false;
-        request.maps = true;
-        const FrameOutput output = Sequence(scene, settings).render(0, request);
+        const RenderSettings settings{.error = 1.0, .picture = {.width = 64, .height = 48}};
+        const FrameOutput output = Sequence(scene, settings).render(0, {.frame = false, .maps = true, .progress = {}});
         return output.limits.threshold_noise(32, 40);  // below the quad, within the reach of adaptation
     };
     const float without = threshold_beside(0.5), with = threshold_beside(5000.0);

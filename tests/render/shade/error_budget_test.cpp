@@ -57,10 +57,7 @@ TEST(AskedError, FaintLampsCountAtAnyError) {
     std::vector<std::pair<glm::dvec3, double>> lamps{{{0.0, 0.0, 4.0}, 20.0}};
     for (int i = 0; i < 8; ++i) lamps.push_back({{0.5 * (i % 4) - 0.75, 0.5 * (i / 4) - 0.25, 4.0}, 0.14});
     for (const auto& [place, intensity] : lamps) add_light(scene, Light::Kind::point, glm::dvec3(intensity), place);
-    RenderSettings settings;
-    settings.picture.width = 16;
-    settings.picture.height = 12;
-    settings.picture.filter = PixelFilter::box;
+    RenderSettings settings{.picture = {.width = 16, .height = 12, .filter = PixelFilter::box}};
     follow_error(settings, 8.0);
     settings.effects.plan = EffectsPlanning::off;  // it leaves lights out, within a share of the threshold (FX-14)
     settings.light.bounces = 0;

@@ -4,6 +4,7 @@
 #include "render/shade/frame.h"
 #include "render/frame/sequence.h"
 #include "tests/support/indirect_pictures.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
 
@@ -36,16 +37,12 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
         for (const double accuracy : {0.0, 0.3}) {
             for (const Guide guide : {Guide::none, Guide::saliency}) {
                 RenderSettings settings = plain_settings(accuracy, 16);
-                settings.picture.width = 40;
-                settings.picture.height = 30;
+                settings.picture = {.width = 40, .height = 30, .filter = PixelFilter::box};
                 settings.sampling.spp = spp;
                 settings.light.light_samples = 4;
-                settings.cache.light_step = 0;
                 settings.perception.guide = guide;
-                Sequence sequence(scene, settings);
-                FrameRequest request;
-                request.maps = guide == Guide::saliency;
-                const FrameStatistics s = sequence.render(0, request).statistics;
+                const FrameRequest request{.maps = guide == Guide::saliency, .progress = {}};
+                const FrameStatistics s = Sequence(scene, settings).render(0, request).statistics;
                 EXPECT_EQ(s.counts.rays.total(), s.traced.all + s.traced.invalid);
                 EXPECT_EQ(s.traced.invalid, 0u);
                 EXPECT_GT(s.counts.rays.shadow, 0u);
@@ -225,20 +222,14 @@ TEST(Frame, KF18_FlattenedObjectsLeaveAPictureWithoutHoles) {
 
 TEST(Frame, KF20_ScaleThroughZero) {
     Scene scene = make_everything();
-    Track<glm::dvec3> scale;
-    scale.sampling.kind = TimeSampling::Kind::acyclic;
-    scale.sampling.times = {0.0, 2.0 / 30.0};
-    scale.values = {glm::dvec3(1.0), glm::dvec3(1.0, -1.0, 1.0)};
-    scene.nodes[3].transform.scale = scale;
+    scene.nodes[3].transform.scale =
+        keyed<glm::dvec3>({0.0, 2.0 / 30.0}, {glm::dvec3(1.0), glm::dvec3(1.0, -1.0, 1.0)});
     RenderSettings settings = plain_settings(0.3, 16);
-    settings.picture.width = 40;
-    settings.picture.height = 30;
+    settings.picture = {.width = 40, .height = 30, .filter = PixelFilter::box};
     settings.perception.guide = Guide::saliency;
     Sequence sequence(scene, settings);
     for (const int frame : {0, 1, 2}) {
-        FrameRequest request;
-        request.maps = true;
-        const FrameOutput out = sequence.render(frame, request);
+        const FrameOutput out = sequence.render(frame, {.maps = true, .progress = {}});
         EXPECT_EQ(out.statistics.counts.invalid_samples, 0u);
         bool box_seen = false;
         for (std::size_t i = 0; i < out.hits.size(); ++i) {

@@ -14,10 +14,7 @@ constexpr double frame_rate = 30.0;
 
 /// Settings of a picture of direct light and emission.
 RenderSettings make_settings(int width, int height) {
-    RenderSettings settings;
-    settings.picture.width = width;
-    settings.picture.height = height;
-    settings.picture.filter = PixelFilter::box;
+    RenderSettings settings{.picture = {.width = width, .height = height, .filter = PixelFilter::box}};
     settings.cache.light_step = 0;
     settings.light.bounces = 0;
     return settings;
@@ -44,36 +41,27 @@ using Truth = std::function<double(int x, int y)>;
 void expect_mean(const Scene& scene, RenderSettings settings, const Truth& truth, double darkest_error = 1e-5,
                  std::int64_t frame = 0) {
     constexpr std::uint32_t seeds = 12;
-    const std::size_t count =
-        static_cast<std::size_t>(settings.picture.width) * static_cast<std::size_t>(settings.picture.height);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        std::vector<Mean> pixels(count);
-        Mean picture;
+        PictureMeans means;
         for (settings.seed = trial.seed; settings.seed < trial.seed + trial.times(seeds); ++settings.seed) {
             Sequence sequence(scene, settings);
             ShadedFrame out = sequence.render(0).shaded;
             if (frame != 0) out = sequence.render(frame).shaded;
-            double sum = 0.0;
-            for (std::size_t i = 0; i < count; ++i) {
-                const double y = luminance(out.color.pixels[i]);
-                pixels[i].add(y);
-                sum += y;
-            }
-            picture.add(sum);
+            means.add(out.color);
         }
         double truth_sum = 0.0;
-        std::size_t beyond = 0;
+        int beyond = 0, pixel = 0;
         for (const auto [x, y] : all_pixels(settings.picture)) {
             const double expected = truth(x, y);
             truth_sum += expected;
-            const Mean& found = pixels[static_cast<std::size_t>(y) * settings.picture.width + x];
+            const Mean& found = means.pixels[pixel++];
             // Where few samples met anything, their spread says little.
             const double error = std::max(found.error(), darkest_error * std::sqrt(expected * (1.0 - expected)));
             if (std::abs(found.mean() - expected) > 3.0 * error + 1e-5) ++beyond;
         }
-        const double chance = 0.012 * static_cast<double>(count);  // Student's t of 11 degrees of freedom
-        trial.at_most(static_cast<double>(beyond), std::sqrt(chance), chance);
-        trial.near(picture, truth_sum, 1e-4 * truth_sum);
+        const double chance = 0.012 * pixel;  // Student's t of 11 degrees of freedom
+        trial.at_most(beyond, std::sqrt(chance), chance);
+        trial.near(means.all, truth_sum, 1e-4 * truth_sum);
         EXPECT_GT(truth_sum, 1.0);
     }));
 }
