@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "engine/scene/operations.h"
 #include "engine/scene/visit.h"
 
 namespace aleph {
@@ -22,14 +23,10 @@ void scale_stack(OperationStack& stack, double factor) {
     using Kind = OperationStack::Kind;
     for (std::size_t channel = 0; channel < stack.channels.size();) {
         for (const Kind kind : stack.operations) {
-            const std::size_t size = kind == Kind::matrix                             ? 16
-                                     : kind == Kind::translate || kind == Kind::scale ? 3
-                                     : kind == Kind::rotate                           ? 4
-                                                                                      : 1;
             const std::size_t first = kind == Kind::matrix ? 12 : 0;
             if (kind == Kind::translate || kind == Kind::matrix)
                 for (std::size_t i = first; i < first + 3; ++i) stack.channels[channel + i] *= factor;
-            channel += size;
+            channel += channel_count(kind);
         }
     }
 }

@@ -100,6 +100,15 @@ TEST(Gratings, MapsOfCastleAreTheKnownAnswer) {
     });
 }
 
+TEST(Gratings, SensitivityIsTheWrittenFormula) {
+    for (double v = 0.15; v < 1e4; v *= 1.3) {
+        for (double rho = 0.01; rho < 20.0; rho *= 1.5) {
+            const double exact = written_thesis_sensitivity(rho, v);
+            EXPECT_NEAR(csf(rho, v), exact, 1e-12 * exact + 1e-300) << rho << " cpd, " << v << " deg/s";
+        }
+    }
+}
+
 TEST(Gratings, ScalarModelsAreTheWrittenFormulas) {
     const FrameRate frame_rate{};
     for (double rho = 16.0; rho >= 0.25; rho *= 0.5) {

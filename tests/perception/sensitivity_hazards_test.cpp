@@ -9,7 +9,7 @@
 #include "perception/vision/band_frequencies.h"
 #include "perception/vision/kelly_vision.h"
 #include "perception/vision/retinal_velocity.h"
-#include "tests/support/perception_bands.h"
+#include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
 
 namespace aleph {

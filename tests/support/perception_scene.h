@@ -92,6 +92,18 @@ inline SyntheticFrame make_synthetic_frame(int width, int height, std::uint32_t 
     return frame;
 }
 
+/// R_i of (5.3), finest first; they sum to 1 everywhere.
+inline std::vector<Image<float>> compute_band_response(const Image<Rgb>& picture) {
+    const Image<float> still(picture.width, picture.height);
+    return compute_perception(picture, still, {}, {}, {.guide = Guide::spatial}, {.bands = true}).responses;
+}
+
+inline std::vector<Image<float>> compute_band_response(const Image<float>& grey) {
+    Image<Rgb> picture(grey.width, grey.height);
+    for (std::size_t i = 0; i < grey.size(); ++i) picture.pixels[i] = Rgb(grey.pixels[i]);
+    return compute_band_response(picture);
+}
+
 inline std::vector<float> all_maps() {
     const SyntheticFrame frame = make_synthetic_frame(97, 71);
     std::vector<float> values;
