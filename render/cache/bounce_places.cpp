@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "render/cache/gather_at.h"
 
 namespace aleph {
@@ -93,15 +93,10 @@ FillPlaces make_fill_places(const ShadingScene& shading, const BouncePlaces& pla
     FillPlaces fill;
     fill.points = Image<FillPoint>(places.hits.width, places.hits.height);
     fill.surface_at = [&](int x, int y) { return make_bounce_surface(shading, places, x, y); };
-    parallel_rows(places.hits.height, 8, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < places.hits.width; ++x) {
-                if (places.hits(x, y).instance == no_index) continue;
-                const PixelSurface surface = make_bounce_surface(shading, places, x, y);
-                if (!surface.material.has_diffuse()) continue;
-                fill.points(x, y) = make_fill_point(surface);
-            }
-        }
+    parallel_pixels(places.hits, 8, [&](int x, int y) {
+        if (places.hits(x, y).instance == no_index) return;
+        const PixelSurface surface = make_bounce_surface(shading, places, x, y);
+        if (surface.material.has_diffuse()) fill.points(x, y) = make_fill_point(surface);
     });
     return fill;
 }

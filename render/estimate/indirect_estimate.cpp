@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "render/cache/gather.h"
 
 namespace aleph {
@@ -185,14 +185,9 @@ Rgb NodeIrradiance::at(const DiffuseSurface& surface, const glm::dvec2& pixel) c
 Image<Rgb> interpolate_estimate(const EstimateNodes& nodes, const Image<DiffuseSurface>& surfaces) {
     Image<Rgb> light(surfaces.width, surfaces.height);
     const NodeIrradiance irradiance(nodes);
-    parallel_rows(surfaces.height, 4, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < surfaces.width; ++x) {
-                const DiffuseSurface& surface = surfaces(x, y);
-                if (!(surface.footprint > 0.0f)) continue;
-                light(x, y) = surface.reflected * irradiance.at(surface, {x, y});
-            }
-        }
+    parallel_pixels(surfaces, 4, [&](int x, int y) {
+        const DiffuseSurface& surface = surfaces(x, y);
+        if (surface.footprint > 0.0f) light(x, y) = surface.reflected * irradiance.at(surface, {x, y});
     });
     return light;
 }

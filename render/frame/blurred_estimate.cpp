@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "render/surface/carried_point.h"
 
 namespace aleph {
@@ -16,11 +16,7 @@ class SharpReader {
   public:
     explicit SharpReader(const SharpEstimate& sharp)
         : sharp_(sharp), positions_(sharp.view.width, sharp.view.height, glm::vec3(0.0f)) {
-        parallel_rows(sharp.view.height, 16, [&](int begin, int end) {
-            for (int y = begin; y < end; ++y) {
-                for (int x = 0; x < sharp.view.width; ++x) place(x, y);
-            }
-        });
+        parallel_pixels(positions_, 16, [&](int x, int y) { place(x, y); });
     }
 
     /// Where a point lies in the picture, in pixels: 0 is the centre of the first one.

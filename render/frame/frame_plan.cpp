@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/pixel_loops.h"
 #include "render/frame/camera_blur.h"
 #include "render/settings/measure.h"
 
@@ -35,12 +36,9 @@ Nearest find_nearest(const FrameFacts& facts, const CameraView& view) {
 constexpr int filter_reach = 2;  // pixels to which the filter brings light of a surface, which blur may move a little
 
 bool is_near_surface(const Image<Hit>& hits, int x, int y) {
-    for (int ny = std::max(0, y - filter_reach); ny <= std::min(hits.height - 1, y + filter_reach); ++ny) {
-        for (int nx = std::max(0, x - filter_reach); nx <= std::min(hits.width - 1, x + filter_reach); ++nx) {
-            if (hits(nx, ny).instance != no_index) return true;
-        }
-    }
-    return false;
+    bool near = false;
+    visit_around(hits, x, y, filter_reach, [&](int nx, int ny) { near = near || hits(nx, ny).instance != no_index; });
+    return near;
 }
 
 VisibleFrame find_least_thresholds(const Image<Hit>& hits, const Image<float>& threshold) {
