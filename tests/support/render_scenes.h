@@ -204,6 +204,14 @@ inline RenderSettings path_settings(int bounces, int spp, std::uint32_t seed = 0
     return settings;
 }
 
+/// Grey light of the first instance, found by sampling the lights.
+inline SampleLight grey_sample(float value) {
+    SampleLight light;
+    light[LightPart::direct] = Rgb(value);
+    light.place.instance = 0;
+    return light;
+}
+
 /// The mean of the red of all pixels, none of which may be invalid.
 inline Mean mean_of_pixels(const ShadedFrame& frame) {
     EXPECT_EQ(frame.counts.invalid_samples, 0u);
