@@ -77,7 +77,9 @@ TEST(NormalMap, MC26_NoLightFromBehindAndNoGain) {
                     RandomStream random({1, 0, 0, 0});
                     const LobeShares shares = share_lobes(lit, LobeSet::all);
                     for (int i = 0; i < 8; ++i) {
-                        ASSERT_EQ(choose_light(stage.lighting(), lit, shares, random).radiance, Rgb(0.0f)) << kind.name;
+                        const LightNumbers numbers{random.next(), random.next_2d()};
+                        ASSERT_EQ(choose_light(stage.lighting(), lit, shares, numbers).radiance, Rgb(0.0f))
+                            << kind.name;
                     }
                     expect_no_gain(lit, 2, kind.name);
                 }
