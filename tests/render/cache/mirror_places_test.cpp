@@ -86,10 +86,7 @@ TEST(MirrorPlaces, TurnsEndWithThePath) {
 TEST(MirrorPlaces, GlassIsLookedThrough) {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.5));
-    Material glass;
-    glass.gloss.metallic = glass.gloss.roughness = 0.0;
-    glass.glass.transmission = 1.0;
-    scene.materials.push_back(glass);
+    scene.materials.push_back({.gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}});
     add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
     add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, -9.0});
     add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0});

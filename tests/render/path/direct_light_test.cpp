@@ -180,47 +180,6 @@ TEST(DirectLight, WhiteMetalInAWhiteFurnace) {
     }
 }
 
-TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
-    // A lamp in the mirror direction: lamp samples are better for broad lobes, lobe samples for narrow ones.
-    for (const float alpha : {0.05f, 0.3f, 1.0f}) {
-        Lighting lighting(make_square_lamp(z_to_down, false));
-        const SurfaceMaterial metal = make_metal(alpha);
-        const glm::vec3 view = glm::normalize(glm::vec3(-0.4f, 1.0f, 0.1f));
-        const Basis basis = make_basis(up);
-        const glm::vec3 local_view = basis.to_local(view);
-        const SurfacePoint point = make_point(glm::vec3(0.0f), up);
-        EXPECT_TRUE(holds([&](Trial& trial) {
-            RandomStream random({5 + trial.seed, 0, 0, 0});
-            Mean lamp_only, lobe_only;
-            for (int i = 0; i < trial.times(100'000); ++i) {
-                const LightSample sample = sample_light(lighting.stage.shading, lighting.stage.lights, 0,
-                                                        {point.position, up}, random.next_2d());
-                const float cosine = glm::dot(up, sample.direction);
-                lamp_only.add(cosine > 0.0f ? (evaluate_glossy(metal, local_view, basis.to_local(sample.direction)) *
-                                               sample.incoming * cosine)
-                                                  .x
-                                            : 0.0);
-                const glm::vec3 local = sample_glossy(metal, local_view, random.next_2d());
-                double found = 0.0;
-                if (local.z > 0.0f &&
-                    lighting.task.tracer.intersect({point.ray_origin(), basis.to_world(local)}).instance == 0) {
-                    found = evaluate_glossy(metal, local_view, local).x * 5.0 * local.z /
-                            pdf_glossy(metal, local_view, local);
-                }
-                lobe_only.add(found);
-            }
-            const Mean both = lighting.mean_of(metal, view, 16, trial.times(2000), trial.seed);
-            EXPECT_GT(both.mean(), 0.1);
-            trial.near(both, lamp_only);
-            trial.near(both, lobe_only);
-            // Per ray (16 + 16 per run), the combination is never much worse than the better of the two.
-            const double rays_both = 2000.0 * 32.0, rays_one = 100'000.0;
-            const double better = std::min(lamp_only.error(), lobe_only.error()) * std::sqrt(rays_one);
-            EXPECT_LT(both.error() * std::sqrt(rays_both), 2.0 * better);
-        })) << alpha;
-    }
-}
-
 TEST(DirectLight, MC23_AThousandLightsShareTheSamples) {
     Scene scene;
     double expected = 0.0;

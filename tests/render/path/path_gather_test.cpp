@@ -21,10 +21,7 @@ Scene make_box_scene(Walls walls) {
     if (walls == Walls::mirrors) {  // the red wall is one, and a pane of glass hangs under the lamp
         scene.materials[1] = {};
         scene.materials[1].gloss.roughness = 0.0;
-        Material glass;
-        glass.gloss.metallic = glass.gloss.roughness = 0.0;
-        glass.glass.transmission = 1.0;
-        scene.materials.push_back(glass);
+        scene.materials.push_back({.gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}});
         add_mesh(scene, make_quad(1.2, 1.2, 3), {0.0, 0.6, 0.0}, z_to_down);
     }
     if (walls == Walls::textured) {

@@ -187,12 +187,7 @@ TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
     // Per sample, relative to the mean. Ten lights are compared with one another, so that without shadows they have no
     // noise at all. With a random shadow they have: a sheet of alpha one half.
     const auto variance_of = [](int count, const Estimator& estimator) {
-        Scene scene;
-        const int side = static_cast<int>(std::ceil(std::sqrt(count)));
-        for (int i = 0; i < count; ++i) {
-            add_light(scene, Light::Kind::point, glm::dvec3(100.0 / count),
-                      {4.0 * (i % side + 0.5) / side - 2.0, 2.0, 4.0 * (i / side + 0.5) / side - 2.0});
-        }
+        Scene scene = make_crowd(count, Crowd::equal).first;
         scene.materials.push_back({.opacity = {.alpha = 0.5, .mode = Opacity::Mode::blend}, .double_sided = true});
         add_mesh(scene, make_quad(20.0, 20.0, 0), {0.0, 1.0, 0.0}, z_to_up);
         const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f), 0.6f), 6000, estimator);

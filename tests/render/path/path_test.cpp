@@ -18,16 +18,11 @@ Scene make_furnace(double albedo) {
     return scene;
 }
 
-/// The mean of all pixels.
-Mean mean_of(const Stage& stage, const RenderSettings& settings) {
-    return mean_of_pixels(shade(stage, settings));
-}
-
 void expect_value(const Stage& stage, RenderSettings settings, double expected) {
     EXPECT_TRUE(holds([&](Trial& trial) {
         settings.seed = trial.seed;
         settings.sampling.spp = trial.times(64);
-        const Mean mean = mean_of(stage, settings);
+        const Mean mean = mean_of_pixels(shade(stage, settings));
         trial.near(mean, expected, 1e-4 * expected);
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
     }));
@@ -48,7 +43,7 @@ TEST(Path, MC14_EachBounceAddsItsTerm) {
         expected += term *= 0.7;  // direct light counts as none
         // The last surface samples lamps only. Points of the wall next to it bring much and are met rarely: the
         // standard error of one picture is often too small.
-        const Mean mean = mean_of(stage, path_settings(bounces, 64));
+        const Mean mean = mean_of_pixels(shade(stage, path_settings(bounces, 64)));
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
         EXPECT_LT(mean.error(), 0.01 * expected);
     }
@@ -87,7 +82,7 @@ TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
         EXPECT_TRUE(holds([&](Trial& trial) {
             RenderSettings settings = path_settings(100, trial.times(32), trial.seed);
             settings.light.path_depth = 3;
-            const Mean mean = mean_of(stage, settings);
+            const Mean mean = mean_of_pixels(shade(stage, settings));
             trial.at_most(mean, 4.0);
             // The same without sampling lights, at the pixels' centres: the sphere looks the same all over.
             Mean lobes;

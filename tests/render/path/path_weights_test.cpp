@@ -131,6 +131,27 @@ TEST_P(PathWeights, SharedSamplesOfDirectLightHaveTheSameMean) {
     }
 }
 
+TEST(PathWeights, BothWaysTogetherAreHardlyNoisierThanTheBetterOne) {
+    // A lamp in the mirror direction: samples of it are better for broad lobes, those of the lobe for narrow ones.
+    Scene scene;
+    add_lamp(scene, 2.0, glm::dvec3(5.0), {0.0, 1.5, 0.0});
+    const Stage stage(std::move(scene));
+    const glm::vec3 view = glm::normalize(glm::vec3(-0.4f, 1.0f, 0.1f));
+    for (const float alpha : {0.05f, 0.3f, 1.0f}) {
+        const ViewedSurface surface{make_point(glm::vec3(0.0f), up), make_metal(alpha), view};
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const int rays = trial.times(100'000);
+            const Mean lamps = estimate(stage, surface, rays, by_lights(1), 5 + trial.seed);
+            const Mean lobes = estimate(stage, surface, rays, by_lobes(1), 6 + trial.seed);
+            const Mean both = estimate(stage, surface, rays / 32, by_direct_samples_and_lobes(16), trial.seed);
+            EXPECT_GT(both.mean(), 0.1);
+            trial.near(both, lamps);
+            trial.near(both, lobes);
+            EXPECT_LT(both.error(), 2.0 * std::min(lamps.error(), lobes.error()));
+        })) << alpha;
+    }
+}
+
 TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
     const Stage stage(make_surroundings(Surroundings::large_lamp));
     SurfaceMaterial sheet = make_rough_sheet();

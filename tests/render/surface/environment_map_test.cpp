@@ -143,27 +143,6 @@ TEST(EnvironmentMap, SamplesFollowTheirDensity) {
     }));
 }
 
-TEST(EnvironmentMap, SamplesGiveTheIntegralOfTheLookUps) {
-    const EnvironmentMap map = make_map(make_uneven_picture(8, 4));
-    double truth = 0.0;
-    constexpr int columns = 320, rows = 160;
-    for (int y = 0; y < rows; ++y) {
-        const double ring = std::cos(pi * y / rows) - std::cos(pi * (y + 1) / rows);
-        for (int x = 0; x < columns; ++x) {
-            truth += look_up(map, direction_at((x + 0.5) / columns, (y + 0.5) / rows)).x * ring * 2.0 * pi / columns;
-        }
-    }
-    EXPECT_TRUE(holds([&](Trial& trial) {
-        RandomStream random({6 + trial.seed, 0, 0, 0});
-        Mean mean;
-        for (int i = 0; i < trial.times(100'000); ++i) {
-            const EnvironmentSample sample = sample_environment(map, random.next_2d());
-            mean.add(look_up(map, sample.direction).x / sample.pdf);
-        }
-        trial.near(mean, truth, 1e-4 * truth);
-    }));
-}
-
 /// A floor of albedo 0.6 at the origin.
 Mean light_on_floor(const Scene& scene, int count, std::uint32_t seed = 0) {
     const Stage stage(scene);
