@@ -7,9 +7,9 @@
 #include "perception/vision/kelly.h"
 #include "perception/vision/retinal_velocity.h"
 #include "tests/perception/grating.h"
-#include "tests/perception/vision_formulas.h"
 #include "tests/support/perception_reference.h"
 #include "tests/support/test.h"
+#include "tests/support/vision_formulas.h"
 
 namespace aleph {
 namespace {

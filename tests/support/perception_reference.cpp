@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tests/support/all_pixels.h"
+#include "tests/support/vision_formulas.h"
 
 namespace aleph {
 
@@ -71,17 +72,6 @@ void add_features(DoubleImage& conspicuity, const std::vector<DoubleImage>& pyra
                                      [&](int x, int y) { return std::abs(center(x, y) - surround(x, y)); }),
                        floor);
     }
-}
-
-double elevation_of(double rho, double v) {
-    const double rho_max = 45.9 / (1.7 * v + 2);
-    const double k = 6.1 + 7.3 * std::pow(std::abs(std::log10(1.7 * v / 3)), 3);
-    const auto csf = [&](double r) {
-        return k * 1.14 * 1.7 * v * std::pow(2 * std::numbers::pi * r * 0.67, 2) *
-               std::exp(-4 * std::numbers::pi * 0.67 * r / rho_max);
-    };
-    const double peak = rho_max / (2 * std::numbers::pi * 0.67);
-    return rho > peak ? std::max(1.0, csf(peak) / std::max(csf(rho), 1.0)) : 1.0;
 }
 
 }  // namespace
@@ -204,12 +194,12 @@ ReferenceMaps reference_perception(const Image<Rgb>& estimate, const Image<float
         double sum = 0.0;
         for (std::size_t i = 0; i < 7; ++i) sum += l[i] = std::abs(full[i].pixels[p] - full[i + 1].pixels[p]);
         out.band_sum.pixels[p] = sum / std::max(std::abs(full[0].pixels[p]), std::abs(full[7].pixels[p]));
-        const double v_i = velocity.pixels[p];
-        const double v = std::max(std::abs(v_i - std::min(out.saliency.pixels[p] * v_i + 0.15, 80.0)), 0.15);
+        const EyeMotion moved{.retinal = written_retinal_velocity(velocity.pixels[p], out.saliency.pixels[p])};
         for (std::size_t i = 0; i < 7; ++i) {
             const double flat = i == 6 ? 1.0 : 0.0;
             out.bands[i].pixels[p] = out.band_sum.pixels[p] > 1e-5 ? l[i] / sum : flat;
-            out.aleph.pixels[p] += out.bands[i].pixels[p] * elevation_of(std::ldexp(16.0, -static_cast<int>(i)), v);
+            out.aleph.pixels[p] += out.bands[i].pixels[p] *
+                                   written_elevation(&thesis_vision(), std::ldexp(16.0, -static_cast<int>(i)), moved);
         }
     }
     return out;

@@ -1,4 +1,4 @@
-#include "tests/perception/vision_formulas.h"
+#include "tests/support/vision_formulas.h"
 
 #include <algorithm>
 #include <cmath>
