@@ -121,7 +121,7 @@ void TextureControl::choose(std::span<const PixelRange> stage, const Image<Pixel
     for (const PixelRange& range : stage) {
         if (range.first == 0 || !corrects(range.x, range.y)) continue;
         float corrected = 0.0f, uncorrected = 0.0f;
-        visit_around(view_.width, view_.height, range.x, range.y, [&](int x, int y) {
+        visit_around(pixels, range.x, range.y, 1, [&](int x, int y) {
             corrected += pixels(x, y).error().total;
             uncorrected += pixels(x, y).error().uncorrected;
         });
