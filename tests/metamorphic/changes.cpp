@@ -146,7 +146,7 @@ void place_below(Scene& scene, const glm::dvec3& translation, const glm::dquat& 
     for (glm::dquat& value : scene.environment.rotation.values) value = rotation * value;
 }
 
-std::vector<int> reverse_nodes(Scene& scene) {
+void reverse_nodes(Scene& scene) {
     const int count = static_cast<int>(scene.nodes.size());
     std::vector<int> depth(count, 0), order(count), place(count);
     for (int i = 0; i < count; ++i) {
@@ -165,7 +165,6 @@ std::vector<int> reverse_nodes(Scene& scene) {
     for (Skin& skin : scene.skins)
         for (int& joint : skin.joints) joint = place[joint];
     for (Include& include : scene.source.includes) include.node = place[include.node];
-    return place;
 }
 
 void rename_everything(Scene& scene) {
