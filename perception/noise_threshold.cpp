@@ -10,7 +10,6 @@
 #include "engine/base/pyramid.h"
 #include "perception/visible_bands.h"
 #include "perception/vision/castle.h"
-#include "perception/vision/castle_constants.h"
 #include "perception/vision/display_hold.h"
 #include "perception/vision/luminance_curve.h"
 
