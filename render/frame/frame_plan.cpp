@@ -56,6 +56,24 @@ VisibleFrame find_least_thresholds(const Image<Hit>& hits, const Image<float>& t
 
 }  // namespace
 
+/// The camera's values at nine equal steps, both ends included.
+/// @param camera    index into ScenePose::cameras
+/// @param from, to  s
+std::vector<CameraValues> FramePlanner::look(int camera, double from, double to) {
+    constexpr int looks = 9;
+    std::vector<CameraValues> values;
+    for (int i = 0; i < looks; ++i) {
+        const double seconds = from + (to - from) * i / (looks - 1);
+        if (posed_) {
+            update_pose(shot_.scene, shot_.pose_plan, seconds, *posed_);
+        } else {
+            posed_ = pose(shot_.scene, seconds);
+        }
+        values.push_back(posed_->cameras[camera]);
+    }
+    return values;
+}
+
 /// How far the picture moves while the shutter is open, where only the camera moves.
 ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const FrameFacts& facts, double nearest) {
     ShutterFacts shutter;
@@ -67,7 +85,7 @@ ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const Frame
     const double open_at = interval->open / rate, close_at = interval->close / rate;
     shutter.changes = !shot_.steady.is_steady(camera, open_at, close_at);
     if (shutter.changes && !facts.sees_all && shot_.steady.is_world_steady(open_at, close_at)) {
-        shutter.blur = find_camera_blur(camera_span_.look(camera, open_at, close_at), shot_.settings.picture.width,
+        shutter.blur = find_camera_blur(look(camera, open_at, close_at), shot_.settings.picture.width,
                                         shot_.settings.picture.height, nearest, shutter.largest);
     }
     return shutter;
