@@ -56,7 +56,8 @@ void compare_grating(const Grating& grating, double velocity, const PerceptionSe
     const auto raise = [](double& largest, double difference) { largest = std::max(largest, std::abs(difference)); };
     for (int x = 0; x < picture.width; x += 17) {
         const auto bands = exact_bands(grating.angular(), x);
-        const double sum = std::accumulate(bands.begin(), bands.end(), 0.0);
+        double sum = 0.0;
+        for (const double band : bands) sum += band;
         if (sum < least_band_sum) {
             ++errors.left_out;
             continue;

@@ -1,6 +1,9 @@
 // A sequence of frames as C++ programs use it.
 
 #include "render/frame/sequence.h"
+
+#include <numeric>
+
 #include "tests/support/perception_scene.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
