@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
 
 #include "engine/base/parallel.h"
 
@@ -89,7 +91,7 @@ std::uint64_t clamp_row(float* row, std::size_t width) {
 /// Computes rows [begin, end) of the Aleph map.
 /// @return the number of values that had to be clamped
 std::uint64_t compute_rows(const AlephPass& pass, const ElevationRowMaker& make_row, int begin, int end,
-                           AlephImages& out) {
+                           PerceptionMaps& out) {
     const int width = out.aleph.width;
     BandRows bands(pass.bands);
     bands.load(begin, end);
@@ -126,22 +128,20 @@ std::uint64_t compute_rows(const AlephPass& pass, const ElevationRowMaker& make_
 
 }  // namespace
 
-AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity, bool with_bands) {
+void compute_aleph(const AlephPass& pass, const PerceptionOutputs& outputs, PerceptionMaps& maps) {
     const LevelSize size = pass.bands.sizes.front();
-    AlephImages out;
-    out.aleph = Image<float>(size.width, size.height);
-    if (with_retinal_velocity) out.retinal_velocity = Image<float>(size.width, size.height);
-    if (with_bands) {
-        out.responses.assign(band_count, Image<float>(size.width, size.height));
-        out.elevations = out.responses;
+    maps.aleph = Image<float>(size.width, size.height);
+    if (outputs.retinal_velocity) maps.retinal_velocity = maps.aleph;
+    if (outputs.bands) {
+        maps.responses.assign(band_count, maps.aleph);
+        maps.elevations = maps.responses;
     }
     const ElevationRowMaker make_row = pass.vision.make_rows(pass.rho, pass.shown);
     std::vector<std::uint64_t> clamped((size.height + rows_per_band - 1) / rows_per_band);
     parallel_rows(size.height, rows_per_band, [&](int begin, int end) {
-        clamped[begin / rows_per_band] = compute_rows(pass, make_row, begin, end, out);
+        clamped[begin / rows_per_band] = compute_rows(pass, make_row, begin, end, maps);
     });
-    for (const std::uint64_t c : clamped) out.clamped += c;
-    return out;
+    maps.clamped = std::accumulate(clamped.begin(), clamped.end(), std::uint64_t{0});
 }
 
 }  // namespace aleph

@@ -3,11 +3,10 @@
 // by row. No image in between is stored.
 
 #include <array>
-#include <cstdint>
-#include <vector>
 
 #include "engine/base/image.h"
 #include "perception/band_response.h"
+#include "perception/perception.h"
 #include "perception/vision/vision_model.h"
 
 namespace aleph {
@@ -23,15 +22,8 @@ struct AlephPass {
     const Image<float>* luminance = nullptr;  ///< that the eye is adapted to, cd/m2; null unless the model uses it
 };
 
-struct AlephImages {
-    Image<float> aleph;             ///< contrast elevation, [1, 250.76]
-    Image<float> retinal_velocity;  ///< v_R, deg/s; empty if not requested
-    /// R_i (5.3) and f_i (5.9) of each band, finest first; empty if not requested. Their products sum to the Aleph map.
-    std::vector<Image<float>> responses, elevations;
-    std::uint64_t clamped = 0;  ///< values that were outside [1, 250.76] before the final clamp
-};
-
-/// The Aleph map: the sum of R_i f_i (5.11). The same bits for any number of threads.
-AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity, bool with_bands = false);
+/// The Aleph map, which is the sum of R_i f_i (5.11), and of the other maps retinal velocity and bands where they are
+/// requested. The same bits for any number of threads.
+void compute_aleph(const AlephPass& pass, const PerceptionOutputs& outputs, PerceptionMaps& maps);
 
 }  // namespace aleph

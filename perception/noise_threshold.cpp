@@ -10,7 +10,6 @@
 #include "engine/base/pyramid.h"
 #include "perception/visible_bands.h"
 #include "perception/vision/castle.h"
-#include "perception/vision/castle_constants.h"
 #include "perception/vision/display_hold.h"
 #include "perception/vision/luminance_curve.h"
 
@@ -34,10 +33,7 @@ double node_velocity(int i) {
            std::pow(highest_velocity / lowest_velocity, (i - 1) / static_cast<double>(velocity_nodes - 2));
 }
 
-struct Place {
-    int node = 0;
-    float fraction = 0.0f;
-};
+using Place = LuminanceGrid::Place;
 
 Place place_at(float at, int nodes) {
     const float clamped = std::min(std::max(at, 0.0f), static_cast<float>(nodes - 1));

@@ -112,13 +112,8 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
         maps.adaptation = compute_adaptation_luminance(estimate, viewing);
         pass.luminance = &maps.adaptation;
     }
-    AlephImages images = compute_aleph(pass, outputs.retinal_velocity, outputs.bands);
-    maps.aleph = std::move(images.aleph);
-    maps.retinal_velocity = std::move(images.retinal_velocity);
+    compute_aleph(pass, outputs, maps);
     maps.saliency = std::move(saliency.map);
-    maps.responses = std::move(images.responses);
-    maps.elevations = std::move(images.elevations);
-    maps.clamped = images.clamped;
     maps.fallback = saliency.fallback;
     if (salient && outputs.conspicuity) {
         maps.conspicuity_intensity = full_conspicuity(saliency, FeatureChannel::intensity);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/pixel_loops.h"
+
 namespace aleph {
 
 namespace {
@@ -22,13 +24,11 @@ bool is_finite(const Rgb& c) {
 bool median_of_neighbours(const Image<Rgb>& image, const Image<PixelState>& state, int x, int y, Rgb& median) {
     float values[3][8];
     int count = 0;
-    for (int ny = std::max(0, y - 1); ny <= std::min(image.height - 1, y + 1); ++ny) {
-        for (int nx = std::max(0, x - 1); nx <= std::min(image.width - 1, x + 1); ++nx) {
-            if (state(nx, ny) != PixelState::valid) continue;
-            for (int c = 0; c < 3; ++c) values[c][count] = image(nx, ny)[c];
-            ++count;
-        }
-    }
+    visit_around(image, x, y, 1, [&](int nx, int ny) {
+        if (state(nx, ny) != PixelState::valid) return;
+        for (int c = 0; c < 3; ++c) values[c][count] = image(nx, ny)[c];
+        ++count;
+    });
     if (count == 0) return false;
     for (int c = 0; c < 3; ++c) {
         float* const middle = values[c] + (count - 1) / 2;
@@ -60,15 +60,13 @@ void fill_invalid(Image<Rgb>& image, Image<PixelState>& state) {
         }
         std::vector<Replacement> next;
         for (const Replacement& r : ring) {
-            for (int ny = std::max(0, r.y - 1); ny <= std::min(image.height - 1, r.y + 1); ++ny) {
-                for (int nx = std::max(0, r.x - 1); nx <= std::min(image.width - 1, r.x + 1); ++nx) {
-                    Rgb value;
-                    if (state(nx, ny) != PixelState::invalid) continue;
-                    median_of_neighbours(image, state, nx, ny, value);
-                    state(nx, ny) = PixelState::queued;
-                    next.push_back({nx, ny, value});
-                }
-            }
+            visit_around(image, r.x, r.y, 1, [&](int nx, int ny) {
+                Rgb value;
+                if (state(nx, ny) != PixelState::invalid) return;
+                median_of_neighbours(image, state, nx, ny, value);
+                state(nx, ny) = PixelState::queued;
+                next.push_back({nx, ny, value});
+            });
         }
         ring = std::move(next);
     }

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "perception/vision/castle_constants.h"
-
 namespace aleph {
 
 namespace {

@@ -22,6 +22,12 @@ double castle_sensitivity(double rho, double omega, double luminance, double are
 double castle_sustained(double rho, double luminance, double area = 1.0);
 double castle_transient(double rho, double luminance, double area = 1.0);
 
+/// Constants of the temporal responses (values of the authors' program, version 0.2.4).
+inline constexpr double castle_sustained_power = 1.3314, castle_sustained_scale = 10.5795;
+inline constexpr double castle_transient_power = 0.1898, castle_transient_scale = 0.0844836;
+inline constexpr double castle_transient_slope = 2.41482,
+                        castle_transient_offset = 4.7036;  ///< of the peak over log10 L
+
 /// Temporal responses of the two channels, [0,1]: to `omega` Hz. The transient one peaks at castle_transient_peak.
 double castle_sustained_response(double omega);
 double castle_transient_response(double omega, double luminance);

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "perception/vision/castle.h"
-#include "perception/vision/castle_constants.h"
 #include "perception/vision/display_hold.h"
 #include "perception/vision/fast_math.h"
 #include "perception/vision/luminance_curve.h"

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 #include <optional>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "render/cache/gather_at.h"
 
 namespace aleph {
@@ -19,18 +18,6 @@ constexpr float filling_rays = 1024.0f;  // of the gather whose ray has the foot
 
 /// Keeps the directions apart from those of gathers at the same places.
 constexpr std::uint32_t places_seed_mask = 0x626f756eu;
-
-/// The surface of a pixel, if its light has to be computed.
-std::optional<PixelSurface> find_needed(const IndirectContext& context, const SampleHits& sample, int x, int y,
-                                        RayTask& task) {
-    if (sample.hits(x, y).instance == no_index) return std::nullopt;
-    std::optional<PixelSurface> surface = find_surface(context, sample, x, y);
-    if (!surface || !surface->material.has_diffuse()) return std::nullopt;
-    if (context.carried != nullptr && context.carried->find(*surface, context.accuracy(x, y), task)) {
-        return std::nullopt;
-    }
-    return surface;
-}
 
 /// The first pixel of a few in this tile whose light has to be computed.
 std::optional<PixelSurface> find_in_tile(const IndirectContext& context, const SampleHits& sample, glm::ivec2 corner,
@@ -68,27 +55,21 @@ BouncePlaces cast_bounce_places(const LightingContext& lighting, const std::vect
     const int rows = static_cast<int>(surfaces.size());
     BouncePlaces places{Image<Hit>(strata.count(), rows), Image<glm::vec3>(strata.count(), rows),
                         std::numbers::pi_v<float> / filling_rays};
-    std::mutex counts_mutex;
-    parallel_rows(rows, 8, [&](int begin, int end) {
-        RayTask task(lighting.rays);
-        for (int y = begin; y < end; ++y) {
-            const SurfacePoint& point = surfaces[y].point;
-            RandomStream random(make_place_key(seed ^ places_seed_mask, surfaces[y].hit));
-            const CellNumbers numbers(random);
-            const Basis basis = make_basis(point.normal);
-            for (int cell = 0; cell < strata.count(); ++cell) {
-                const int row = cell / strata.columns, column = cell % strata.columns;
-                const glm::vec2 u =
-                    (glm::vec2(row, column) + numbers.place(row, column)) / glm::vec2(strata.rows, strata.columns);
-                const glm::vec3 direction = basis.to_world(sample_cosine_hemisphere(u));
-                places.directions(cell, y) = direction;
-                if (!(glm::dot(direction, point.geometric) > 0.0f)) continue;
-                places.hits(cell, y) = task.tracer.intersect({point.ray_origin(), direction});
-                ++task.counts.gather;
-            }
+    cast_parallel(surfaces.size(), 8, lighting.rays, counts, [&](int y, RayTask& task) {
+        const SurfacePoint& point = surfaces[y].point;
+        RandomStream random(make_place_key(seed ^ places_seed_mask, surfaces[y].hit));
+        const CellNumbers numbers(random);
+        const Basis basis = make_basis(point.normal);
+        for (int cell = 0; cell < strata.count(); ++cell) {
+            const int row = cell / strata.columns, column = cell % strata.columns;
+            const glm::vec2 u =
+                (glm::vec2(row, column) + numbers.place(row, column)) / glm::vec2(strata.rows, strata.columns);
+            const glm::vec3 direction = basis.to_world(sample_cosine_hemisphere(u));
+            places.directions(cell, y) = direction;
+            if (!(glm::dot(direction, point.geometric) > 0.0f)) continue;
+            places.hits(cell, y) = task.tracer.intersect({point.ray_origin(), direction});
+            ++task.counts.gather;
         }
-        const std::lock_guard lock(counts_mutex);
-        counts += task.counts;
     });
     return places;
 }
@@ -112,15 +93,10 @@ FillPlaces make_fill_places(const ShadingScene& shading, const BouncePlaces& pla
     FillPlaces fill;
     fill.points = Image<FillPoint>(places.hits.width, places.hits.height);
     fill.surface_at = [&](int x, int y) { return make_bounce_surface(shading, places, x, y); };
-    parallel_rows(places.hits.height, 8, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < places.hits.width; ++x) {
-                if (places.hits(x, y).instance == no_index) continue;
-                const PixelSurface surface = make_bounce_surface(shading, places, x, y);
-                if (!surface.material.has_diffuse()) continue;
-                fill.points(x, y) = make_fill_point(surface);
-            }
-        }
+    parallel_pixels(places.hits, 8, [&](int x, int y) {
+        if (places.hits(x, y).instance == no_index) return;
+        const PixelSurface surface = make_bounce_surface(shading, places, x, y);
+        if (surface.material.has_diffuse()) fill.points(x, y) = make_fill_point(surface);
     });
     return fill;
 }

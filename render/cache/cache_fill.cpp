@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <mutex>
+#include <atomic>
 #include <optional>
 #include <span>
 
 #include "engine/base/errors.h"
-#include "engine/base/parallel.h"
 #include "render/cache/gather_at.h"
 #include "render/cache/record_worth.h"
 
@@ -81,30 +80,23 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
                                       Image<FillPoint>& points, const std::vector<glm::ivec2>& tiles,
                                       FrameCounts& counts) {
     std::vector<std::vector<Candidate>> found((tiles.size() + lookup_grain - 1) / lookup_grain);
-    std::mutex counts_mutex;
-    parallel_for(tiles.size(), lookup_grain, [&](std::size_t begin, std::size_t end) {
-        RayTask task(context.lighting.rays);
-        std::uint64_t asked = 0, missed = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-            const int x = tiles[i].x, y = tiles[i].y;
-            FillPoint& point = points(x, y);
-            const float accuracy = context.accuracy(x, y);
-            const CacheQuery query{point.position, point.normal, accuracy, &task};
-            ++asked;
-            if (cache.covers(query)) continue;
-            ++missed;
-            if (!needs_record(cache, context, point, tiles[i])) {
-                point.footprint = -1.0f;
-                continue;
-            }
-            found[begin / lookup_grain].push_back(
-                {x, y, {query.position, query.normal, accuracy}, radius_bounds(context, point.footprint, accuracy)});
+    std::atomic<std::uint64_t> missed = 0;
+    cast_parallel(tiles.size(), lookup_grain, context.lighting.rays, counts.rays, [&](int i, RayTask& task) {
+        const int x = tiles[i].x, y = tiles[i].y;
+        FillPoint& point = points(x, y);
+        const float accuracy = context.accuracy(x, y);
+        const CacheQuery query{point.position, point.normal, accuracy, &task};
+        if (cache.covers(query)) return;
+        ++missed;
+        if (!needs_record(cache, context, point, tiles[i])) {
+            point.footprint = -1.0f;
+            return;
         }
-        const std::lock_guard lock(counts_mutex);
-        counts.rays += task.counts;
-        counts.cache.lookups += asked;
-        counts.cache.hits += asked - missed;
+        found[i / lookup_grain].push_back(
+            {x, y, {query.position, query.normal, accuracy}, radius_bounds(context, point.footprint, accuracy)});
     });
+    counts.cache.lookups += tiles.size();
+    counts.cache.hits += tiles.size() - missed;
     std::vector<Candidate> uncovered;
     for (const auto& chunk : found) uncovered.insert(uncovered.end(), chunk.begin(), chunk.end());
     return uncovered;
@@ -146,21 +138,14 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
 std::vector<Gathered> gather_records(const IndirectContext& context, const FillPlaces& places,
                                      std::span<const Candidate> candidates, RayCounts& counts) {
     std::vector<Gathered> records(candidates.size());
-    std::mutex counts_mutex;
-    parallel_for(candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
+    cast_parallel(candidates.size(), 1, context.lighting.rays, counts, [&](int i, RayTask& task) {
         thread_local GatherScratch scratch;
-        RayTask task(context.lighting.rays);
-        for (std::size_t i = begin; i < end; ++i) {
-            const Candidate& candidate = candidates[i];
-            const PixelSurface surface = places.surface_at(candidate.x, candidate.y);
-            const IrradianceSample value =
-                gather_at(context, task, surface, scratch, candidate.rays, &records[i].direct);
-            records[i].record = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy,
-                                            value, candidate.bounds);
-            if (places.gathered != nullptr) records[i].rays = scratch;
-        }
-        const std::lock_guard lock(counts_mutex);
-        counts += task.counts;
+        const Candidate& candidate = candidates[i];
+        const PixelSurface surface = places.surface_at(candidate.x, candidate.y);
+        const IrradianceSample value = gather_at(context, task, surface, scratch, candidate.rays, &records[i].direct);
+        records[i].record = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy,
+                                        value, candidate.bounds);
+        if (places.gathered != nullptr) records[i].rays = scratch;
     });
     return records;
 }
@@ -188,28 +173,16 @@ void restore_gathers(const FrameCheckpoint::Gathers& saved, std::span<Gathered> 
     ALEPH_CHECK(results.is_good() && results.at_end(), fmt::format("{} gathers", gathered.size()));
 }
 
-std::string save_grid(const DirectGrid& grid) {
-    const DirectGrid::State state = grid.save();
-    ByteWriter out;
-    out.add(state.cells);
-    out.add(state.samples);
-    return out.take();
-}
-
-void restore_grid(const std::string& bytes, DirectGrid& grid) {
-    if (bytes.empty()) return;
-    ByteReader in(bytes);
-    DirectGrid::State state{in.read_all<DirectGrid::Cell>(), 0};
-    state.samples = in.read<std::uint64_t>();
-    grid.restore(state);
-}
-
 /// The same with a checkpoint: in pieces, of which those are taken from it that an earlier process has computed.
 std::vector<Gathered> gather_with_checkpoint(const IndirectContext& context, const FillPlaces& places,
                                              std::span<const Candidate> candidates, RayCounts& counts) {
     FrameCheckpoint& checkpoint = *context.checkpoint;
     if (context.direct != nullptr)
-        checkpoint.set_shared_light([direct = context.direct] { return save_grid(*direct); });
+        checkpoint.set_shared_light([direct = context.direct] {
+            ByteWriter out;
+            out.add(direct->save());
+            return out.take();
+        });
     std::vector<Gathered> all(candidates.size());
     for (std::size_t begin = 0; begin < all.size(); begin += checkpoint_gathers) {
         const std::span<Gathered> piece =
@@ -219,7 +192,9 @@ std::vector<Gathered> gather_with_checkpoint(const IndirectContext& context, con
             restore_gathers(saved, piece, counts);
             // Before the first round that had not ended.
             const bool is_last = !saved.found.empty() || !checkpoint.has_gathers();
-            if (is_last && context.direct != nullptr) restore_grid(checkpoint.take_shared_light(), *context.direct);
+            if (!is_last || context.direct == nullptr) continue;
+            const std::string light = checkpoint.take_shared_light();
+            if (!light.empty()) context.direct->restore(ByteReader(light).read_all<DirectGrid::Cell>());
             continue;
         }
         RayCounts own;

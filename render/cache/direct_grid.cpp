@@ -76,18 +76,17 @@ void DirectGrid::grow() {
     }
 }
 
-DirectGrid::State DirectGrid::save() const {
-    State state{{}, samples_};
-    std::ranges::copy_if(cells_, std::back_inserter(state.cells), [](const Cell& cell) { return cell.key != 0; });
-    return state;
+std::vector<DirectGrid::Cell> DirectGrid::save() const {
+    std::vector<Cell> cells;
+    std::ranges::copy_if(cells_, std::back_inserter(cells), [](const Cell& cell) { return cell.key != 0; });
+    return cells;
 }
 
-void DirectGrid::restore(const State& state) {
-    cells_.assign(std::max(first_capacity, std::bit_ceil(2 * (state.cells.size() + 1))), {});
+void DirectGrid::restore(const std::vector<Cell>& cells) {
+    cells_.assign(std::max(first_capacity, std::bit_ceil(2 * (cells.size() + 1))), {});
     mask_ = cells_.size() - 1;
-    for (const Cell& cell : state.cells) place_of(cell.key) = cell;
-    used_ = state.cells.size();
-    samples_ = state.samples;
+    for (const Cell& cell : cells) place_of(cell.key) = cell;
+    used_ = cells.size();
 }
 
 void DirectGrid::insert(std::span<const DirectSample> samples) {
@@ -103,7 +102,6 @@ void DirectGrid::insert(std::span<const DirectSample> samples) {
             cell.multi_bounce_sum += *sample.multi_bounce;
             ++cell.multi_bounce_count;
         }
-        ++samples_;
     }
 }
 

@@ -72,16 +72,10 @@ class DirectGrid {
     /// Not while other threads use the grid. Samples that are not finite are left out.
     void insert(std::span<const DirectSample> samples);
 
-    /// All cells, and the samples in them, to go on with in another process.
-    struct State {
-        std::vector<Cell> cells;  ///< those that have samples
-        std::uint64_t samples = 0;
-    };
-    State save() const;
-    void restore(const State& state);
-
+    /// The cells that have samples, to go on with in another process.
+    std::vector<Cell> save() const;
+    void restore(const std::vector<Cell>& cells);
     std::size_t size() const { return used_; }  ///< number of cells
-    std::uint64_t samples() const { return samples_; }
 
   private:
     Cell& place_of(std::uint64_t key);
@@ -93,7 +87,6 @@ class DirectGrid {
     float inverse_unit_ = 1.0f;
     std::uint64_t mask_ = 0;
     std::size_t used_ = 0;
-    std::uint64_t samples_ = 0;
 };
 
 }  // namespace aleph

@@ -1,8 +1,5 @@
 #include "render/cache/fill_points.h"
 
-#include <mutex>
-
-#include "engine/base/parallel.h"
 #include "render/surface/carried_point.h"
 #include "render/surface/scatter.h"
 
@@ -18,6 +15,17 @@ std::optional<PixelSurface> find_surface(const IndirectContext& context, const S
     return surface;
 }
 
+std::optional<PixelSurface> find_needed(const IndirectContext& context, const SampleHits& sample, int x, int y,
+                                        RayTask& task) {
+    if (sample.hits(x, y).instance == no_index) return std::nullopt;
+    std::optional<PixelSurface> surface = find_surface(context, sample, x, y);
+    if (!surface || !surface->material.has_diffuse()) return std::nullopt;
+    if (context.carried != nullptr && context.carried->find(*surface, context.accuracy(x, y), task)) {
+        return std::nullopt;
+    }
+    return surface;
+}
+
 FillPoint make_fill_point(const PixelSurface& surface) {
     const LitSurface lit(surface);
     const Rgb reflected = diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
@@ -25,24 +33,12 @@ FillPoint make_fill_point(const PixelSurface& surface) {
 }
 
 Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, int step, RayCounts& counts) {
-    std::mutex counts_mutex;
     Image<FillPoint> points(sample.hits.width, sample.hits.height);
-    parallel_rows(points.height, 4, [&](int begin, int end) {
-        RayTask task(context.lighting.rays);
-        for (int y = begin; y < end; ++y) {
-            if (y % step != 0) continue;
-            for (int x = 0; x < points.width; x += step) {
-                if (sample.hits(x, y).instance == no_index) continue;
-                const std::optional<PixelSurface> surface = find_surface(context, sample, x, y);
-                if (!surface || !surface->material.has_diffuse()) continue;
-                if (context.carried != nullptr && context.carried->find(*surface, context.accuracy(x, y), task)) {
-                    continue;
-                }
-                points(x, y) = make_fill_point(*surface);
-            }
+    cast_parallel(points.height, 4, context.lighting.rays, counts, [&](int y, RayTask& task) {
+        if (y % step != 0) return;
+        for (int x = 0; x < points.width; x += step) {
+            if (const auto surface = find_needed(context, sample, x, y, task)) points(x, y) = make_fill_point(*surface);
         }
-        const std::lock_guard lock(counts_mutex);
-        counts += task.counts;
     });
     return points;
 }

@@ -19,6 +19,10 @@ FillPoint make_fill_point(const PixelSurface& surface);
 /// The surface that a pixel shows, in the pose whose light is wanted; nothing if it is not there.
 std::optional<PixelSurface> find_surface(const IndirectContext& context, const SampleHits& sample, int x, int y);
 
+/// The same if its light has to be computed.
+std::optional<PixelSurface> find_needed(const IndirectContext& context, const SampleHits& sample, int x, int y,
+                                        RayTask& task);
+
 /// Those of every `step`th pixel of every `step`th row; elsewhere no light is needed.
 /// @param counts  increased by the rays cast
 Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, int step, RayCounts& counts);

@@ -43,7 +43,7 @@ MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const F
     MultiBounceLight light{.bounces = std::max(0, count_bounces(settings) - 1)};
     if (known == nullptr) return light;
     light.cache = &known->cache;
-    light.accuracy = static_cast<float>(shade_reach) * known->accuracy;
+    light.accuracy = shade_reach * known->accuracy;
     return light;
 }
 
@@ -69,7 +69,7 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     coarse.bounces.further = {.bounces = bounces - 1, .noted = true};
     coarse.bounces.before = 1;
     fill_places(known.cache, coarse, fill, tally);
-    const float reach = static_cast<float>(shade_reach) * known.accuracy;
+    const float reach = shade_reach * known.accuracy;
     if (bounces > 1) {
         known.cache.prepare(reach);
         known.cache.restore(add_bounces(coarse, known.cache, reach, std::move(gathered), bounces, tally.counts.rays));

@@ -46,11 +46,6 @@ bool is_usable(const IrradianceRecord& record, const CacheQuery& query, float er
     return query.task != nullptr && is_in_sight(*query.task, record, query);
 }
 
-/// S_i, m; infinite where no difference was found.
-float spread_of(const IrradianceRecord& record) {
-    return 1.0f / std::sqrt(record.growth);
-}
-
 /// Returns whether a record's value can be compared with another's, moved to its place.
 bool is_comparable(const IrradianceRecord& from, const IrradianceRecord& to, float accuracy) {
     return glm::length(from.normal - to.normal) < accuracy * std::numbers::sqrt2_v<float> &&
@@ -203,7 +198,7 @@ void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
     index_ = index_.emptied();
     ray_variances_ = irradiances_ = 0.0;
     for (const IrradianceRecord& record : records_) {
-        index_.add(record.position, {record.radius, spread_of(record)}, record.accuracy);
+        index_.add(record.position, {record.radius, record.spread()}, record.accuracy);
         max_accuracy_ = std::max(max_accuracy_, record.accuracy);
         ray_variances_ += record.noise.ray_variance;
         irradiances_ += luminance(record.irradiance);
@@ -242,7 +237,7 @@ std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {
         sum += extrapolate(record, query.position, query.normal) * weight;
         total += weight;
         if (query.used != nullptr) {
-            query.used->add(weight, RecordReach{record.radius, spread_of(record)}.at(accuracy));
+            query.used->add(weight, RecordReach{record.radius, record.spread()}.at(accuracy));
         }
     });
     if (!(total > 0.0f)) return std::nullopt;

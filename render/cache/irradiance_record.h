@@ -28,7 +28,7 @@ namespace aleph {
 
 /// How far shading uses a record, as a multiple of how far filling the cache does: records on both sides of a point
 /// then contribute to it.
-inline constexpr double shade_reach = 1.4;
+inline constexpr float shade_reach = 1.4f;
 
 /// How far a point may lie off the mean of both tangent planes, as a share of R_i: on the record's side of it, where
 /// light from over an edge arrives (Ward 1988 rejects it all; rounding and facets need a little), and on the other.
@@ -54,6 +54,9 @@ struct IrradianceRecord {
     GatherNoise noise{};
     float accuracy = 1.0f;                                      ///< alpha of the pixel that it was computed for
     float max_growth = std::numeric_limits<float>::infinity();  ///< 1/m2: `growth` stops here
+
+    /// S_i, m; infinite where no difference was found.
+    float spread() const { return 1.0f / std::sqrt(growth); }
 };
 
 /// Bounds for R_i and S_i, m.

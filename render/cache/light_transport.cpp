@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 #include <utility>
 
@@ -93,12 +92,8 @@ class LightTransport {
   private:
     /// Links what the rays of these places found to records.
     void link_places(std::size_t first) {
-        std::mutex mutex;
-        parallel_for(places_.size() - first, 16, [&](std::size_t begin, std::size_t end) {
-            RayTask task(context_.lighting.rays);
-            for (std::size_t i = begin; i < end; ++i) link_place(places_[first + i], unlinked_[i], task);
-            const std::lock_guard lock(mutex);
-            counts_ += task.counts;
+        cast_parallel(places_.size() - first, 16, context_.lighting.rays, counts_, [&](int i, RayTask& task) {
+            link_place(places_[first + static_cast<std::size_t>(i)], unlinked_[i], task);
         });
     }
 
@@ -170,24 +165,18 @@ class LightTransport {
         }
         std::vector<std::vector<FurtherLight>> unlinked(lit.size());
         std::vector<Place> added(lit.size());
-        std::mutex mutex;
-        parallel_for(added.size(), 64, [&](std::size_t begin, std::size_t end) {
+        const GatherOptions options{
+            .depth = std::max(0, context_.settings.light.path_depth - 2 - context_.bounces.before),
+            .multi_bounce = context_.bounces.further};
+        cast_parallel(added.size(), 64, context_.lighting.rays, counts_, [&](int i, RayTask& task) {
             thread_local GatherScratch scratch;
-            RayTask task(context_.lighting.rays);
-            const GatherOptions options{
-                .depth = std::max(0, context_.settings.light.path_depth - 2 - context_.bounces.before),
-                .multi_bounce = context_.bounces.further};
-            for (std::size_t i = begin; i < end; ++i) {
-                added[i].direct =
-                    gather_irradiance(context_.lighting, task, lit[i]->place, {{}, lit[i]->key}, scratch, options)
-                        .irradiance;
-                if (!is_finite(added[i].direct)) added[i].direct = Rgb(0.0f);
-                added[i].key = lit[i]->key;
-                ++added[i].key.seed;
-                unlinked[i] = take_further(scratch);
-            }
-            const std::lock_guard lock(mutex);
-            counts_ += task.counts;
+            added[i].direct =
+                gather_irradiance(context_.lighting, task, lit[i]->place, {{}, lit[i]->key}, scratch, options)
+                    .irradiance;
+            if (!is_finite(added[i].direct)) added[i].direct = Rgb(0.0f);
+            added[i].key = lit[i]->key;
+            ++added[i].key.seed;
+            unlinked[i] = take_further(scratch);
         });
         unlinked_ = std::move(unlinked);
         std::ranges::move(added, std::back_inserter(places_));

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
-#include "engine/base/parallel.h"
 #include "render/cache/further_bounces.h"
 #include "render/surface/media.h"
 #include "render/surface/scatter.h"
@@ -86,32 +84,24 @@ MirrorPlaces cast_mirror_places(const IndirectContext& context, const SampleHits
     const float pixel = 1.0f / static_cast<float>(context.view.pixels_per_unit);
     MirrorPlaces out{{Image<Hit>(width, height), Image<glm::vec3>(width, height), pixel * pixel},
                      Image<float>(width, height, 1.0f)};
-    std::mutex mutex;
-    parallel_rows(height, 4, [&](int begin, int end) {
-        RayTask task(context.lighting.rays);
-        bool any = false;
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < width; ++x) {
-                if (sample.hits(x, y).instance == no_index) continue;
-                const std::optional<PixelSurface> first = find_surface(context, sample, x, y);
-                if (!first || !first->material.has_specular()) continue;
-                const std::optional<Arrival> arrival = follow_mirrors(context, *first, task);
-                if (!arrival) continue;
-                const float alpha = context.accuracy(x, y);
-                const float accuracy = std::max(alpha, std::min(alpha / std::sqrt(arrival->weight), loosest_accuracy));
-                PixelSurface place{arrival->surface};
-                place.hit = arrival->hit;
-                if (context.carried != nullptr && context.carried->find(place, accuracy, task)) continue;
-                out.places.hits(x, y) = arrival->hit;
-                out.places.directions(x, y) = arrival->direction;
-                out.accuracy(x, y) = accuracy;
-                any = true;
-            }
+    cast_parallel(height, 4, context.lighting.rays, counts, [&](int y, RayTask& task) {
+        for (int x = 0; x < width; ++x) {
+            if (sample.hits(x, y).instance == no_index) continue;
+            const std::optional<PixelSurface> first = find_surface(context, sample, x, y);
+            if (!first || !first->material.has_specular()) continue;
+            const std::optional<Arrival> arrival = follow_mirrors(context, *first, task);
+            if (!arrival) continue;
+            const float alpha = context.accuracy(x, y);
+            const float accuracy = std::max(alpha, std::min(alpha / std::sqrt(arrival->weight), loosest_accuracy));
+            PixelSurface place{arrival->surface};
+            place.hit = arrival->hit;
+            if (context.carried != nullptr && context.carried->find(place, accuracy, task)) continue;
+            out.places.hits(x, y) = arrival->hit;
+            out.places.directions(x, y) = arrival->direction;
+            out.accuracy(x, y) = accuracy;
         }
-        const std::lock_guard lock(mutex);
-        counts += task.counts;
-        out.any = out.any || any;
     });
+    out.any = std::ranges::any_of(out.places.hits.pixels, [](const Hit& hit) { return hit.instance != no_index; });
     return out;
 }
 

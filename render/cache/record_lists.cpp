@@ -23,8 +23,7 @@ class RecordLists::Builder {
     Builder(RecordLists& out, std::span<const IrradianceRecord> records) : out_(out), records_(records) {
         reaches_.reserve(records.size());
         for (const IrradianceRecord& record : records) {
-            const RecordReach reach{record.radius, 1.0f / std::sqrt(record.growth)};
-            reaches_.push_back(rounding * reach.at(out.accuracy_));
+            reaches_.push_back(rounding * RecordReach{record.radius, record.spread()}.at(out.accuracy_));
         }
     }
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
-
-#include "engine/base/parallel.h"
 
 namespace aleph {
 
@@ -31,28 +28,23 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     Image<DiffuseSurface> surfaces;
     if (options.indirect != nullptr && kind == EstimateKind::direct)
         surfaces = Image<DiffuseSurface>(view.width, view.height);
-    std::mutex counts_mutex;
-    parallel_rows(view.height, 4, [&](int begin, int end) {
-        RayTask task(context.rays, Blend::cutout);  // without noise
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < view.width; ++x) {
-                Rgb radiance = Rgb(1.0f);
-                const bool hit = centers.hits(x, y).instance != no_index;
-                if (!hit && kind == EstimateKind::direct) {
-                    radiance = environment_radiance(context.shading,
-                                                    glm::vec3(make_camera_ray(view, x + 0.5, y + 0.5).direction));
-                }
-                if (hit) {
-                    const PixelSurface s = make_pixel_surface(context.shading, view, centers, x, y);
-                    radiance = estimate_radiance(context, task, s, kind);
-                    if (!surfaces.empty()) surfaces(x, y) = make_diffuse_surface(s);
-                }
-                estimate(x, y) = radiance * scale;
+    const auto estimate_row = [&](int y, RayTask& task) {
+        for (int x = 0; x < view.width; ++x) {
+            Rgb radiance = Rgb(1.0f);
+            const bool hit = centers.hits(x, y).instance != no_index;
+            if (!hit && kind == EstimateKind::direct) {
+                radiance =
+                    environment_radiance(context.shading, glm::vec3(make_camera_ray(view, x + 0.5, y + 0.5).direction));
             }
+            if (hit) {
+                const PixelSurface s = make_pixel_surface(context.shading, view, centers, x, y);
+                radiance = estimate_radiance(context, task, s, kind);
+                if (!surfaces.empty()) surfaces(x, y) = make_diffuse_surface(s);
+            }
+            estimate(x, y) = radiance * scale;
         }
-        const std::lock_guard lock(counts_mutex);
-        counts += task.counts;
-    });
+    };
+    cast_parallel(view.height, 4, context.rays, counts, estimate_row, Blend::cutout);  // without noise
     if (surfaces.empty()) return estimate;
     const Image<Rgb> light = interpolate_estimate(*options.indirect, surfaces);
     for (std::size_t i = 0; i < estimate.size(); ++i) estimate.pixels[i] += light.pixels[i] * scale;

@@ -25,9 +25,6 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
 /// @param task  its rays are those of Blend::cutout
 Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind);
 
-/// Luminance of every pixel.
-Image<float> luminance_image(const Image<Rgb>& picture);
-
 /// 0.18 / exp(mean log Y) over the pixels of an estimate with Y > 0; 1 if there are none.
 double compute_exposure(const Image<Rgb>& estimate);
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "render/cache/gather.h"
 
 namespace aleph {
@@ -159,23 +158,17 @@ EstimateNodes gather_estimate(const LightingContext& context, const CameraView& 
     EstimateNodes nodes(view.width, view.height);
     find_node_surfaces(context, view, centers, nodes);
     const HemisphereStrata strata = choose_strata(gather_rays);
-    std::mutex counts_mutex;
     for (int level = 0; level < nodes.levels(); ++level) {
         const std::vector<glm::ivec2> pixels = list_missing(nodes, level);
-        parallel_for(pixels.size(), 4, [&](std::size_t begin, std::size_t end) {
+        cast_parallel(pixels.size(), 4, context.rays, counts, [&](int i, RayTask& task) {
             thread_local GatherScratch scratch;
-            RayTask task(context.rays);
-            for (std::size_t i = begin; i < end; ++i) {
-                const glm::ivec2& p = pixels[i];
-                const PixelSurface surface = make_pixel_surface(context.shading, view, centers, p.x, p.y);
-                EstimateNodes::Node& node = nodes.node(p.x, p.y);
-                const std::optional<Rgb> found = carried != nullptr ? carried->find(surface) : std::nullopt;
-                node.irradiance =
-                    found ? *found : gather_irradiance(context, task, surface.point, {strata}, scratch).irradiance;
-                node.known = is_finite(node.irradiance);
-            }
-            const std::lock_guard lock(counts_mutex);
-            counts += task.counts;
+            const glm::ivec2& p = pixels[i];
+            const PixelSurface surface = make_pixel_surface(context.shading, view, centers, p.x, p.y);
+            EstimateNodes::Node& node = nodes.node(p.x, p.y);
+            const std::optional<Rgb> found = carried != nullptr ? carried->find(surface) : std::nullopt;
+            node.irradiance =
+                found ? *found : gather_irradiance(context, task, surface.point, {strata}, scratch).irradiance;
+            node.known = is_finite(node.irradiance);
         });
     }
     return nodes;
@@ -192,14 +185,9 @@ Rgb NodeIrradiance::at(const DiffuseSurface& surface, const glm::dvec2& pixel) c
 Image<Rgb> interpolate_estimate(const EstimateNodes& nodes, const Image<DiffuseSurface>& surfaces) {
     Image<Rgb> light(surfaces.width, surfaces.height);
     const NodeIrradiance irradiance(nodes);
-    parallel_rows(surfaces.height, 4, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < surfaces.width; ++x) {
-                const DiffuseSurface& surface = surfaces(x, y);
-                if (!(surface.footprint > 0.0f)) continue;
-                light(x, y) = surface.reflected * irradiance.at(surface, {x, y});
-            }
-        }
+    parallel_pixels(surfaces, 4, [&](int x, int y) {
+        const DiffuseSurface& surface = surfaces(x, y);
+        if (surface.footprint > 0.0f) light(x, y) = surface.reflected * irradiance.at(surface, {x, y});
     });
     return light;
 }

@@ -1,9 +1,8 @@
 #include "render/frame/blurred_estimate.h"
 
 #include <cmath>
-#include <mutex>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "render/surface/carried_point.h"
 
 namespace aleph {
@@ -17,11 +16,7 @@ class SharpReader {
   public:
     explicit SharpReader(const SharpEstimate& sharp)
         : sharp_(sharp), positions_(sharp.view.width, sharp.view.height, glm::vec3(0.0f)) {
-        parallel_rows(sharp.view.height, 16, [&](int begin, int end) {
-            for (int y = begin; y < end; ++y) {
-                for (int x = 0; x < sharp.view.width; ++x) place(x, y);
-            }
-        });
+        parallel_pixels(positions_, 16, [&](int x, int y) { place(x, y); });
     }
 
     /// Where a point lies in the picture, in pixels: 0 is the centre of the first one.
@@ -121,7 +116,6 @@ Image<Rgb> blur_estimate(const SharpEstimate& sharp, const Lens& lens,
         sharp.nodes != nullptr ? std::optional<NodeIrradiance>(*sharp.nodes) : std::nullopt;
     Image<Rgb> blurred(width, height, Rgb(0.0f));
     Image<Hit> hits(width, height);
-    std::mutex counts_mutex;
     for (int i = 0; i < blur_looks; ++i) {
         const double time = (i + 0.5) / blur_looks;
         const SampleScene keyframe = look_at(time);
@@ -134,17 +128,13 @@ Image<Rgb> blur_estimate(const SharpEstimate& sharp, const Lens& lens,
         cast_rays(keyframe.lighting.rays, make_ray, Blend::cutout, hits);
         counts.primary += hits.size();
         const Look look{sharp, reader, irradiance ? &*irradiance : nullptr, keyframe};
-        parallel_rows(height, 4, [&](int begin, int end) {
-            RayTask task(keyframe.lighting.rays, Blend::cutout);
-            for (int y = begin; y < end; ++y) {
-                for (int x = 0; x < width; ++x) {
-                    const glm::vec3 direction(make_ray(x, y).direction);
-                    blurred(x, y) += look.find(task, hits(x, y), direction, x, y) * (1.0f / blur_looks);
-                }
+        const auto look_at_row = [&](int y, RayTask& task) {
+            for (int x = 0; x < width; ++x) {
+                const glm::vec3 direction(make_ray(x, y).direction);
+                blurred(x, y) += look.find(task, hits(x, y), direction, x, y) * (1.0f / blur_looks);
             }
-            const std::lock_guard lock(counts_mutex);
-            counts += task.counts;
-        });
+        };
+        cast_parallel(height, 4, keyframe.lighting.rays, counts, look_at_row, Blend::cutout);
     }
     return blurred;
 }

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "render/frame/sequence_state.h"
 #include "render/plan/effect_picture.h"
 #include "render/settings/measure.h"
@@ -23,18 +23,14 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
     out.surface.albedo = Image<Rgb>(view.width, view.height, Rgb(0.0f));
     const glm::vec3 origin(view.position - shading.anchor);
     const glm::vec3 forward(-view.axes[2]);
-    parallel_rows(view.height, 16, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < view.width; ++x) {
-                if (centers.hits(x, y).instance == no_index) continue;
-                const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
-                out.surface.depth(x, y) = glm::dot(surface.point.position - origin, forward);
-                out.surface.normal(x, y) = surface.point.normal;
-                const SurfaceMaterial& material = surface.material;
-                out.surface.albedo(x, y) = glm::min(
-                    material.diffuse + material.gloss.f0 + material.glass.share * material.glass.tint, Rgb(1.0f));
-            }
-        }
+    parallel_pixels(centers.hits, 16, [&](int x, int y) {
+        if (centers.hits(x, y).instance == no_index) return;
+        const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
+        out.surface.depth(x, y) = glm::dot(surface.point.position - origin, forward);
+        out.surface.normal(x, y) = surface.point.normal;
+        const SurfaceMaterial& material = surface.material;
+        out.surface.albedo(x, y) =
+            glm::min(material.diffuse + material.gloss.f0 + material.glass.share * material.glass.tint, Rgb(1.0f));
     });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/pixel_loops.h"
 #include "render/frame/camera_blur.h"
 #include "render/settings/measure.h"
 
@@ -35,12 +36,9 @@ Nearest find_nearest(const FrameFacts& facts, const CameraView& view) {
 constexpr int filter_reach = 2;  // pixels to which the filter brings light of a surface, which blur may move a little
 
 bool is_near_surface(const Image<Hit>& hits, int x, int y) {
-    for (int ny = std::max(0, y - filter_reach); ny <= std::min(hits.height - 1, y + filter_reach); ++ny) {
-        for (int nx = std::max(0, x - filter_reach); nx <= std::min(hits.width - 1, x + filter_reach); ++nx) {
-            if (hits(nx, ny).instance != no_index) return true;
-        }
-    }
-    return false;
+    bool near = false;
+    visit_around(hits, x, y, filter_reach, [&](int nx, int ny) { near = near || hits(nx, ny).instance != no_index; });
+    return near;
 }
 
 VisibleFrame find_least_thresholds(const Image<Hit>& hits, const Image<float>& threshold) {
@@ -58,6 +56,24 @@ VisibleFrame find_least_thresholds(const Image<Hit>& hits, const Image<float>& t
 
 }  // namespace
 
+/// The camera's values at nine equal steps, both ends included.
+/// @param camera    index into ScenePose::cameras
+/// @param from, to  s
+std::vector<CameraValues> FramePlanner::look(int camera, double from, double to) {
+    constexpr int looks = 9;
+    std::vector<CameraValues> values;
+    for (int i = 0; i < looks; ++i) {
+        const double seconds = from + (to - from) * i / (looks - 1);
+        if (posed_) {
+            update_pose(shot_.scene, shot_.pose_plan, seconds, *posed_);
+        } else {
+            posed_ = pose(shot_.scene, seconds);
+        }
+        values.push_back(posed_->cameras[camera]);
+    }
+    return values;
+}
+
 /// How far the picture moves while the shutter is open, where only the camera moves.
 ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const FrameFacts& facts, double nearest) {
     ShutterFacts shutter;
@@ -69,7 +85,7 @@ ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const Frame
     const double open_at = interval->open / rate, close_at = interval->close / rate;
     shutter.changes = !shot_.steady.is_steady(camera, open_at, close_at);
     if (shutter.changes && !facts.sees_all && shot_.steady.is_world_steady(open_at, close_at)) {
-        shutter.blur = find_camera_blur(camera_span_.look(camera, open_at, close_at), shot_.settings.picture.width,
+        shutter.blur = find_camera_blur(look(camera, open_at, close_at), shot_.settings.picture.width,
                                         shot_.settings.picture.height, nearest, shutter.largest);
     }
     return shutter;

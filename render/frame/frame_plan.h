@@ -7,7 +7,6 @@
 #include "render/frame/shot.h"
 #include "render/pixels/sample_place.h"
 #include "render/plan/effects_plan.h"
-#include "render/time/camera_span.h"
 #include "render/time/shutter.h"
 
 namespace aleph {
@@ -38,7 +37,7 @@ struct FrameWork {
 /// Makes the effects plans of a shot's frames.
 class FramePlanner {
   public:
-    explicit FramePlanner(const Shot& shot) : shot_(shot), camera_span_(shot.scene, shot.pose_plan) {}
+    explicit FramePlanner(const Shot& shot) : shot_(shot) {}
 
     /// Plans to skip what cannot change the picture, as far as that is known before the first ray.
     FramePlan begin(const FrameWork& work, const PosedView& posed);
@@ -50,9 +49,10 @@ class FramePlanner {
   private:
     EffectsPlan make_plan(const FramePlan& plan, const std::optional<VisibleFrame>& visible) const;
     ShutterFacts find_shutter_facts(const FrameWork& work, const FrameFacts& facts, double nearest);
+    std::vector<CameraValues> look(int camera, double from, double to);
 
     const Shot& shot_;
-    CameraSpan camera_span_;
+    std::optional<ScenePose> posed_;  ///< when cameras were looked at last: only what can move is posed again
     std::optional<ShotFacts> facts_;  ///< once a frame was planned
 };
 

@@ -50,7 +50,6 @@ class StaticFrame {
 
     void keep(std::int64_t first, const FrameRequest& request, const FrameOutput& output);
     void drop() { output_.reset(); }
-    bool is_empty() const { return !output_; }
 
   private:
     std::int64_t first_ = 0;

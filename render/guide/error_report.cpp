@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "render/guide/accuracy_map.h"
 #include "render/guide/mean_around.h"
 #include "render/guide/stopping_rule.h"
@@ -22,17 +22,15 @@ struct SquaredErrors {
 SquaredErrors estimate_sampling(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
     SquaredErrors sum;
     int count = 0;
-    for (int ny = std::max(0, y - 1); ny <= std::min(pixels.height - 1, y + 1); ++ny) {
-        for (int nx = std::max(0, x - 1); nx <= std::min(pixels.width - 1, x + 1); ++nx) {
-            const PixelSamples::Error& error = pixels(nx, ny).error();
-            if (error.samples == 0 || !are_alike(outlines, x, y, nx, ny)) continue;
-            ++count;
-            sum.total += static_cast<double>(error.total) * error.samples;
-            for (std::size_t i = 0; i < sum.parts.size(); ++i) {
-                sum.parts[i] += static_cast<double>(error.parts[i]) * error.samples;
-            }
+    visit_around(pixels, x, y, 1, [&](int nx, int ny) {
+        const PixelSamples::Error& error = pixels(nx, ny).error();
+        if (error.samples == 0 || !are_alike(outlines, x, y, nx, ny)) return;
+        ++count;
+        sum.total += static_cast<double>(error.total) * error.samples;
+        for (std::size_t i = 0; i < sum.parts.size(); ++i) {
+            sum.parts[i] += static_cast<double>(error.parts[i]) * error.samples;
         }
-    }
+    });
     const double scale = count == 0 ? 0.0 : 1.0 / (static_cast<double>(count) * std::max(1, pixels(x, y).taken()));
     sum.total *= scale;
     for (double& part : sum.parts) part *= scale;
@@ -76,26 +74,21 @@ const std::array<std::string, cause_count>& cause_names() {
 }
 
 ErrorMaps estimate_errors(const ErrorInput& input) {
-    const int width = input.pixels.width, height = input.pixels.height;
     ErrorMaps maps;
     maps.reach = input.reach;
-    maps.total = Image<float>(width, height);
-    for (Image<float>& map : maps.by_cause) map = Image<float>(width, height);
-    parallel_rows(height, 4, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < width; ++x) {
-                const CauseErrors errors = find_causes(input, x, y);
-                double total = 0.0;
-                for (std::size_t i = 0; i < errors.size(); ++i) {
-                    const bool cached = i == static_cast<std::size_t>(ErrorCause::indirect);
-                    const double limit = cached ? input.threshold(x, y) : noise_allowance * input.noise(x, y);
-                    const double units = limit > 0.0 ? std::sqrt(errors[i]) * input.luminance_scale / limit : 0.0;
-                    total += units * units;
-                    maps.by_cause[i](x, y) = static_cast<float>(units);
-                }
-                maps.total(x, y) = static_cast<float>(std::sqrt(total));
-            }
+    maps.total = Image<float>(input.pixels.width, input.pixels.height);
+    maps.by_cause.fill(maps.total);
+    parallel_pixels(maps.total, 4, [&](int x, int y) {
+        const CauseErrors errors = find_causes(input, x, y);
+        double total = 0.0;
+        for (std::size_t i = 0; i < errors.size(); ++i) {
+            const bool cached = i == static_cast<std::size_t>(ErrorCause::indirect);
+            const double limit = cached ? input.threshold(x, y) : noise_allowance * input.noise(x, y);
+            const double units = limit > 0.0 ? std::sqrt(errors[i]) * input.luminance_scale / limit : 0.0;
+            total += units * units;
+            maps.by_cause[i](x, y) = static_cast<float>(units);
         }
+        maps.total(x, y) = static_cast<float>(std::sqrt(total));
     });
     return maps;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 
 namespace aleph {
 
@@ -34,25 +34,16 @@ Image<float> mean_around(const Image<float>& values, int reach, bool with_own) {
     const int width = values.width, height = values.height;
     Image<Sum> rows(width, height);
     Image<float> means(width, height);
-    parallel_rows(height, 8, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < width; ++x) {
-                for (int nx = std::max(0, x - reach); nx <= std::min(width - 1, x + reach); ++nx)
-                    rows(x, y).add(known(values(nx, y)));
-            }
-        }
+    parallel_pixels(values, 8, [&](int x, int y) {
+        for (int nx = std::max(0, x - reach); nx <= std::min(width - 1, x + reach); ++nx)
+            rows(x, y).add(known(values(nx, y)));
     });
-    parallel_rows(height, 8, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < width; ++x) {
-                Sum sum;
-                for (int ny = std::max(0, y - reach); ny <= std::min(height - 1, y + reach); ++ny)
-                    sum.add(rows(x, ny));
-                const Sum own = known(values(x, y));
-                if (!with_own && sum.count > own.count) sum.add(own, -1);
-                means(x, y) = sum.count > 0 ? static_cast<float>(std::max(0.0, sum.value) / sum.count) : -1.0f;
-            }
-        }
+    parallel_pixels(values, 8, [&](int x, int y) {
+        Sum sum;
+        for (int ny = std::max(0, y - reach); ny <= std::min(height - 1, y + reach); ++ny) sum.add(rows(x, ny));
+        const Sum own = known(values(x, y));
+        if (!with_own && sum.count > own.count) sum.add(own, -1);
+        means(x, y) = sum.count > 0 ? static_cast<float>(std::max(0.0, sum.value) / sum.count) : -1.0f;
     });
     return means;
 }

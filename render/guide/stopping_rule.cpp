@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/pixel_loops.h"
 #include "render/guide/mean_around.h"
 
 namespace aleph {
@@ -32,11 +33,9 @@ struct NoiseSum {
 template <class Counts>
 NoiseSum sum_around(const Image<PixelSamples>& pixels, int x, int y, int reach, const Counts& counts) {
     NoiseSum sum;
-    for (int ny = std::max(0, y - reach); ny <= std::min(pixels.height - 1, y + reach); ++ny) {
-        for (int nx = std::max(0, x - reach); nx <= std::min(pixels.width - 1, x + reach); ++nx) {
-            if ((nx != x || ny != y) && counts(nx, ny)) sum.add(pixels(nx, ny));
-        }
-    }
+    visit_around(pixels, x, y, reach, [&](int nx, int ny) {
+        if ((nx != x || ny != y) && counts(nx, ny)) sum.add(pixels(nx, ny));
+    });
     return sum;
 }
 

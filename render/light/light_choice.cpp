@@ -67,14 +67,6 @@ ScatteredLight choose_lambert_light(const LightingContext& context, const Surfac
             context.shading.needs_shadow_ray(sample.pdf)};
 }
 
-ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
-                            RandomStream& random) {
-    LightNumbers numbers;
-    numbers.choice = random.next();
-    numbers.point = random.next_2d();
-    return choose_light(context, lit, shares, numbers);
-}
-
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {
     if (!context.shading.has_thin_glass) {
         ++task.counts.shadow;

@@ -32,9 +32,6 @@ struct LightNumbers {
 /// @param shares  of the lobes from which directions are sampled as well, for the weights of scatter_towards
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             const LightNumbers& numbers);
-ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
-                            RandomStream& random);
-
 /// The same for a white Lambert surface whose other lobes, if any, are not sampled.
 ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
                                     const LightNumbers& numbers);

@@ -186,15 +186,11 @@ class Path {
                                   (!material.has_coat() || material.is_coat_mirror());
         if (only_mirrors) return;
         const int count = count_light_samples(state_);
-        if (count == 1) {
-            add_light(choose_light(context_, lit, shares, random_), 1.0f);
-            return;
-        }
-        const float choice = random_.next();
-        const glm::vec2 shift = random_.next_2d();
+        const LightNumbers shift{random_.next(), random_.next_2d()};
+        if (count == 1) return add_light(choose_light(context_, lit, shares, shift), 1.0f);
         for (int i = 0; i < count; ++i) {
             const float step = static_cast<float>(i) / static_cast<float>(count);
-            const LightNumbers numbers{fraction(choice + step), lattice_point(i, count, shift)};
+            const LightNumbers numbers{fraction(shift.choice + step), lattice_point(i, count, shift.point)};
             add_light(choose_light(context_, lit, shares, numbers), 1.0f / static_cast<float>(count));
         }
     }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 
 namespace aleph {
 
@@ -27,12 +27,9 @@ class OutlineFinder {
   private:
     bool has_outline(int x, int y) const {
         const int own = hits_(x, y).instance;
-        const int left = std::max(0, x - 1), right = std::min(hits_.width - 1, x + 1);
-        for (int ny = std::max(0, y - 1); ny <= std::min(hits_.height - 1, y + 1); ++ny) {
-            for (int nx = left; nx <= right; ++nx) {
-                if (hits_(nx, ny).instance != own) return true;
-            }
-        }
+        bool several = false;
+        visit_around(hits_, x, y, 1, [&](int nx, int ny) { several = several || hits_(nx, ny).instance != own; });
+        if (several) return true;
         if (own == no_index || x == 0 || y == 0 || x == hits_.width - 1 || y == hits_.height - 1) return false;
         constexpr std::array<std::array<int, 2>, 4> axes{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
         return std::ranges::any_of(axes, [&](const auto& axis) {
@@ -50,13 +47,12 @@ class OutlineFinder {
     bool moves_differently(int x, int y) const {
         if (motion_.displacement.empty()) return false;
         const glm::dvec2 own = motion_.displacement(x, y);
-        for (int ny = std::max(0, y - 1); ny <= std::min(hits_.height - 1, y + 1); ++ny) {
-            for (int nx = std::max(0, x - 1); nx <= std::min(hits_.width - 1, x + 1); ++nx) {
-                const glm::dvec2 other = motion_.displacement(nx, ny);
-                if (std::hypot(other.x - own.x, other.y - own.y) > different_motion) return true;
-            }
-        }
-        return false;
+        bool differs = false;
+        visit_around(hits_, x, y, 1, [&](int nx, int ny) {
+            const glm::dvec2 other = motion_.displacement(nx, ny);
+            differs = differs || std::hypot(other.x - own.x, other.y - own.y) > different_motion;
+        });
+        return differs;
     }
 
     const CameraView& view_;
@@ -69,11 +65,7 @@ class OutlineFinder {
 Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, const MotionField& motion) {
     Image<Outline> outlines(hits.width, hits.height);
     const OutlineFinder finder(view, hits, motion);
-    parallel_rows(hits.height, 16, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < hits.width; ++x) outlines(x, y) = finder.find(x, y);
-        }
-    });
+    parallel_pixels(hits, 16, [&](int x, int y) { outlines(x, y) = finder.find(x, y); });
     return outlines;
 }
 
@@ -82,20 +74,14 @@ void mark_contrasts(Image<Outline>& outlines, const Image<Rgb>& estimate, const 
     const float least = least_contrast * static_cast<float>(tolerated);
     const auto has_contrast = [&](int x, int y) {
         float low = luminance(estimate(x, y)), high = low;
-        for (int ny = std::max(0, y - 1); ny <= std::min(estimate.height - 1, y + 1); ++ny) {
-            for (int nx = std::max(0, x - 1); nx <= std::min(estimate.width - 1, x + 1); ++nx) {
-                low = std::min(low, luminance(estimate(nx, ny)));
-                high = std::max(high, luminance(estimate(nx, ny)));
-            }
-        }
+        visit_around(estimate, x, y, 1, [&](int nx, int ny) {
+            low = std::min(low, luminance(estimate(nx, ny)));
+            high = std::max(high, luminance(estimate(nx, ny)));
+        });
         return high - low > least * threshold(x, y);
     };
-    parallel_rows(outlines.height, 16, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < outlines.width; ++x) {
-                if (outlines(x, y) == Outline::none && has_contrast(x, y)) outlines(x, y) = Outline::still;
-            }
-        }
+    parallel_pixels(outlines, 16, [&](int x, int y) {
+        if (outlines(x, y) == Outline::none && has_contrast(x, y)) outlines(x, y) = Outline::still;
     });
 }
 

@@ -132,13 +132,13 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     /// Error that is asked for, in visible thresholds; 0: none is, and the other settings stand for themselves.
     double error = 0.0;
-    PictureSettings picture;
-    PerceptionSettings perception;
-    GuideSettings guide;
-    CacheSettings cache;
-    LightSettings light;
-    SamplingSettings sampling;
-    EffectSettings effects;
+    PictureSettings picture{};
+    PerceptionSettings perception{};
+    GuideSettings guide{};
+    CacheSettings cache{};
+    LightSettings light{};
+    SamplingSettings sampling{};
+    EffectSettings effects{};
 
     bool operator==(const RenderSettings&) const = default;
 };

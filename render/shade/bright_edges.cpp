@@ -1,9 +1,8 @@
 #include "render/shade/bright_edges.h"
 
-#include <algorithm>
 #include <array>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 
 namespace aleph {
 
@@ -46,25 +45,17 @@ void mark_small_lamps(const LightingContext& context, const CameraView& view, do
 
 Image<std::uint8_t> find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                                       double exposure) {
-    const ShadingScene& shading = context.shading;
-    const int width = centers.hits.width, height = centers.hits.height;
-    Image<std::uint8_t> seen(width, height), edges(width, height);
-    const auto for_rows = [&](const auto& visit) {
-        parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
-            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-                for (int x = 0; x < width; ++x) visit(x, y);
-        });
-    };
-    for_rows([&](int x, int y) { seen(x, y) = is_bright(shading, view, centers, x, y, exposure) ? 1 : 0; });
+    Image<std::uint8_t> seen(centers.hits.width, centers.hits.height), edges = seen;
+    parallel_pixels(seen, 16, [&](int x, int y) {
+        seen(x, y) = is_bright(context.shading, view, centers, x, y, exposure) ? 1 : 0;
+    });
     mark_small_lamps(context, view, exposure, seen);
-    for_rows([&](int x, int y) {
+    parallel_pixels(seen, 16, [&](int x, int y) {
         bool any = false, all = true;
-        for (int ny = std::max(0, y - reach); ny <= std::min(height - 1, y + reach); ++ny) {
-            for (int nx = std::max(0, x - reach); nx <= std::min(width - 1, x + reach); ++nx) {
-                any = any || seen(nx, ny) != 0;
-                all = all && seen(nx, ny) != 0;
-            }
-        }
+        visit_around(seen, x, y, reach, [&](int nx, int ny) {
+            any = any || seen(nx, ny) != 0;
+            all = all && seen(nx, ny) != 0;
+        });
         edges(x, y) = any && !all ? 1 : 0;
     });
     return edges;

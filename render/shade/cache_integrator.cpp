@@ -48,7 +48,7 @@ class CacheIntegrator final : public LightIntegrator {
         scene_ = &scene;
         shutter_.reset();
         if (blurred_ && cached_) {
-            shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_, shade_reach);
+            shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_);
         }
         shading_.emplace(
             SampleShading{.context = context_,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/pixel_loops.h"
 #include "render/guide/accuracy_map.h"
 #include "render/guide/mean_around.h"
 
@@ -11,11 +12,7 @@ namespace {
 
 float strictest_around(const Image<float>& threshold, int x, int y) {
     float least = threshold(x, y);
-    for (int ny = std::max(0, y - 1); ny <= std::min(threshold.height - 1, y + 1); ++ny) {
-        for (int nx = std::max(0, x - 1); nx <= std::min(threshold.width - 1, x + 1); ++nx) {
-            least = std::min(least, threshold(nx, ny));
-        }
-    }
+    visit_around(threshold, x, y, 1, [&](int nx, int ny) { least = std::min(least, threshold(nx, ny)); });
     return least;
 }
 

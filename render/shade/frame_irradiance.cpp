@@ -15,8 +15,7 @@ std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit
         if (const std::optional<Rgb> found = context_.carried->find(place, accuracy, task)) return found;
     }
     if (cache_ == nullptr) return std::nullopt;
-    const auto reach = static_cast<float>(shade_reach);
-    return cache_->interpolate({surface.point.position, surface.point.normal, accuracy * reach, &task});
+    return cache_->interpolate({surface.point.position, surface.point.normal, accuracy * shade_reach, &task});
 }
 
 }  // namespace aleph

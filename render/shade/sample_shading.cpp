@@ -36,8 +36,7 @@ std::optional<Rgb> read_irradiance(const SampleShading& shading, ShadingTask& ta
         found = context.carried->find(surface, accuracy, task, used);
     }
     if (!found && shading.cache != nullptr && accuracy > 0.0f) {
-        const float reach = accuracy * static_cast<float>(shade_reach);
-        CacheQuery query{surface.point.position, surface.point.normal, reach, &task};
+        CacheQuery query{surface.point.position, surface.point.normal, accuracy * shade_reach, &task};
         query.used = used;
         ++task.lookups;
         found = shading.cache->interpolate(query);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 
 namespace aleph {
 
@@ -20,13 +20,6 @@ const TextureUse* find_base_color(const ShadingScene& shading, const Hit& hit) {
     const MaterialTextures& textures = shading.textures->materials[shading.instances[hit.instance].material];
     const TextureUse& use = textures[TextureSlot::base_color];
     return textures.any && use.texture != no_index ? &use : nullptr;
-}
-
-/// Calls visit(x, y) for the pixel and those around it.
-template <class Visit>
-void visit_around(int width, int height, int x, int y, const Visit& visit) {
-    for (int ny = std::max(0, y - 1); ny <= std::min(height - 1, y + 1); ++ny)
-        for (int nx = std::max(0, x - 1); nx <= std::min(width - 1, x + 1); ++nx) visit(nx, ny);
 }
 
 UvFootprint find_footprint(const CameraView& view, const PixelSurface& surface, int uv_set) {
@@ -102,29 +95,24 @@ TextureControl::TextureControl(const ShadingScene& shading, const CameraView& vi
       centers_(centers),
       scales_(view.width, view.height),
       corrects_(view.width, view.height) {
-    parallel_rows(view.height, 16, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < view.width; ++x) {
-                const Hit& hit = centers.hits(x, y);
-                const TextureUse* const texture = hit.instance == no_index ? nullptr : find_base_color(shading, hit);
-                if (texture == nullptr) continue;
-                const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
-                const Rgb radiance = estimate(x, y) / static_cast<float>(exposure);
-                scales_(x, y) = find_scale(shading, view, surface, *texture, radiance);
-                bool is_alone = true;
-                visit_around(view.width, view.height, x, y, [&](int nx, int ny) {
-                    is_alone = is_alone && centers.hits(nx, ny).instance == hit.instance;
-                });
-                corrects_(x, y) = is_alone ? 1 : 0;
-            }
-        }
+    parallel_pixels(centers.hits, 16, [&](int x, int y) {
+        const Hit& hit = centers.hits(x, y);
+        const TextureUse* const texture = hit.instance == no_index ? nullptr : find_base_color(shading, hit);
+        if (texture == nullptr) return;
+        const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
+        const Rgb radiance = estimate(x, y) / static_cast<float>(exposure);
+        scales_(x, y) = find_scale(shading, view, surface, *texture, radiance);
+        bool is_alone = true;
+        visit_around(centers.hits, x, y, 1,
+                     [&](int nx, int ny) { is_alone = is_alone && centers.hits(nx, ny).instance == hit.instance; });
+        corrects_(x, y) = is_alone ? 1 : 0;
     });
 }
 
 PixelTexture TextureControl::find_texture(int x, int y) const {
     // A highlight on a dark texel makes a scale of tens, and noise in one pixel that none around it tells of.
     Rgb scale = scales_(x, y);
-    visit_around(view_.width, view_.height, x, y, [&](int nx, int ny) { scale = glm::min(scale, scales_(nx, ny)); });
+    visit_around(scales_, x, y, 1, [&](int nx, int ny) { scale = glm::min(scale, scales_(nx, ny)); });
     const PixelSurface surface = make_pixel_surface(shading_, view_, centers_, x, y);
     return {shading_, view_, surface, *find_base_color(shading_, centers_.hits(x, y)), scale};
 }
@@ -133,7 +121,7 @@ void TextureControl::choose(std::span<const PixelRange> stage, const Image<Pixel
     for (const PixelRange& range : stage) {
         if (range.first == 0 || !corrects(range.x, range.y)) continue;
         float corrected = 0.0f, uncorrected = 0.0f;
-        visit_around(view_.width, view_.height, range.x, range.y, [&](int x, int y) {
+        visit_around(pixels, range.x, range.y, 1, [&](int x, int y) {
             corrected += pixels(x, y).error().total;
             uncorrected += pixels(x, y).error().uncorrected;
         });

@@ -28,17 +28,12 @@ glm::vec3 to_direction(const glm::vec2& uv) {
     return {sine * std::sin(azimuth), std::cos(polar), -sine * std::cos(azimuth)};
 }
 
-/// Finite and not negative, channel by channel.
-Rgb clean(const Rgb& value, std::size_t& changed) {
-    Rgb out = value;
-    bool bad = false;
+/// Channels that are NaN, infinite or negative become 0.
+Rgb clean(Rgb value) {
     for (int c = 0; c < 3; ++c) {
-        if (std::isfinite(out[c]) && out[c] >= 0.0f) continue;
-        out[c] = 0.0f;
-        bad = true;
+        if (!(std::isfinite(value[c]) && value[c] >= 0.0f)) value[c] = 0.0f;
     }
-    changed += bad ? 1 : 0;
-    return out;
+    return value;
 }
 
 /// Mean luminance of the bilinear picture over a texel: the neighbours count by 1/8 along each axis.
@@ -120,7 +115,7 @@ EnvironmentMap make_environment_map(const SceneImage& image) {
     map.texels = Image<Rgb>(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            map.texels(x, y) = clean(Rgb(read_texel(image, x, y, TextureSpace::srgb)), map.cleaned);
+            map.texels(x, y) = clean(Rgb(read_texel(image, x, y, TextureSpace::srgb)));
         }
     }
     if (!map.texels.empty()) build_distribution(map);

@@ -18,7 +18,6 @@ struct EnvironmentMap {
     std::vector<float> rows;           ///< height values; the last is 1
     std::vector<float> columns;        ///< width values per row; the last of a row is 1
     std::vector<float> probabilities;  ///< per texel
-    std::size_t cleaned = 0;           ///< texels that were NaN, infinite or negative; those values became 0
     bool black = true;                 ///< every texel is 0
     double mean_luminance = 0.0;       ///< over the sphere
 

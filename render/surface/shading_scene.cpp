@@ -42,9 +42,8 @@ T interpolate(const std::vector<T>& values, const glm::uvec3& t, float u, float 
 void add(SceneBounds& bounds, const PosedInstance& instance) {
     if (!instance.visible) return;
     for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) {
-        const glm::vec3 world = instance.linear * instance.corner(v) + instance.translation;
-        bounds.low = glm::min(bounds.low, world);
-        bounds.high = glm::max(bounds.high, world);
+        bounds.low = glm::min(bounds.low, instance.place(v));
+        bounds.high = glm::max(bounds.high, instance.place(v));
     }
 }
 
@@ -155,6 +154,16 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const Ray
         instance = make_instance(shading, rays, i);
         add(shading.bounds.all, instance);
     }
+}
+
+BoundingSphere find_sphere(const PosedInstance& instance) {
+    SceneBounds box;
+    add(box, instance);
+    BoundingSphere sphere{0.5f * (box.low + box.high)};
+    for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) {
+        sphere.radius = std::max(sphere.radius, glm::length(instance.place(v) - sphere.center));
+    }
+    return sphere;
 }
 
 Rgb environment_radiance(const ShadingScene& shading, const glm::vec3& direction) {

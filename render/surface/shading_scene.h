@@ -34,6 +34,8 @@ struct PosedInstance {
     glm::vec3 corner(std::uint32_t vertex) const {
         return deformed == nullptr ? mesh->positions[vertex] : glm::vec3(deformed->positions[vertex]);
     }
+    /// m, relative to the anchor.
+    glm::vec3 place(std::uint32_t vertex) const { return linear * corner(vertex) + translation; }
     const std::vector<glm::vec3>& vertex_normals() const {
         return deformed == nullptr ? mesh->normals : deformed->normals;
     }
@@ -52,6 +54,12 @@ struct ShadingMaterial {
 /// m, relative to the anchor. If empty, `low` is infinite.
 struct SceneBounds {
     glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+};
+
+/// m, relative to the anchor.
+struct BoundingSphere {
+    glm::vec3 center{0.0f};
+    float radius = 0.0f;
 };
 
 /// Bounds of the visible instances.
@@ -96,6 +104,9 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
 /// Updates it after update_pose(plan) changed *shading.pose. The result equals that of make_shading_scene, but only the
 /// instances and materials that the plan names are computed again; if the anchor moved, everything is.
 void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const RayScene& rays);
+
+/// Around the vertices of a visible instance.
+BoundingSphere find_sphere(const PosedInstance& instance);
 
 /// Radiance that a ray meets which hits nothing.
 /// @param direction  unit, world

@@ -20,7 +20,7 @@ struct Span {
     double weights[4] = {};
 };
 
-/// For output i when `from` values become `to`. from / to is in [2, 3], so at most four inputs overlap an output.
+/// For output i when `from` values become `to`. from / to is 1 or in [2, 3], so at most four inputs overlap an output.
 Span find_span(int i, int from, int to) {
     const double scale = static_cast<double>(from) / to;
     const double begin = i * scale, end = begin + scale;
@@ -37,17 +37,9 @@ Span find_span(int i, int from, int to) {
     return span;
 }
 
-Span one_to_one(int i) {
-    Span span;
-    span.first = i;
-    span.count = 1;
-    span.weights[0] = 1.0;
-    return span;
-}
-
 std::vector<Span> find_spans(int from, int to) {
     std::vector<Span> spans;
-    for (int i = 0; i < to; ++i) spans.push_back(from == to ? one_to_one(i) : find_span(i, from, to));
+    for (int i = 0; i < to; ++i) spans.push_back(find_span(i, from, to));
     return spans;
 }
 

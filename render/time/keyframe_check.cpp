@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/pixel_loops.h"
 #include "render/cache/gather_at.h"
 
 namespace aleph {
@@ -16,25 +17,9 @@ constexpr float near_form_factor = 0.25f;
 constexpr float noise_deviations = 1.5f;  // of a probe, by which it may differ although nothing happened
 constexpr std::uint8_t still_bit = 1, moving_bit = 2;
 
-/// Around the vertices of an instance; relative to `anchor`.
-KeyframeRisk::Sphere bound_instance(const ShadingScene& shading, int i, const glm::dvec3& anchor) {
-    const PosedInstance& instance = shading.instances[i];
-    const auto count = static_cast<std::uint32_t>(instance.mesh->positions.size());
-    const auto place = [&](std::uint32_t v) { return instance.linear * instance.corner(v) + instance.translation; };
-    SceneBounds box;
-    for (std::uint32_t v = 0; v < count; ++v) {
-        box.low = glm::min(box.low, place(v));
-        box.high = glm::max(box.high, place(v));
-    }
-    const glm::vec3 center = 0.5f * (box.low + box.high);
-    float radius = 0.0f;
-    for (std::uint32_t v = 0; v < count; ++v) radius = std::max(radius, glm::length(place(v) - center));
-    return {center + glm::vec3(shading.anchor - anchor), radius};
-}
-
 /// The cosine-weighted share of a hemisphere that a sphere hides is at most (radius / distance)^2.
 bool is_near(const KeyframeRisk& risk, const glm::vec3& position, float accuracy) {
-    return std::ranges::any_of(risk.movers, [&](const KeyframeRisk::Sphere& mover) {
+    return std::ranges::any_of(risk.movers, [&](const BoundingSphere& mover) {
         const glm::vec3 way = position - mover.center;
         return mover.radius * mover.radius > near_form_factor * accuracy * glm::dot(way, way);
     });
@@ -49,7 +34,9 @@ KeyframeRisk find_keyframe_risk(const ShadingScene& shading, const PosePlan& pla
     for (const int i : plan.instances) risk.moving[i] = 1;
     const auto add = [&](const ShadingScene& at) {
         for (const int i : plan.instances) {
-            if (at.instances[i].visible) risk.movers.push_back(bound_instance(at, i, shading.anchor));
+            if (!at.instances[i].visible) continue;
+            risk.movers.push_back(find_sphere(at.instances[i]));
+            risk.movers.back().center += glm::vec3(at.anchor - shading.anchor);
         }
     };
     add(shading);
@@ -97,11 +84,8 @@ void CheckedLight::add_probes(const IndirectContext& context, int tile_x, int ti
 
 void CheckedLight::reject(const Probe& probe) {
     const int x = probe.x / tile_pixels, y = probe.y / tile_pixels;
-    for (int v = std::max(0, y - probe.reach); v <= std::min(rejected_.height - 1, y + probe.reach); ++v) {
-        for (int u = std::max(0, x - probe.reach); u <= std::min(rejected_.width - 1, x + probe.reach); ++u) {
-            rejected_(u, v) |= probe.moving ? moving_bit : still_bit;
-        }
-    }
+    visit_around(rejected_, x, y, probe.reach,
+                 [&](int u, int v) { rejected_(u, v) |= probe.moving ? moving_bit : still_bit; });
 }
 
 bool CheckedLight::differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe,

@@ -14,12 +14,9 @@ namespace aleph {
 
 /// Where the light of a frame may differ from that of the lighting keyframes around it.
 struct KeyframeRisk {
-    struct Sphere {
-        glm::vec3 center{0.0f};  ///< m, relative to the frame's anchor
-        float radius = 0.0f;     ///< m
-    };
     std::vector<std::uint8_t> moving;  ///< per instance: it moves, deforms, comes or goes
-    std::vector<Sphere> movers;        ///< around moving instances, at the frame and at the lighting keyframes
+    /// Around moving instances, at the frame and at the lighting keyframes; relative to the frame's anchor.
+    std::vector<BoundingSphere> movers;
 };
 
 /// @param shading  of the frame

@@ -80,19 +80,11 @@ KeyframeLight make_keyframe_light(std::shared_ptr<const KeyPose> at, const std::
     return keyframe;
 }
 
-BlendedLight::BlendedLight(std::shared_ptr<const KeyframeLight> before, std::shared_ptr<const KeyframeLight> after,
-                           double weight, bool still, double reach)
-    : before_(std::move(before)),
-      after_(std::move(after)),
-      weight_(static_cast<float>(weight)),
-      still_(still),
-      reach_(static_cast<float>(reach)) {}
-
 std::optional<Rgb> BlendedLight::read(const KeyframeLight& keyframe, const PixelSurface& surface, float accuracy,
                                       RayTask& task, RecordUse& used) const {
     const std::optional<SurfacePoint> point = carry_point(keyframe.at->shading, surface.hit, surface.point);
     if (!point) return std::nullopt;
-    CacheQuery query{point->position, point->normal, accuracy * reach_};
+    CacheQuery query{point->position, point->normal, accuracy * shade_reach};
     query.used = &used;
     // A surface that turned would need rays in the keyframe's own scene.
     if (point->edges[0] == surface.point.edges[0] && point->edges[1] == surface.point.edges[1]) {

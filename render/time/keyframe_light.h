@@ -62,9 +62,9 @@ class BlendedLight : public CarriedLight {
     /// @param after   null at a keyframe itself
     /// @param weight  of `after`
     /// @param still   nothing but the camera changes: light that only one of the keyframes has holds at the other
-    /// @param reach   shade_reach
     BlendedLight(std::shared_ptr<const KeyframeLight> before, std::shared_ptr<const KeyframeLight> after, double weight,
-                 bool still, double reach);
+                 bool still)
+        : before_(std::move(before)), after_(std::move(after)), weight_(static_cast<float>(weight)), still_(still) {}
 
     /// Light of keyframes nearer to the frame, for what these keyframes do not know.
     void set_finer(std::unique_ptr<const BlendedLight> finer) { finer_ = std::move(finer); }
@@ -80,7 +80,6 @@ class BlendedLight : public CarriedLight {
     std::shared_ptr<const KeyframeLight> before_, after_;
     float weight_;
     bool still_;
-    float reach_;
     std::unique_ptr<const BlendedLight> finer_;
 };
 

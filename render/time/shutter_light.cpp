@@ -11,31 +11,6 @@ namespace aleph {
 
 namespace {
 
-glm::vec3 place_vertex(const PosedInstance& instance, std::uint32_t vertex) {
-    return instance.linear * instance.corner(vertex) + instance.translation;
-}
-
-/// A sphere around an instance.
-struct Ball {
-    glm::vec3 center{0.0f};
-    float radius = 0.0f;
-};
-
-Ball enclose(const PosedInstance& instance) {
-    glm::vec3 low(infinite), high(-infinite);
-    const auto count = static_cast<std::uint32_t>(instance.mesh->positions.size());
-    for (std::uint32_t v = 0; v < count; ++v) {
-        const glm::vec3 place = place_vertex(instance, v);
-        low = glm::min(low, place);
-        high = glm::max(high, place);
-    }
-    Ball ball{0.5f * (low + high)};
-    for (std::uint32_t v = 0; v < count; ++v) {
-        ball.radius = std::max(ball.radius, glm::length(place_vertex(instance, v) - ball.center));
-    }
-    return ball;
-}
-
 bool is_at_rest(const PosedInstance& frame, const PosedInstance& sample, const glm::vec3& shift) {
     if (frame.visible != sample.visible) return false;
     if (!frame.visible) return true;
@@ -50,7 +25,7 @@ bool is_at_rest(const PosedInstance& frame, const PosedInstance& sample, const g
 float find_longest_way(const PosedInstance& frame, const PosedInstance& sample, const glm::vec3& shift) {
     float way = 0.0f;
     for (std::uint32_t v = 0; v < frame.mesh->positions.size(); ++v) {
-        way = std::max(way, glm::length(place_vertex(sample, v) + shift - place_vertex(frame, v)));
+        way = std::max(way, glm::length(sample.place(v) + shift - frame.place(v)));
     }
     return way;
 }
@@ -69,7 +44,8 @@ std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingSc
         const PosedInstance &before = frame.instances[i], &after = sample.instances[i];
         if (is_at_rest(before, after, shift)) continue;
         const bool both = before.visible && after.visible;
-        const Ball first = enclose(before.visible ? before : after), last = enclose(after.visible ? after : before);
+        const BoundingSphere first = find_sphere(before.visible ? before : after),
+                             last = find_sphere(after.visible ? after : before);
         ShutterMover mover{i, {first.center, last.center}, std::max(first.radius, last.radius), infinite};
         if (after.visible) mover.centers[1] += shift;
         if (!before.visible) mover.centers[0] += shift;
@@ -100,7 +76,7 @@ std::optional<Rgb> ShutterLight::read(const PixelSurface& still, float accuracy,
         if (const std::optional<Rgb> found = carried_->find(still, accuracy, task, &used)) return found;
     }
     if (cache_ == nullptr) return std::nullopt;
-    CacheQuery query{still.point.position, still.point.normal, accuracy * reach_, &task};
+    CacheQuery query{still.point.position, still.point.normal, accuracy * shade_reach, &task};
     query.used = &used;
     return cache_->interpolate(query);
 }

@@ -45,14 +45,12 @@ class ShutterLight {
     /// @param sample   at the sample's time
     /// @param carried  light of lighting keyframes at the frame's time; may be null
     /// @param cache    the frame's own; may be null
-    /// @param reach    shade_reach, of look-ups in `cache`
     ShutterLight(const ShadingScene& frame, const ShadingScene& sample, const CarriedLight* carried,
-                 const IrradianceCache* cache, double reach)
+                 const IrradianceCache* cache)
         : frame_(frame),
           shift_(sample.anchor - frame.anchor),
           carried_(carried),
           cache_(cache),
-          reach_(static_cast<float>(reach)),
           movers_(find_movers(frame, sample)) {}
 
     /// Irradiance at a surface of the sample's time, where it is known to this accuracy. Any thread may call it.
@@ -68,7 +66,6 @@ class ShutterLight {
     glm::vec3 shift_;  ///< m, from the coordinates of the sample's time to those of the frame's
     const CarriedLight* carried_;
     const IrradianceCache* cache_;
-    float reach_;
     std::vector<ShutterMover> movers_;
 };
 

@@ -7,18 +7,16 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
-#include <functional>
 #include <limits>
 
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
-#include "engine/pose/posed_view.h"
 #include "render/cache/gather.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/settings/settings.h"
 #include "tests/benchmarks/recorded_rays.h"
 #include "tests/benchmarks/thread_seconds.h"
+#include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {
@@ -27,43 +25,21 @@ constexpr int rounds = 5;
 constexpr int across = 24, down = 18;       // points over the frame
 constexpr std::size_t points_at_once = 64;  // between two insertions into the direct grid
 
-/// The least time of several runs, s.
-class Best {
-  public:
-    explicit Best(clockid_t clock) : clock_(clock) {}
-    void time(const std::function<void()>& run, double per = 1.0) {
-        const double start = seconds_now(clock_);
-        run();
-        least = std::min(least, (seconds_now(clock_) - start) / per);
-    }
-    double least = std::numeric_limits<double>::infinity();
-
-  private:
-    clockid_t clock_;
-};
-
-/// Data of a frame that gathers need.
-struct Frame {
-    Frame(const Scene& scene, std::int64_t number, int width, int height)
-        : posed(make_posed_view(scene, scene.film.frame_rate.seconds_of(number), 0, width, height)),
-          textures(make_texture_set(scene)),
-          rays(scene),
-          shading((rays.update(posed.pose, compute_anchor(posed.view)),
-                   make_shading_scene(scene, posed.pose, rays, textures))),
-          lights(make_light_set(shading)) {
-        const SampleHits centers = cast_centers(rays, posed.view, nullptr);
+/// A frame, and points on its surfaces.
+struct Frame : Stage {
+    Frame(const Scene& of, std::int64_t number, int width, int height)
+        : Stage(of, width, height, of.film.frame_rate.seconds_of(number)) {
+        const SampleHits centers = cast_centers(rays, view, nullptr);
         for (int y = height / (2 * down); y < height; y += height / down) {
             for (int x = width / (2 * across); x < width; x += width / across) {
                 if (centers.hits(x, y).instance == no_index) continue;
-                const PixelSurface surface = make_pixel_surface(shading, posed.view, centers, x, y);
+                const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
                 if (surface.material.has_diffuse()) points.push_back(surface.point);
             }
         }
     }
-
     /// Gathers at every point. @return the rays cast
     RayCounts gather(const HemisphereStrata& strata, std::uint32_t seed, bool with_grid) const {
-        const LightingContext lighting{shading, lights, rays};
         std::vector<RayCounts> counts(points.size());
         std::vector<std::vector<DirectSample>> found(points_at_once);
         DirectGrid grid;
@@ -76,7 +52,7 @@ struct Frame {
                 GatherOptions options{depth, nullptr, nullptr};
                 if (with_grid) options = {depth, &grid, &found[i]};
                 const RandomKey key{seed, 0, static_cast<std::uint32_t>(first + i), 0};
-                gather_irradiance(lighting, task, points[first + i], {strata, key}, scratch, options);
+                gather_irradiance(lighting(), task, points[first + i], {strata, key}, scratch, options);
                 counts[first + i] = task.counts;
             });
             for (std::size_t i = 0; i < count; ++i) grid.insert(found[i]);
@@ -87,11 +63,6 @@ struct Frame {
     }
 
     int depth = 0;  ///< GatherOptions
-    PosedView posed;
-    TextureSet textures;
-    RayScene rays;
-    ShadingScene shading;
-    LightSet lights;
     std::vector<SurfacePoint> points;
 };
 
@@ -134,11 +105,7 @@ void measure(const Frame& frame, const RawEmbree& raw, const HemisphereStrata& s
                one_thread.least / two_threads.least, 2.0 * gathering.least / two_processors.least);
 }
 
-int run(int argc, char** argv) {
-    if (argc < 2) {
-        fmt::print(stderr, "usage: bench_gather SCENE [FRAME [WIDTHxHEIGHT [GATHER]]]\n");
-        return 2;
-    }
+void run(int argc, char** argv) {
     const Scene scene = load_scene(argv[1]);
     RenderSettings settings;
     apply_settings(settings,
@@ -146,22 +113,17 @@ int run(int argc, char** argv) {
                    "command line");
     Frame frame(scene, argc > 2 ? std::atoll(argv[2]) : 0, settings.picture.width, settings.picture.height);
     frame.depth = std::max(0, settings.light.path_depth - 2);
-    const RawEmbree raw(scene, frame.posed.pose, origin_of_recorded(frame.rays, frame.posed.pose));
+    const RawEmbree raw(scene, frame.frame, origin_of_recorded(frame.rays, frame.frame));
     const HemisphereStrata strata = choose_strata(settings.cache.gather);
 
     fmt::print("{}: {} points, {} gather rays each\n", argv[1], frame.points.size(), strata.count());
     for (const bool with_grid : {false, true}) measure(frame, raw, strata, with_grid);
-    return 0;
 }
 
 }  // namespace
 }  // namespace aleph
 
 int main(int argc, char** argv) {
-    try {
-        return aleph::run(argc, argv);
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "bench_gather: {}\n", e.what());
-        return 1;
-    }
+    return aleph::run_benchmark(argc, "bench_gather SCENE [FRAME [WIDTHxHEIGHT [GATHER]]]",
+                                [&] { aleph::run(argc, argv); });
 }

@@ -74,7 +74,8 @@ int run(int argc, char** argv) {
     };
     const Method one = [](const Stage& stage, RayTask& task, const ViewedSurface& surface, std::uint32_t seed) {
         RandomStream random({seed, 0, 0, 0});
-        const ScatteredLight light = choose_light(stage.lighting(), LitSurface(surface), {}, random);
+        const LightNumbers numbers{random.next(), random.next_2d()};
+        const ScatteredLight light = choose_light(stage.lighting(), LitSurface(surface), {}, numbers);
         return light.radiance == Rgb(0.0f)
                    ? light.radiance
                    : light.radiance * find_transmittance(stage.lighting(), task, light.shadow_ray);

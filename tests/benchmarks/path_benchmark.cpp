@@ -4,28 +4,17 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/posed_view.h"
 #include "render/frame/sequence.h"
 #include "tests/benchmarks/recorded_rays.h"
+#include "tests/benchmarks/thread_seconds.h"
 
 namespace aleph {
 namespace {
 
-double seconds_of(const std::function<void()>& run) {
-    const auto start = std::chrono::steady_clock::now();
-    run();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-int run(int argc, char** argv) {
-    if (argc < 2) {
-        fmt::print(stderr, "usage: bench_path SCENE.json [FRAME [WIDTHxHEIGHT [SAMPLES]]]\n");
-        return 2;
-    }
+void run(int argc, char** argv) {
     const Scene scene = load_scene(argv[1]);
     RenderSettings settings;
     settings.perception.guide = Guide::none;
@@ -56,24 +45,19 @@ int run(int argc, char** argv) {
     for (const auto& [name, packets] : {std::pair("single rays", RawEmbree::Packets::none),
                                         std::pair("packets of 16", RawEmbree::Packets::incoherent)}) {
         shade(2);  // other rays
-        const double seconds = seconds_of([&] { raw.trace(recorded, packets); });
+        const double seconds = seconds_of([&] { raw.trace(recorded, packets); }, CLOCK_MONOTONIC);
         const double rate = static_cast<double>(recorded.size()) / seconds;
         best = std::max(best, rate);
         fmt::print("  Embree alone, {:<14} {:8.2f} Mray/s\n", name, 1e-6 * rate);
     }
     fmt::print("  path tracer                  {:8.2f} Mray/s, {:.2f} of the best\n", 1e-6 * rays / path_seconds,
                rays / path_seconds / best);
-    return 0;
 }
 
 }  // namespace
 }  // namespace aleph
 
 int main(int argc, char** argv) {
-    try {
-        return aleph::run(argc, argv);
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "bench_path: {}\n", e.what());
-        return 1;
-    }
+    return aleph::run_benchmark(argc, "bench_path SCENE.json [FRAME [WIDTHxHEIGHT [SAMPLES]]]",
+                                [&] { aleph::run(argc, argv); });
 }

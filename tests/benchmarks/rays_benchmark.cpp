@@ -27,13 +27,6 @@
 namespace aleph {
 namespace {
 
-/// Processor time of this thread.
-double seconds_of(const std::function<void()>& run) {
-    const double start = seconds_now();
-    run();
-    return seconds_now() - start;
-}
-
 bool count_bytes(void* sum, ssize_t bytes, bool) {
     *static_cast<std::atomic<std::ptrdiff_t>*>(sum) += bytes;
     return true;
@@ -235,11 +228,7 @@ void run(const Scene& scene, const PosedView& posed) {
 
 int main(int argc, char** argv) {
     using namespace aleph;
-    if (argc < 2) {
-        fmt::print(stderr, "usage: bench_rays SCENE [FRAME [WIDTHxHEIGHT]]\n");
-        return 2;
-    }
-    try {
+    return run_benchmark(argc, "bench_rays SCENE [FRAME [WIDTHxHEIGHT]]", [&] {
         const ThreadLimit one(1);
         const FlushDenormals flush;
         const Scene scene = load_scene(argv[1]);
@@ -248,9 +237,5 @@ int main(int argc, char** argv) {
         if (argc > 3) std::sscanf(argv[3], "%dx%d", &width, &height);
         run(scene, make_posed_view(scene, scene.film.frame_rate.seconds_of(frame), CameraNames(scene).find(""), width,
                                    height));
-        return 0;
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "bench_rays: {}\n", e.what());
-        return 1;
-    }
+    });
 }

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdlib>
 
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "render/frame/frame_scene.h"
 #include "render/time/shutter.h"
+#include "tests/benchmarks/thread_seconds.h"
 #include "tests/support/deforming_scenes.h"
 #include "tests/support/first_hits.h"
 #include "tests/support/render_scenes.h"
@@ -19,16 +19,6 @@ namespace {
 
 constexpr int width = 640, height = 480, poses = 32;
 constexpr double half_a_frame = 0.5;
-
-class Stopwatch {
-  public:
-    double milliseconds() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 Scene make_ground() {
     Scene scene;
@@ -78,16 +68,14 @@ void measure(const std::string& name, Scene scene, std::int64_t frame) {
     move_to(0);
     double moving = 0.0, finding = 0.0, casting = 0.0;
     std::size_t movers = 0;
+    constexpr double milliseconds = 1000.0 / poses;
     for (int i = 1; i <= poses; ++i) {
-        const Stopwatch move;
+        const double before = seconds_now(CLOCK_MONOTONIC);
         const SampleScene at = move_to(i);
-        moving += move.milliseconds() / poses;
-        const Stopwatch find;
-        movers = find_movers(here.shading(), at.lighting.shading).size();
-        finding += find.milliseconds() / poses;
-        const Stopwatch cast;
-        cast_first_hits(at.lighting.rays, at.view);
-        casting += cast.milliseconds() / poses;
+        moving += milliseconds * (seconds_now(CLOCK_MONOTONIC) - before);
+        finding += milliseconds * seconds_of([&] { movers = find_movers(here.shading(), at.lighting.shading).size(); },
+                                             CLOCK_MONOTONIC);
+        casting += milliseconds * seconds_of([&] { cast_first_hits(at.lighting.rays, at.view); }, CLOCK_MONOTONIC);
     }
     fmt::print("{:<24}{:>8}{:>12.3f}{:>12.3f}{:>12.1f}{:>12.3f}\n", name, movers, moving, finding, casting,
                time_classes * (moving + finding) / casting);

@@ -59,9 +59,7 @@ struct Cost {
 };
 
 Cost measure(const Scene& scene, int width, int picture_height, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
-    RenderSettings settings;
-    settings.picture.width = width;
-    settings.picture.height = picture_height;
+    RenderSettings settings{.picture = {.width = width, .height = picture_height}};
     follow_error(settings, 1.0);
     const ScenePose posed = pose(scene, 0.0);
     const double first = seconds_now(clock);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -19,7 +18,9 @@
 #include "render/light/lights.h"
 #include "render/surface/shading_scene.h"
 #include "render/surface/texture.h"
+#include "tests/benchmarks/thread_seconds.h"
 #include "tests/support/first_hits.h"
+#include "tests/support/keyed_track.h"
 
 namespace aleph {
 namespace {
@@ -43,13 +44,8 @@ Scene make_field(int objects) {
         const glm::dvec3 at(2.0 * (i % columns), i == 0 ? 9.0 : 0.0, 2.0 * (i / columns));
         node.transform.translation = at;
         if (i % (objects / movers) == 5) {
-            Track<glm::dvec3> slide(at);
-            slide.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 10.0}};
-            slide.values.push_back(at + glm::dvec3(0.0, 3.0, 0.0));
-            node.transform.translation = slide;
-            Track<double> angle(0.0);
-            angle.sampling = slide.sampling;
-            angle.values.push_back(i < objects / movers ? 900.0 : 9.0);
+            node.transform.translation = keyed<glm::dvec3>({0.0, 10.0}, {at, at + glm::dvec3(0.0, 3.0, 0.0)});
+            const Track<double> angle = keyed<double>({0.0, 10.0}, {0.0, i < objects / movers ? 900.0 : 9.0});
             node.transform.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, angle};
         }
         scene.nodes.push_back(node);
@@ -61,34 +57,15 @@ Scene make_field(int objects) {
     return scene;
 }
 
-using Clock = std::chrono::steady_clock;
-
-/// Time of the fastest call, ms: other programs may run on the machine.
-class Best {
-  public:
-    template <class Work>
-    void time(const Work& work) {
-        const auto start = Clock::now();
-        work();
-        milliseconds_ =
-            std::min(milliseconds_, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-    }
-    double milliseconds() const { return milliseconds_; }
-
-  private:
-    double milliseconds_ = 1e30;
-};
-
 struct Row {
     const char* name;
-    Best best;
+    Best best{};
 };
 
 std::vector<Row> measure(int objects) {
-    std::vector<Row> rows = {{"pose afresh", {}}, {"pose update", {}},      {"rays afresh", {}},
-                             {"rays update", {}}, {"shading afresh", {}},   {"shading update", {}},
-                             {"lights", {}},      {"motion", {}},           {"hidden points", {}},
-                             {"all updates", {}}, {"build of the rays", {}}};
+    std::vector<Row> rows = {{"pose afresh"},    {"pose update"},    {"rays afresh"},      {"rays update"},
+                             {"shading afresh"}, {"shading update"}, {"lights"},           {"motion"},
+                             {"hidden points"},  {"all updates"},    {"build of the rays"}};
     const Scene scene = make_field(objects);
     const TextureSet textures = make_texture_set(scene);
     const PosePlan plan = make_pose_plan(scene);
@@ -134,8 +111,8 @@ void print_table() {
     fmt::print("{:>12}\n", "ratio");
     for (std::size_t row = 0; row < columns[0].size(); ++row) {
         fmt::print("{:<20}", columns[0][row].name);
-        for (const std::vector<Row>& column : columns) fmt::print("{:>12.4f}", column[row].best.milliseconds());
-        fmt::print("{:>12.1f}\n", columns.back()[row].best.milliseconds() / columns[0][row].best.milliseconds());
+        for (const std::vector<Row>& column : columns) fmt::print("{:>12.4f}", 1e3 * column[row].best.least);
+        fmt::print("{:>12.1f}\n", columns.back()[row].best.least / columns[0][row].best.least);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "engine/scene/operations.h"
 #include "engine/scene/visit.h"
 
 namespace aleph {
@@ -22,14 +23,10 @@ void scale_stack(OperationStack& stack, double factor) {
     using Kind = OperationStack::Kind;
     for (std::size_t channel = 0; channel < stack.channels.size();) {
         for (const Kind kind : stack.operations) {
-            const std::size_t size = kind == Kind::matrix                             ? 16
-                                     : kind == Kind::translate || kind == Kind::scale ? 3
-                                     : kind == Kind::rotate                           ? 4
-                                                                                      : 1;
             const std::size_t first = kind == Kind::matrix ? 12 : 0;
             if (kind == Kind::translate || kind == Kind::matrix)
                 for (std::size_t i = first; i < first + 3; ++i) stack.channels[channel + i] *= factor;
-            channel += size;
+            channel += channel_count(kind);
         }
     }
 }
@@ -149,7 +146,7 @@ void place_below(Scene& scene, const glm::dvec3& translation, const glm::dquat& 
     for (glm::dquat& value : scene.environment.rotation.values) value = rotation * value;
 }
 
-std::vector<int> reverse_nodes(Scene& scene) {
+void reverse_nodes(Scene& scene) {
     const int count = static_cast<int>(scene.nodes.size());
     std::vector<int> depth(count, 0), order(count), place(count);
     for (int i = 0; i < count; ++i) {
@@ -168,7 +165,6 @@ std::vector<int> reverse_nodes(Scene& scene) {
     for (Skin& skin : scene.skins)
         for (int& joint : skin.joints) joint = place[joint];
     for (Include& include : scene.source.includes) include.node = place[include.node];
-    return place;
 }
 
 void rename_everything(Scene& scene) {

@@ -21,8 +21,7 @@ void reverse_time(Scene& scene);
 void place_below(Scene& scene, const glm::dvec3& translation, const glm::dquat& rotation);
 
 /// Children and roots in the opposite order.
-/// @return of every node of the scene as it was, its new index
-std::vector<int> reverse_nodes(Scene& scene);
+void reverse_nodes(Scene& scene);
 
 void rename_everything(Scene& scene);
 

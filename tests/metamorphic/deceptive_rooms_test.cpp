@@ -33,13 +33,8 @@ void add_boxes(Scene& scene, Dice& dice) {
     for (int i = 0; i < 3; ++i) {
         const glm::dvec3 box{dice.between(0.3, 0.8), dice.between(0.3, 1.0), dice.between(0.3, 0.8)};
         const double x = dice.between(-1.2, 0.8), z = dice.between(-1.4, 0.8), turn = dice.between(0.0, 3.0);
-        add_mesh(scene, make_box(box, add_lambert(scene, dice.color())), {x, 0.5 * box.y - 1.5, z},
-                 glm::angleAxis(turn, glm::dvec3(0.0, 1.0, 0.0)));
+        add_mesh(scene, make_box(box, add_lambert(scene, dice.color())), {x, 0.5 * box.y - 1.5, z}, turn_about_y(turn));
     }
-}
-
-void add_lamp(Scene& scene, double side, double radiance, const glm::dvec3& place, const glm::dquat& turn = z_to_down) {
-    add_mesh(scene, make_quad(side, side, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(radiance))), place, turn);
 }
 
 Scene make_furnished_room(Dice& dice) {
@@ -58,8 +53,8 @@ Scene make_door_between(Dice& dice, const glm::dvec3& color) {
     add_mesh(scene, make_box({0.1, 3.0, front}, walls), {-2.0, 0.0, 2.0 - 0.5 * front});
     add_mesh(scene, make_box({0.1, 3.0, back}, walls), {-2.0, 0.0, -2.0 + 0.5 * back});
     add_boxes(scene, dice);
-    add_lamp(scene, 0.5, dice.between(1.0, 4.0), {0.0, 1.45, 0.0});
-    const double radiance = dice.between(600.0, 2000.0);
+    add_lamp(scene, 0.5, glm::dvec3(dice.between(1.0, 4.0)), {0.0, 1.45, 0.0});
+    const glm::dvec3 radiance(dice.between(600.0, 2000.0));
     add_lamp(scene, 0.2, radiance, {dice.between(-5.5, -2.5), 1.4, dice.between(-1.5, 1.5)});
     return scene;
 }
@@ -77,7 +72,7 @@ Scene make_mirrors(Dice& dice) {
         add_mesh(scene, make_shape_mesh(ball, static_cast<int>(scene.materials.size()) - 1),
                  {dice.between(-1.5, 1.0), dice.between(-1.0, 0.5), dice.between(-1.5, 1.0)});
     }
-    const double radiance = dice.between(200.0, 600.0);
+    const glm::dvec3 radiance(dice.between(200.0, 600.0));
     add_lamp(scene, 0.1, radiance, {dice.between(-1.5, 1.5), 1.4, dice.between(-1.5, 1.5)});
     return scene;
 }
@@ -85,9 +80,9 @@ Scene make_mirrors(Dice& dice) {
 /// A lamp at the left wall that shines in one frame, besides one that always does.
 Scene make_flash(Dice& dice) {
     Scene scene = make_furnished_room(dice);
-    add_lamp(scene, 0.5, dice.between(1.0, 4.0), {0.0, 1.45, 0.0});
-    add_lamp(scene, 0.1, 1.0, {-1.8, dice.between(-1.0, 1.0), dice.between(-1.0, 1.0)},
-             glm::angleAxis(-0.5 * std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
+    add_lamp(scene, 0.5, glm::dvec3(dice.between(1.0, 4.0)), {0.0, 1.45, 0.0});
+    add_lamp(scene, 0.1, glm::dvec3(1.0), {-1.8, dice.between(-1.0, 1.0), dice.between(-1.0, 1.0)},
+             turn_about_y(-0.5 * pi));
     const double strength = dice.between(100.0, 400.0);
     std::vector<double> times;
     for (const double frame : {0.0, flash_frame - 0.5, flash_frame - 0.4, flash_frame + 0.4, flash_frame + 0.5}) {

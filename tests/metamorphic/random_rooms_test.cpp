@@ -24,7 +24,7 @@ Scene make_room(std::uint32_t seed) {
         const glm::dvec3 box(between(0.3, 1.0), between(0.3, 1.5), between(0.3, 1.0));
         const double x = between(-0.4, 0.4) * size.x, z = between(-0.4, 0.3) * size.z;
         add_mesh(scene, make_box(box, add_lambert(scene, color())), {x, 0.5 * box.y - half.y, z},
-                 glm::angleAxis(between(0.0, 3.0), glm::dvec3(0.0, 1.0, 0.0)));
+                 turn_about_y(between(0.0, 3.0)));
     }
     for (std::uint32_t i = 0, count = 1 + bits() % 2; i < count; ++i) {
         const glm::dvec3 place(between(-0.35, 0.35) * size.x, 0.3 * size.y, between(-0.35, 0.35) * size.z);

@@ -242,9 +242,8 @@ TEST(Relations, Elsewhere) {
 
 // Where two surfaces lie in one place, the first node's is seen.
 TEST(Relations, OrderOfNodes) {
-    expect_relation(
-        "nodes in the opposite order",
-        {.change = [](Scene& scene) { reverse_nodes(scene); }, .other_numbers = true, .left_out = {"coplanar"}});
+    expect_relation("nodes in the opposite order",
+                    {.change = reverse_nodes, .other_numbers = true, .left_out = {"coplanar"}});
 }
 
 TEST(Relations, Names) {

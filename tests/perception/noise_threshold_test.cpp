@@ -17,19 +17,17 @@ double sensitivity(double luminance, double retinal, double tracked, NoiseOverTi
                    double (&to_pattern)(double, double, double, double) = castle_sensitivity) {
     constexpr int cells = 150, times = 8;
     double energy = 0.0;
-    for (int y = 0; y < cells; ++y) {
-        for (int x = 0; x < cells; ++x) {
-            const double u = 0.5 * (x + 0.5) / cells, v = 0.5 * (y + 0.5) / cells;  // a quarter: the rest is its mirror
-            const double rho = std::hypot(u, v) * viewing.pixels_per_degree, radius = 1.5 / rho;
-            const double area = std::numbers::pi * radius * radius;
-            const double held = hold_transfer(rho, tracked, viewing.persistence, thirty);
-            const int count = over_time == NoiseOverTime::fresh ? times : 1;
-            for (int t = 0; t < count; ++t) {
-                const double omega = count == 1 ? 0.0 : 15.0 * (t + 0.5) / count;
-                for (const double sign : {-1.0, 1.0}) {
-                    const double shifted = std::abs(omega + sign * rho * retinal);
-                    energy += 0.5 * std::pow(held * to_pattern(rho, shifted, luminance, area), 2.0) / count;
-                }
+    for (const auto [x, y] : all_pixels(cells, cells)) {
+        const double u = 0.5 * (x + 0.5) / cells, v = 0.5 * (y + 0.5) / cells;  // a quarter: the rest is its mirror
+        const double rho = std::hypot(u, v) * viewing.pixels_per_degree, radius = 1.5 / rho;
+        const double area = std::numbers::pi * radius * radius;
+        const double held = hold_transfer(rho, tracked, viewing.persistence, thirty);
+        const int count = over_time == NoiseOverTime::fresh ? times : 1;
+        for (int t = 0; t < count; ++t) {
+            const double omega = count == 1 ? 0.0 : 15.0 * (t + 0.5) / count;
+            for (const double sign : {-1.0, 1.0}) {
+                const double shifted = std::abs(omega + sign * rho * retinal);
+                energy += 0.5 * std::pow(held * to_pattern(rho, shifted, luminance, area), 2.0) / count;
             }
         }
     }
@@ -93,12 +91,10 @@ TEST(VisibleBands, AmplitudesAreBlurredAsOftenAsABandSays) {
         signal(20, 20) = 3.0f;
         const Image<float> amplitude = local_amplitude(signal, band);
         double energy = 0.0, second = 0.0;
-        for (int y = 0; y < 41; ++y) {
-            for (int x = 0; x < 41; ++x) {
-                const double part = std::pow(amplitude(x, y) / band.gain, 2.0) / 2.0;
-                energy += part;
-                second += part * (x - 20) * (x - 20);
-            }
+        for (const auto [x, y] : all_pixels(41, 41)) {
+            const double part = std::pow(amplitude(x, y) / band.gain, 2.0) / 2.0;
+            energy += part;
+            second += part * (x - 20) * (x - 20);
         }
         EXPECT_NEAR(energy, 9.0, 1e-4);
         EXPECT_NEAR(second / energy, 0.9 * band.blurs, 1e-4);
@@ -161,10 +157,8 @@ TEST(NoiseThreshold, ContrastOfABandMasksTheNoiseInIt) {
 TEST(NoiseThreshold, APictureMasksWhereItHasContrast) {
     constexpr int width = 64, height = 32;
     Image<Rgb> picture(width, height, Rgb(0.5f));
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width / 2; ++x)
-            picture(x, y) = Rgb(x / 4 % 2 == 0 ? 0.3f : 0.7f);  // an eighth of a cycle a pixel
-    }
+    for (const auto [x, y] : all_pixels(width / 2, height))
+        picture(x, y) = Rgb(x / 4 % 2 == 0 ? 0.3f : 0.7f);  // an eighth of a cycle a pixel
     const Image<float> adaptation(width, height, 50.0f), retinal(width, height, 0.15f);
     const NoiseVisibility noise({}, thirty, NoiseOverTime::fresh);
     const Image<float> threshold = compute_noise_threshold(noise, picture, 100.0, adaptation, retinal, {});

@@ -9,7 +9,7 @@
 #include "perception/vision/band_frequencies.h"
 #include "perception/vision/kelly_vision.h"
 #include "perception/vision/retinal_velocity.h"
-#include "tests/support/perception_bands.h"
+#include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -105,11 +105,9 @@ TEST(SensitivityHard, CS06_GratingAtAMeasuredPeakIsStrongestInThatBand) {
         for (int band = 0; band < band_count; ++band) {
             const double cycles_per_degree = band_frequencies(Bands::measured, ppd)[band];
             Image<float> grating(width, 4);
-            for (int y = 0; y < 4; ++y) {
-                for (int x = 0; x < width; ++x) {
-                    const double phase = 2 * std::numbers::pi * cycles_per_degree / ppd * (x + 0.5);
-                    grating(x, y) = static_cast<float>(0.5 + 0.4 * std::sin(phase));
-                }
+            for (const auto [x, y] : all_pixels(width, 4)) {
+                const double phase = 2 * std::numbers::pi * cycles_per_degree / ppd * (x + 0.5);
+                grating(x, y) = static_cast<float>(0.5 + 0.4 * std::sin(phase));
             }
             const auto response = compute_band_response(grating);
             std::array<double, band_count> mean{};
@@ -170,9 +168,7 @@ TEST(SensitivityHard, CS08_BoundsOnRandomImagesWithBrokenPixelsAndRandomMotion) 
 
 TEST(SensitivityHard, CS08_BrokenVelocitiesCountAsRestOrAsVeryFast) {
     Image<Rgb> checker(16, 16);
-    for (int y = 0; y < 16; ++y) {
-        for (int x = 0; x < 16; ++x) checker(x, y) = Rgb((x + y) % 2 == 0 ? 0.2f : 0.8f);
-    }
+    for (const auto [x, y] : all_pixels(16, 16)) checker(x, y) = Rgb((x + y) % 2 == 0 ? 0.2f : 0.8f);
     const auto aleph_at = [&](double v) {
         return compute_perception(checker, constant_image(16, 16, v), {}, {}, {.guide = Guide::full}).aleph(8, 8);
     };
@@ -183,11 +179,9 @@ TEST(SensitivityHard, CS08_BrokenVelocitiesCountAsRestOrAsVeryFast) {
 TEST(SensitivityHard, CS09_StaticCheckerAndRamp) {
     const int size = 256;
     Image<Rgb> checker(size, size), ramp(size, size);
-    for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
-            checker(x, y) = Rgb((x + y) % 2 == 0 ? 0.25f : 0.75f);
-            ramp(x, y) = Rgb(0.1f + 0.8f * static_cast<float>(x) / size);
-        }
+    for (const auto [x, y] : all_pixels(size, size)) {
+        checker(x, y) = Rgb((x + y) % 2 == 0 ? 0.25f : 0.75f);
+        ramp(x, y) = Rgb(0.1f + 0.8f * static_cast<float>(x) / size);
     }
     const Image<float> still = constant_image(size, size, 0.0);
     const Image<float> of_checker = compute_perception(checker, still, {}, {}, {.guide = Guide::full}).aleph;

@@ -96,19 +96,17 @@ TEST(Adaptation, IsTheMeanOverTheDisc) {
     for (const double ppd : {1.0, 5.0, 31.0, 60.0}) {
         const Image<float> adapted =
             compute_adaptation_luminance(image, {.pixels_per_degree = ppd, .display_white = 80.0});
-        for (int y = 0; y < image.height; ++y) {
-            for (int x = 0; x < image.width; ++x) {
-                double sum = 0.0;
-                int count = 0;
-                for (int py = 0; py < image.height; ++py) {
-                    for (int px = 0; px < image.width; ++px) {
-                        if ((px - x) * (px - x) + (py - y) * (py - y) > ppd * ppd / 4) continue;
-                        sum += luminance(image(px, py));
-                        ++count;
-                    }
+        for (const auto [x, y] : all_pixels(image)) {
+            double sum = 0.0;
+            int count = 0;
+            for (int py = 0; py < image.height; ++py) {
+                for (int px = 0; px < image.width; ++px) {
+                    if ((px - x) * (px - x) + (py - y) * (py - y) > ppd * ppd / 4) continue;
+                    sum += luminance(image(px, py));
+                    ++count;
                 }
-                ASSERT_NEAR(adapted(x, y) / (80.0 * sum / count), 1.0, 1e-6) << ppd << " " << x << " " << y;
             }
+            ASSERT_NEAR(adapted(x, y) / (80.0 * sum / count), 1.0, 1e-6) << ppd << " " << x << " " << y;
         }
     }
 }

@@ -7,6 +7,7 @@
 #include "engine/base/color.h"
 #include "engine/base/image.h"
 #include "engine/base/sampling.h"
+#include "tests/support/all_pixels.h"
 
 namespace aleph {
 
@@ -14,9 +15,7 @@ namespace aleph {
 template <class Value>
 Image<Rgb> make_pattern(int width, int height, const Value& value) {
     Image<Rgb> image(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) image(x, y) = Rgb(static_cast<float>(value(x, y)));
-    }
+    for (const auto [x, y] : all_pixels(width, height)) image(x, y) = Rgb(static_cast<float>(value(x, y)));
     return image;
 }
 

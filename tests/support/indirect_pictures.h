@@ -1,6 +1,7 @@
 #pragma once
 // Indirect light alone, from pictures and from dense gathers, in scenes of Lambert surfaces.
 
+#include "render/cache/cache_fill.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
@@ -21,6 +22,23 @@ inline IndirectPicture shade_indirect(const Stage& stage, RenderSettings setting
         out.indirect.pixels[i] = out.all.pixels[i] - out.indirect.pixels[i];
     return out;
 }
+
+/// A scene whose light is gathered.
+struct Gathering {
+    explicit Gathering(Scene scene) : stage(std::move(scene)), task(stage.rays) {}
+
+    IrradianceSample gather(const SurfacePoint& point, const GatherPattern& pattern,
+                            const GatherOptions& options = {}) {
+        return gather_irradiance(stage.lighting(), task, point, pattern, scratch, options);
+    }
+    IrradianceSample at(const glm::vec3& position, const glm::vec3& normal, int samples, std::uint32_t seed = 0) {
+        return gather(make_point(position, normal), {choose_strata(samples), {seed, 0, 0, 0}});
+    }
+
+    Stage stage;
+    RayTask task;
+    GatherScratch scratch;
+};
 
 /// The light that a surface reflects of the irradiance of a gather with so many strata and random numbers of its own.
 inline Rgb gather_indirect(const Stage& stage, const PixelSurface& surface, int strata) {
@@ -55,6 +73,18 @@ struct IndirectStage {
                   .accuracy = alpha,
                   .max_radius = scene_radius(stage.shading),
                   .progress = {}} {}
+
+    /// A cache with the picture's records, and what filling it took.
+    struct Filled {
+        IrradianceCache cache;
+        FrameTally tally;
+    };
+    Filled fill() const {
+        const Image<float> zero(stage.view.width, stage.view.height);
+        Filled filled{make_cache(stage.shading), {zero, zero, {}}};
+        fill_cache(filled.cache, context, centers, filled.tally);
+        return filled;
+    }
 
     Stage stage;
     LightingContext lighting;

@@ -78,17 +78,23 @@ inline SurfaceMaterial with_sheen(SurfaceMaterial material, float roughness, flo
     return material;
 }
 
-/// Means of sample_scatter's red weights times g(direction).
-template <class G>
-Mean mean_scattered(const LitSurface& lit, int count, std::uint32_t seed, const G& g) {
-    const LobeShares shares = share_lobes(lit, LobeSet::all);
+inline ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, RandomStream& random) {
+    const float pick = random.next();
+    const glm::vec2 u = random.next_2d();
+    return sample_scatter(lit, shares, pick, u, random.next());
+}
+
+/// The mean of sample_scatter's red weights.
+/// @param check  is called with each sample that has a weight
+inline Mean mean_scattered(const LitSurface& lit, int count, std::uint32_t seed, LobeSet lobes = LobeSet::all,
+                           const std::function<void(const ScatterSample&)>& check = {}) {
+    const LobeShares shares = share_lobes(lit, lobes);
     RandomStream random({seed, 0, 0, 0});
     Mean mean;
     for (int i = 0; i < count; ++i) {
-        const float pick = random.next();
-        const glm::vec2 u = random.next_2d();
-        const ScatterSample sample = sample_scatter(lit, shares, pick, u, random.next());
-        mean.add(sample.weight.x > 0.0f ? sample.weight.x * g(sample) : 0.0);
+        const ScatterSample sample = sample_scatter(lit, shares, random);
+        mean.add(sample.weight.x);
+        if (check && sample.weight.x > 0.0f) check(sample);
     }
     return mean;
 }

@@ -40,7 +40,8 @@ inline Estimator by_walks(int depth, bool choose_lights) {
         for (int i = 0; i < depth; ++i) {
             const LitSurface lit(surface);
             if (choose_lights) {
-                const ScatteredLight direct = choose_light(stage.lighting(), lit, {}, random);
+                const LightNumbers numbers{random.next(), random.next_2d()};
+                const ScatteredLight direct = choose_light(stage.lighting(), lit, {}, numbers);
                 if (direct.radiance != Rgb(0.0f))
                     light +=
                         throughput * direct.radiance * find_transmittance(stage.lighting(), task, direct.shadow_ray);

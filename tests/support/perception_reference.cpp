@@ -6,6 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "tests/support/all_pixels.h"
+#include "tests/support/vision_formulas.h"
+
 namespace aleph {
 
 namespace {
@@ -20,24 +23,18 @@ int mirror(int i, int n) {
 
 DoubleImage from_function(int width, int height, const auto& f) {
     DoubleImage out(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) out(x, y) = f(x, y);
-    }
+    for (const auto [x, y] : all_pixels(width, height)) out(x, y) = f(x, y);
     return out;
 }
 
 template <class T>
 Image<T> filter(const Image<T>& image, double gain_x, double gain_y) {
     Image<T> rows(image.width, image.height), out(image.width, image.height);
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            for (int k = -2; k <= 2; ++k) rows(x, y) += gain_x * kernel[k + 2] * image(mirror(x + k, image.width), y);
-        }
+    for (const auto [x, y] : all_pixels(image)) {
+        for (int k = -2; k <= 2; ++k) rows(x, y) += gain_x * kernel[k + 2] * image(mirror(x + k, image.width), y);
     }
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            for (int k = -2; k <= 2; ++k) out(x, y) += gain_y * kernel[k + 2] * rows(x, mirror(y + k, image.height));
-        }
+    for (const auto [x, y] : all_pixels(image)) {
+        for (int k = -2; k <= 2; ++k) out(x, y) += gain_y * kernel[k + 2] * rows(x, mirror(y + k, image.height));
     }
     return out;
 }
@@ -46,10 +43,8 @@ DoubleImage orientation(const DoubleImage& level, double degrees) {
     const DoubleImage low = reference_low_pass(level);
     const double k = std::numbers::pi / 2, angle = degrees * std::numbers::pi / 180;
     Image<std::complex<double>> wave(level.width, level.height);
-    for (int y = 0; y < level.height; ++y) {
-        for (int x = 0; x < level.width; ++x) {
-            wave(x, y) = (level(x, y) - low(x, y)) * std::polar(1.0, k * (x * std::cos(angle) + y * std::sin(angle)));
-        }
+    for (const auto [x, y] : all_pixels(level)) {
+        wave(x, y) = (level(x, y) - low(x, y)) * std::polar(1.0, k * (x * std::cos(angle) + y * std::sin(angle)));
     }
     const auto filtered = filter(wave, 1.0, 1.0);
     return from_function(level.width, level.height, [&](int x, int y) { return std::abs(filtered(x, y)); });
@@ -77,17 +72,6 @@ void add_features(DoubleImage& conspicuity, const std::vector<DoubleImage>& pyra
                                      [&](int x, int y) { return std::abs(center(x, y) - surround(x, y)); }),
                        floor);
     }
-}
-
-double elevation_of(double rho, double v) {
-    const double rho_max = 45.9 / (1.7 * v + 2);
-    const double k = 6.1 + 7.3 * std::pow(std::abs(std::log10(1.7 * v / 3)), 3);
-    const auto csf = [&](double r) {
-        return k * 1.14 * 1.7 * v * std::pow(2 * std::numbers::pi * r * 0.67, 2) *
-               std::exp(-4 * std::numbers::pi * 0.67 * r / rho_max);
-    };
-    const double peak = rho_max / (2 * std::numbers::pi * 0.67);
-    return rho > peak ? std::max(1.0, csf(peak) / std::max(csf(rho), 1.0)) : 1.0;
 }
 
 }  // namespace
@@ -136,27 +120,25 @@ double reference_weight(const DoubleImage& map, double floor) {
         quantised.pixels[i] = static_cast<int>(std::floor((map.pixels[i] - *low) / range * 65535.0 + 0.5));
     }
     std::vector<double> maxima;
-    for (int y = 0; y < map.height; ++y) {
-        for (int x = 0; x < map.width; ++x) {
-            if (label(x, y) >= 0) continue;
-            bool highest = true;
-            std::vector<std::pair<int, int>> stack = {{x, y}};
-            label(x, y) = 1;
-            while (!stack.empty()) {
-                const auto [cx, cy] = stack.back();
-                stack.pop_back();
-                for (int ny = std::max(0, cy - 1); ny <= std::min(map.height - 1, cy + 1); ++ny) {
-                    for (int nx = std::max(0, cx - 1); nx <= std::min(map.width - 1, cx + 1); ++nx) {
-                        if (quantised(nx, ny) > quantised(x, y)) highest = false;
-                        if (quantised(nx, ny) != quantised(x, y) || label(nx, ny) >= 0) continue;
-                        label(nx, ny) = 1;
-                        stack.push_back({nx, ny});
-                    }
+    for (const auto [x, y] : all_pixels(map)) {
+        if (label(x, y) >= 0) continue;
+        bool highest = true;
+        std::vector<std::pair<int, int>> stack = {{x, y}};
+        label(x, y) = 1;
+        while (!stack.empty()) {
+            const auto [cx, cy] = stack.back();
+            stack.pop_back();
+            for (int ny = std::max(0, cy - 1); ny <= std::min(map.height - 1, cy + 1); ++ny) {
+                for (int nx = std::max(0, cx - 1); nx <= std::min(map.width - 1, cx + 1); ++nx) {
+                    if (quantised(nx, ny) > quantised(x, y)) highest = false;
+                    if (quantised(nx, ny) != quantised(x, y) || label(nx, ny) >= 0) continue;
+                    label(nx, ny) = 1;
+                    stack.push_back({nx, ny});
                 }
             }
-            const double value = quantised(x, y) / 65535.0;
-            if (highest && value >= 0.1) maxima.push_back(value);
         }
+        const double value = quantised(x, y) / 65535.0;
+        if (highest && value >= 0.1) maxima.push_back(value);
     }
     std::sort(maxima.begin(), maxima.end());
     double sum = 0.0;
@@ -212,12 +194,12 @@ ReferenceMaps reference_perception(const Image<Rgb>& estimate, const Image<float
         double sum = 0.0;
         for (std::size_t i = 0; i < 7; ++i) sum += l[i] = std::abs(full[i].pixels[p] - full[i + 1].pixels[p]);
         out.band_sum.pixels[p] = sum / std::max(std::abs(full[0].pixels[p]), std::abs(full[7].pixels[p]));
-        const double v_i = velocity.pixels[p];
-        const double v = std::max(std::abs(v_i - std::min(out.saliency.pixels[p] * v_i + 0.15, 80.0)), 0.15);
+        const EyeMotion moved{.retinal = written_retinal_velocity(velocity.pixels[p], out.saliency.pixels[p])};
         for (std::size_t i = 0; i < 7; ++i) {
             const double flat = i == 6 ? 1.0 : 0.0;
             out.bands[i].pixels[p] = out.band_sum.pixels[p] > 1e-5 ? l[i] / sum : flat;
-            out.aleph.pixels[p] += out.bands[i].pixels[p] * elevation_of(std::ldexp(16.0, -static_cast<int>(i)), v);
+            out.aleph.pixels[p] += out.bands[i].pixels[p] *
+                                   written_elevation(&thesis_vision(), std::ldexp(16.0, -static_cast<int>(i)), moved);
         }
     }
     return out;

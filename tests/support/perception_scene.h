@@ -12,6 +12,7 @@
 #include "perception/perception.h"
 #include "perception/vision/tvi.h"
 #include "perception/vision/vision_model.h"
+#include "tests/support/all_pixels.h"
 
 namespace aleph {
 
@@ -23,9 +24,7 @@ inline double mean_of(const Image<float>& image) {
 
 inline Image<float> checker(int width, int height) {
     Image<float> image(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) image(x, y) = static_cast<float>((x + y) % 2);
-    }
+    for (const auto [x, y] : all_pixels(width, height)) image(x, y) = static_cast<float>((x + y) % 2);
     return image;
 }
 
@@ -33,12 +32,10 @@ inline Image<float> checker(int width, int height) {
 inline double correlation(const Image<float>& a, const Image<float>& b, const glm::ivec2& place = {},
                           double radius = -1.0) {
     double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-    for (int y = 0; y < a.height; ++y) {
-        for (int x = 0; x < a.width; ++x) {
-            if (std::hypot(x - place.x, y - place.y) <= radius) continue;
-            const double p = a(x, y), q = b(x, y);
-            n += 1, sa += p, sb += q, saa += p * p, sbb += q * q, sab += p * q;
-        }
+    for (const auto [x, y] : all_pixels(a)) {
+        if (std::hypot(x - place.x, y - place.y) <= radius) continue;
+        const double p = a(x, y), q = b(x, y);
+        n += 1, sa += p, sb += q, saa += p * p, sbb += q * q, sab += p * q;
     }
     return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
 }
@@ -60,41 +57,51 @@ inline SyntheticFrame make_synthetic_frame(int width, int height, std::uint32_t 
                                         {0.70, 0.82, 0.05, {0.9f, 0.9f, 0.9f}, 0.0},
                                         {0.15, 0.22, 0.04, {0.1f, 0.6f, 0.2f}, 60.0}}};
     SyntheticFrame frame{Image<Rgb>(width, height), Image<float>(width, height)};
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const double u = (x + 0.5) / height, v = (y + 0.5) / height;
-            RandomStream random({seed, 0, static_cast<std::uint32_t>(frame.estimate.index(x, y)), 0});
-            Rgb color;
-            double speed = 2.9;
-            if (v > 0.6) {  // a floor of tiles in perspective
-                const double depth = 1.0 / (v - 0.5);
-                const bool odd = (static_cast<int>(std::floor((u - 0.67) * depth * 4 + 100)) +
-                                  static_cast<int>(std::floor(depth * 6))) %
-                                     2 !=
-                                 0;
-                color = odd ? Rgb(0.45f, 0.32f, 0.2f) : Rgb(0.25f, 0.18f, 0.12f);
-                speed += 2.0 * (v - 0.6);
-            } else {  // a wall with a lamp's glow and some grain
-                const double glow = std::exp(-6.0 * ((u - 0.7) * (u - 0.7) + (v - 0.1) * (v - 0.1)));
-                const double grain = 0.04 * std::sin(61.0 * u + 3.0 * std::sin(23.0 * v));
-                color = Rgb(static_cast<float>(0.2 + 0.5 * glow + grain)) * Rgb(1.0f, 0.95f, 0.85f);
-                if (std::abs(u - 1.0) < 0.12 && std::abs(v - 0.3) < 0.08)
-                    color = Rgb(0.2f, 0.35f, 0.5f) * (0.5f + random.next());
-            }
-            for (const Ball& ball : balls) {
-                const double dx = (u - ball.x) / ball.radius, dy = (v - ball.y) / ball.radius;
-                const double d2 = dx * dx + dy * dy;
-                if (d2 > 1.0) continue;
-                const double shade = 0.15 + 0.85 * std::max(0.0, std::sqrt(1.0 - d2) * 0.8 - dx * 0.3 - dy * 0.5);
-                const double shine = std::exp(-40.0 * ((dx + 0.3) * (dx + 0.3) + (dy + 0.45) * (dy + 0.45)));
-                color = ball.color * static_cast<float>(shade) + Rgb(static_cast<float>(1.5 * shine));
-                speed = ball.speed;
-            }
-            frame.estimate(x, y) = color * (0.99f + 0.02f * random.next());
-            frame.velocity(x, y) = static_cast<float>(speed);
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const double u = (x + 0.5) / height, v = (y + 0.5) / height;
+        RandomStream random({seed, 0, static_cast<std::uint32_t>(frame.estimate.index(x, y)), 0});
+        Rgb color;
+        double speed = 2.9;
+        if (v > 0.6) {  // a floor of tiles in perspective
+            const double depth = 1.0 / (v - 0.5);
+            const bool odd =
+                (static_cast<int>(std::floor((u - 0.67) * depth * 4 + 100)) + static_cast<int>(std::floor(depth * 6))) %
+                    2 !=
+                0;
+            color = odd ? Rgb(0.45f, 0.32f, 0.2f) : Rgb(0.25f, 0.18f, 0.12f);
+            speed += 2.0 * (v - 0.6);
+        } else {  // a wall with a lamp's glow and some grain
+            const double glow = std::exp(-6.0 * ((u - 0.7) * (u - 0.7) + (v - 0.1) * (v - 0.1)));
+            const double grain = 0.04 * std::sin(61.0 * u + 3.0 * std::sin(23.0 * v));
+            color = Rgb(static_cast<float>(0.2 + 0.5 * glow + grain)) * Rgb(1.0f, 0.95f, 0.85f);
+            if (std::abs(u - 1.0) < 0.12 && std::abs(v - 0.3) < 0.08)
+                color = Rgb(0.2f, 0.35f, 0.5f) * (0.5f + random.next());
         }
+        for (const Ball& ball : balls) {
+            const double dx = (u - ball.x) / ball.radius, dy = (v - ball.y) / ball.radius;
+            const double d2 = dx * dx + dy * dy;
+            if (d2 > 1.0) continue;
+            const double shade = 0.15 + 0.85 * std::max(0.0, std::sqrt(1.0 - d2) * 0.8 - dx * 0.3 - dy * 0.5);
+            const double shine = std::exp(-40.0 * ((dx + 0.3) * (dx + 0.3) + (dy + 0.45) * (dy + 0.45)));
+            color = ball.color * static_cast<float>(shade) + Rgb(static_cast<float>(1.5 * shine));
+            speed = ball.speed;
+        }
+        frame.estimate(x, y) = color * (0.99f + 0.02f * random.next());
+        frame.velocity(x, y) = static_cast<float>(speed);
     }
     return frame;
+}
+
+/// R_i of (5.3), finest first; they sum to 1 everywhere.
+inline std::vector<Image<float>> compute_band_response(const Image<Rgb>& picture) {
+    const Image<float> still(picture.width, picture.height);
+    return compute_perception(picture, still, {}, {}, {.guide = Guide::spatial}, {.bands = true}).responses;
+}
+
+inline std::vector<Image<float>> compute_band_response(const Image<float>& grey) {
+    Image<Rgb> picture(grey.width, grey.height);
+    for (std::size_t i = 0; i < grey.size(); ++i) picture.pixels[i] = Rgb(grey.pixels[i]);
+    return compute_band_response(picture);
 }
 
 inline std::vector<float> all_maps() {

@@ -6,9 +6,7 @@ namespace aleph {
 
 /// All stages run, each for a short time.
 inline RenderSettings quick_settings(int width, int height) {
-    RenderSettings settings;
-    settings.picture.width = width;
-    settings.picture.height = height;
+    RenderSettings settings{.picture = {.width = width, .height = height}};
     settings.sampling.spp = 1;
     settings.cache.gather = 64;
     settings.light.light_samples = 4;

@@ -62,6 +62,10 @@ inline const glm::dquat no_turn{1.0, 0.0, 0.0, 0.0};
 /// Rotations of a quad that faces +z, or of a light that shines along -z.
 inline const glm::dquat z_to_up = glm::angleAxis(-std::numbers::pi / 2, glm::dvec3(1.0, 0.0, 0.0));
 inline const glm::dquat z_to_down = glm::angleAxis(std::numbers::pi / 2, glm::dvec3(1.0, 0.0, 0.0));
+/// @param angle  radians; a quarter turns +z to +x
+inline glm::dquat turn_about_y(double angle) {
+    return glm::angleAxis(angle, glm::dvec3(0.0, 1.0, 0.0));
+}
 
 inline int add_node(Scene& scene, const glm::dvec3& translation, const glm::dquat& rotation, int parent = no_index) {
     scene.nodes.push_back({.parent = parent, .transform = {.translation = translation, .rotation = rotation}});
@@ -75,6 +79,13 @@ inline int add_mesh(Scene& scene, Mesh mesh, const glm::dvec3& translation = glm
     const int node = add_node(scene, translation, rotation, parent);
     scene.nodes.back().meshes = {static_cast<int>(scene.meshes.size()) - 1};
     return node;
+}
+
+/// A square lamp that shines along its +z, by default down.
+inline int add_lamp(Scene& scene, double side, const glm::dvec3& radiance, const glm::dvec3& translation,
+                    const glm::dquat& rotation = z_to_down) {
+    const int shining = add_lambert(scene, glm::dvec3(0.0), radiance);
+    return add_mesh(scene, make_quad(side, side, shining), translation, rotation);
 }
 
 inline int add_light(Scene& scene, Light::Kind kind, const glm::dvec3& intensity, const glm::dvec3& position,
@@ -99,14 +110,13 @@ inline int add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& tar
 
 /// A room of 2 x 2 x 2 m about the origin, open towards a camera at +z, with a square lamp below its ceiling.
 inline void add_small_room(Scene& scene, int walls, int left, const glm::dvec3& light, double lamp_size) {
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), light);
-    const glm::dvec3 y(0.0, 1.0, 0.0);
-    add_mesh(scene, make_quad(2.0, 2.0, walls), {0.0, -1.0, 0.0}, z_to_up);
-    add_mesh(scene, make_quad(2.0, 2.0, walls), {0.0, 1.0, 0.0}, z_to_down);
-    add_mesh(scene, make_quad(2.0, 2.0, walls), {0.0, 0.0, -1.0});
-    add_mesh(scene, make_quad(2.0, 2.0, left), {-1.0, 0.0, 0.0}, glm::angleAxis(std::numbers::pi / 2, y));
-    add_mesh(scene, make_quad(2.0, 2.0, walls), {1.0, 0.0, 0.0}, glm::angleAxis(-std::numbers::pi / 2, y));
-    add_mesh(scene, make_quad(lamp_size, lamp_size, lamp), {0.0, 0.98, 0.0}, z_to_down);
+    const Mesh wall = make_quad(2.0, 2.0, walls);
+    add_mesh(scene, wall, {0.0, -1.0, 0.0}, z_to_up);
+    add_mesh(scene, wall, {0.0, 1.0, 0.0}, z_to_down);
+    add_mesh(scene, wall, {0.0, 0.0, -1.0});
+    add_mesh(scene, make_quad(2.0, 2.0, left), {-1.0, 0.0, 0.0}, turn_about_y(std::numbers::pi / 2));
+    add_mesh(scene, wall, {1.0, 0.0, 0.0}, turn_about_y(-std::numbers::pi / 2));
+    add_lamp(scene, lamp_size, light, {0.0, 0.98, 0.0});
 }
 
 /// Surrounds the scene with a picture.
@@ -194,6 +204,14 @@ inline RenderSettings path_settings(int bounces, int spp, std::uint32_t seed = 0
     return settings;
 }
 
+/// Grey light of the first instance, found by sampling the lights.
+inline SampleLight grey_sample(float value) {
+    SampleLight light;
+    light[LightPart::direct] = Rgb(value);
+    light.place.instance = 0;
+    return light;
+}
+
 /// The mean of the red of all pixels, none of which may be invalid.
 inline Mean mean_of_pixels(const ShadedFrame& frame) {
     EXPECT_EQ(frame.counts.invalid_samples, 0u);
@@ -201,6 +219,22 @@ inline Mean mean_of_pixels(const ShadedFrame& frame) {
     for (const Rgb& pixel : frame.color.pixels) mean.add(pixel.x);
     return mean;
 }
+
+/// Luminance over independent pictures: of every pixel, and the sum of all.
+struct PictureMeans {
+    void add(const Image<Rgb>& picture) {
+        pixels.resize(picture.size());
+        double sum = 0.0;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            pixels[i].add(luminance(picture.pixels[i]));
+            sum += luminance(picture.pixels[i]);
+        }
+        all.add(sum);
+    }
+
+    std::vector<Mean> pixels;
+    Mean all;
+};
 
 /// Adds a camera at z = 5 m that looks along -z, by parallel rays; and exposure and range are those of a simple shot.
 inline void add_flat_view(Scene& scene, double half_height, const glm::dvec2& shutter = glm::dvec2(0.0)) {
@@ -223,8 +257,7 @@ inline Scene make_cluttered_room() {
     for (int i = 0; i < 32; ++i) {
         const double turn = 2.4 * i, across = 0.6 + 0.035 * i;
         add_mesh(scene, make_box({0.15, 0.3 + 0.02 * i, 0.2}, i % 2 == 0 ? dark : grey),
-                 {across * std::cos(turn), -1.2 + 0.08 * i, across * std::sin(turn)},
-                 glm::angleAxis(turn, glm::dvec3(0.0, 1.0, 0.0)));
+                 {across * std::cos(turn), -1.2 + 0.08 * i, across * std::sin(turn)}, turn_about_y(turn));
     }
     for (const double x : {-1.2, 0.0, 1.2}) {
         for (const double z : {-1.5, 1.5}) add_mesh(scene, make_quad(0.2, 0.2, lamp), {x, 1.4, z}, z_to_down);

@@ -15,8 +15,7 @@ inline Scene make_shot() {
     const int white = add_lambert(scene, glm::dvec3(0.7)), red = add_lambert(scene, {0.7, 0.2, 0.1});
     add_mesh(scene, make_quad(6.0, 6.0, white), glm::dvec3(0.0), z_to_up);
     add_mesh(scene, make_quad(6.0, 3.0, white), {0.0, 1.5, -3.0});
-    add_mesh(scene, make_quad(6.0, 3.0, red), {-3.0, 1.5, 0.0},
-             glm::angleAxis(std::numbers::pi / 2, glm::dvec3(0, 1, 0)));
+    add_mesh(scene, make_quad(6.0, 3.0, red), {-3.0, 1.5, 0.0}, turn_about_y(std::numbers::pi / 2));
     add_light(scene, Light::Kind::point, glm::dvec3(8.0), {-1.0, 2.5, -1.0});
     add_camera(scene, {0.5, 1.5, 4.0}, {-0.5, 1.0, -2.0});
     scene.film.range = FrameRange{0, shot_frames - 1};

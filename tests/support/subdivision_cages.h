@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "tests/support/all_pixels.h"
 #include "tests/support/subdivision_reference.h"
 
 namespace aleph {
@@ -51,11 +52,9 @@ inline TestCage make_cube_cage() {
 /// columns x rows points at (x, y, height(x, y)); quads seen counter-clockwise from +z.
 inline TestCage make_grid_cage(int columns, int rows) {
     std::vector<glm::dvec3> points;
-    for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < columns; ++x) {
-            points.emplace_back(x + 0.1 * std::sin(1.7 * y), y + 0.2 * std::cos(2.3 * x),
-                                0.4 * std::sin(1.3 * x + 0.7 * y * y));
-        }
+    for (const auto [x, y] : all_pixels(columns, rows)) {
+        points.emplace_back(x + 0.1 * std::sin(1.7 * y), y + 0.2 * std::cos(2.3 * x),
+                            0.4 * std::sin(1.3 * x + 0.7 * y * y));
     }
     std::vector<std::vector<int>> faces;
     for (int y = 0; y + 1 < rows; ++y) {

@@ -30,6 +30,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/all_pixels.h"
 #include "tests/support/numbers.h"
 #include "tests/support/refusal.h"
 

@@ -7,7 +7,6 @@
 #include "perception/saliency/feature_maps.h"
 #include "perception/saliency/orientation.h"
 #include "perception/sanitize.h"
-#include "tests/support/perception_bands.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
 

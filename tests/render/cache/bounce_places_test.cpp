@@ -150,17 +150,15 @@ TEST(BouncePlaces, PlacesToFill) {
     places.hits(5, 3) = Hit{};
     for (int x = 0; x < 16; ++x) places.hits(x, 5) = Hit{};
     const FillPlaces fill = make_fill_places(rooms.stage.shading, places);
-    for (int y = 0; y < 10; ++y) {
-        for (int x = 0; x < 16; ++x) {
-            if (places.hits(x, y).instance == no_index) {
-                EXPECT_LT(fill.points(x, y).footprint, 0.0f);
-                continue;
-            }
-            const PixelSurface met = fill.surface_at(x, y);
-            EXPECT_EQ(fill.points(x, y).position, met.point.position);
-            EXPECT_EQ(fill.points(x, y).footprint, met.footprint);
-            EXPECT_EQ(fill.points(x, y).normal, met.point.normal);
+    for (const auto [x, y] : all_pixels(16, 10)) {
+        if (places.hits(x, y).instance == no_index) {
+            EXPECT_LT(fill.points(x, y).footprint, 0.0f);
+            continue;
         }
+        const PixelSurface met = fill.surface_at(x, y);
+        EXPECT_EQ(fill.points(x, y).position, met.point.position);
+        EXPECT_EQ(fill.points(x, y).footprint, met.footprint);
+        EXPECT_EQ(fill.points(x, y).normal, met.point.normal);
     }
 }
 

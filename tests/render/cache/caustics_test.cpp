@@ -2,7 +2,7 @@
 
 #include "render/cache/gather.h"
 #include "render/settings/settings.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
 
@@ -17,18 +17,15 @@ Scene make_ball_below_lamp() {
     scene.materials.push_back({.base_color = glm::dvec3(1.0), .gloss = {.metallic = 1.0, .roughness = 0.0}});
     const Shape ball{.kind = Shape::Kind::sphere, .radius = ball_radius, .segments = 256};
     add_mesh(scene, make_shape_mesh(ball, 0));
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(lamp_radiance));
-    add_mesh(scene, make_quad(lamp_side, lamp_side, lamp), {0.0, lamp_height, 0.0}, z_to_down);
+    add_lamp(scene, lamp_side, glm::dvec3(lamp_radiance), {0.0, lamp_height, 0.0});
     return scene;
 }
 
 /// A convex mirror spreads a beam of irradiance E by its focal lengths f_t and f_s (Coddington): at the distance s from
 /// it arrives E f_t f_s / ((s + f_t) (s + f_s)).
 TEST(Caustics, BlurredLightOfAMirrorBallIsThatOfAMirrorBall) {
-    Stage stage(make_ball_below_lamp());
-    stage.shading.caustic_width = find_caustic_width(RenderSettings{});
-    RayTask task(stage.rays);
-    GatherScratch scratch;
+    Gathering ball(make_ball_below_lamp());
+    ball.stage.shading.caustic_width = find_caustic_width(RenderSettings{});
     const double distance = 1.5;
     for (const double incidence : {0.3, 0.6, 0.9}) {
         const double to_lamp = lamp_height - ball_radius * std::cos(incidence);
@@ -38,13 +35,12 @@ TEST(Caustics, BlurredLightOfAMirrorBallIsThatOfAMirrorBall) {
         const double expected = beam * tangential * sagittal / ((distance + tangential) * (distance + sagittal));
         const glm::dvec3 normal(std::sin(incidence), std::cos(incidence), 0.0);
         const glm::dvec3 away(std::sin(2.0 * incidence), std::cos(2.0 * incidence), 0.0);
-        const glm::dvec3 at = ball_radius * normal + distance * away - stage.shading.anchor;
+        const glm::dvec3 at = ball_radius * normal + distance * away - ball.stage.shading.anchor;
         EXPECT_TRUE(holds([&](Trial& trial) {
             Mean mean;
             for (std::uint32_t run = 0; run < trial.times(1024u); ++run) {
-                mean.add(gather_irradiance(stage.lighting(), task, make_point(at, -away),
-                                           {choose_strata(1024), {run + trial.seed, 0, 0, 0}}, scratch, {.depth = 4})
-                             .irradiance.x);
+                const GatherPattern pattern{choose_strata(1024), {run + trial.seed, 0, 0, 0}};
+                mean.add(ball.gather(make_point(at, -away), pattern, {.depth = 4}).irradiance.x);
             }
             EXPECT_LT(mean.error(), 0.03 * expected) << incidence;  // without the blur hardly a ray finds the lamp
             trial.near(mean, expected, 0.05 * expected);

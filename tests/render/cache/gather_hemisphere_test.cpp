@@ -1,13 +1,13 @@
 // Gathers at smooth-shaded facets, where a part of the hemisphere about the shading normal is below the surface.
 
-#include "tests/support/render_scenes.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
 /// A sphere with vertex normals in the middle of a lit room, 6 m wide.
-struct BallInRoom {
+struct BallInRoom : Gathering {
     static constexpr double radius = 0.5;
 
     static Scene make_scene(int segments) {
@@ -23,11 +23,10 @@ struct BallInRoom {
         return scene;
     }
 
-    explicit BallInRoom(int segments) : stage(make_scene(segments)) {}
+    explicit BallInRoom(int segments) : Gathering(make_scene(segments)) {}
 
     /// The mean of gathers at the facet that is met from this direction, which is unit.
-    IrradianceSample gather(const glm::vec3& from) {
-        RayTask task(stage.rays);
+    IrradianceSample gather_from(const glm::vec3& from) {
         const Ray ray{from * 2.0f - glm::vec3(stage.shading.anchor), -from};
         const Hit hit = task.tracer.intersect(ray);
         SurfacePoint point = make_surface_point(stage.shading, hit, ray.direction);
@@ -35,8 +34,7 @@ struct BallInRoom {
         constexpr std::uint32_t count = 16;
         double inverse = 0.0;
         for (std::uint32_t seed = 0; seed < count; ++seed) {
-            const IrradianceSample sample =
-                gather_irradiance(stage.lighting(), task, point, {choose_strata(512), {seed, 0, 0, 0}}, scratch);
+            const IrradianceSample sample = gather(point, {choose_strata(512), {seed, 0, 0, 0}});
             mean.irradiance += sample.irradiance / static_cast<float>(count);
             mean.nearest_distance = std::min(mean.nearest_distance, sample.nearest_distance);
             mean.space.headroom = std::min(mean.space.headroom, sample.space.headroom);
@@ -48,9 +46,6 @@ struct BallInRoom {
         mean.harmonic_mean_distance = static_cast<float>(1.0 / inverse);
         return mean;
     }
-
-    Stage stage;
-    GatherScratch scratch;
 };
 
 TEST(GatherHemisphere, IC17_CoarseSmoothMeshesHaveTheRadiiOfFineOnes) {
@@ -61,7 +56,7 @@ TEST(GatherHemisphere, IC17_CoarseSmoothMeshesHaveTheRadiiOfFineOnes) {
             const float y = 0.9f - 1.8f * (static_cast<float>(i) + 0.5f) / 24.0f, phi = 2.4f * static_cast<float>(i);
             const float across = std::sqrt(1.0f - y * y);
             const glm::vec3 from(across * std::cos(phi), y, across * std::sin(phi));
-            const IrradianceSample expected = fine.gather(from), found = coarse.gather(from);
+            const IrradianceSample expected = fine.gather_from(from), found = coarse.gather_from(from);
             SCOPED_TRACE(testing::Message() << segments << " segments, point " << i);
             EXPECT_NEAR(found.irradiance.y, expected.irradiance.y, 0.05f * expected.irradiance.y);
             EXPECT_NEAR(found.harmonic_mean_distance, expected.harmonic_mean_distance,
@@ -80,45 +75,35 @@ TEST(GatherHemisphere, IC17_NoRaysBelowTheTrueSurface) {
     Scene scene;
     add_mesh(scene, make_faceted_sphere(2.0, 32, add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true)));
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.5, 1.0, 0.2});
-    const Stage stage(std::move(scene));
-    RayTask task(stage.rays);
-    GatherScratch scratch;
+    Gathering ball(std::move(scene));
     SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
     point.normal = glm::normalize(glm::vec3(1.0f, 1.0f, 0.0f));
-    const IrradianceSample sample = gather_irradiance(stage.lighting(), task, point, {choose_strata(1024)}, scratch);
+    const IrradianceSample sample = ball.gather(point, {choose_strata(1024)});
     // At 45 degrees, (1 + cos) / 2 of the cosine-weighted hemisphere is above the surface.
-    EXPECT_NEAR(static_cast<double>(task.counts.gather), 1024 * 0.5 * (1.0 + std::sqrt(0.5)), 16.0);
-    for (const Ray& ray : scratch.rays) EXPECT_GT(ray.direction.y, 0.0f);
+    EXPECT_NEAR(static_cast<double>(ball.task.counts.gather), 1024 * 0.5 * (1.0 + std::sqrt(0.5)), 16.0);
+    for (const Ray& ray : ball.scratch.rays) EXPECT_GT(ray.direction.y, 0.0f);
     EXPECT_NEAR(sample.nearest_distance, 2.0f, 0.02f);
     EXPECT_EQ(sample.ignored_distances, 0);
 }
 
 /// A box of single walls, open in front.
-Stage make_open_box() {
+Scene make_open_box() {
     Scene scene;
-    const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
-    const auto turned = [](double x, double y) {
-        return glm::angleAxis(x, glm::dvec3(1.0, 0.0, 0.0)) * glm::angleAxis(y, glm::dvec3(0.0, 1.0, 0.0));
-    };
-    constexpr double quarter = std::numbers::pi / 2;
-    const Mesh wall = make_quad(5.5, 5.5, white);
+    const Mesh wall = make_quad(5.5, 5.5, add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true));
     add_mesh(scene, wall, {0.0, 0.0, -2.75});
-    add_mesh(scene, wall, {0.0, 2.75, 0.0}, turned(quarter, 0.0));
-    add_mesh(scene, wall, {0.0, -2.75, 0.0}, turned(-quarter, 0.0));
-    add_mesh(scene, wall, {-2.75, 0.0, 0.0}, turned(0.0, quarter));
-    add_mesh(scene, wall, {2.75, 0.0, 0.0}, turned(0.0, -quarter));
+    add_mesh(scene, wall, {0.0, 2.75, 0.0}, z_to_down);
+    add_mesh(scene, wall, {0.0, -2.75, 0.0}, z_to_up);
+    add_mesh(scene, wall, {-2.75, 0.0, 0.0}, turn_about_y(pi / 2));
+    add_mesh(scene, wall, {2.75, 0.0, 0.0}, turn_about_y(-pi / 2));
     add_light(scene, Light::Kind::point, glm::dvec3(10.0), {0.0, 0.0, 0.0});
-    return Stage(std::move(scene));
+    return scene;
 }
 
 TEST(Gather, MC29_PointsOnTheEdgeWhereTwoWallsMeet) {
-    const Stage stage = make_open_box();
-    RayTask task(stage.rays);
-    GatherScratch scratch;
+    Gathering box(make_open_box());
     const auto gather = [&](int wall, int triangle, float u, float v) {
-        const SurfacePoint point = make_surface_point(stage.shading, Hit{wall, triangle, u, v, 1.0f}, true);
-        return luminance(
-            gather_irradiance(stage.lighting(), task, point, {choose_strata(256), {1, 2, 3, 4}}, scratch).irradiance);
+        const SurfacePoint point = make_surface_point(box.stage.shading, Hit{wall, triangle, u, v, 1.0f}, true);
+        return luminance(box.gather(point, {choose_strata(256), {1, 2, 3, 4}}).irradiance);
     };
     for (int wall = 0; wall < 5; ++wall) {
         for (int triangle = 0; triangle < 2; ++triangle) {

@@ -1,6 +1,6 @@
 // A gather's estimate of its own noise against the spread over seeds.
 
-#include "tests/support/render_scenes.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
 
@@ -9,9 +9,7 @@ namespace {
 
 /// The mean over points. At single points, where light varies smoothly, the estimate is up to twice the spread.
 TEST(GatherNoise, TheEstimateIsTheSpreadOverSeeds) {
-    const Stage stage(make_cluttered_room());
-    RayTask task(stage.rays);
-    GatherScratch scratch;
+    Gathering room(make_cluttered_room());
     const SurfacePoint points[] = {
         make_point({-0.2f, -1.499f, -0.2f}, {0.0f, 1.0f, 0.0f}), make_point({0.3f, -1.499f, 1.2f}, {0.0f, 1.0f, 0.0f}),
         make_point({1.999f, 0.3f, 0.8f}, {-1.0f, 0.0f, 0.0f}), make_point({-1.999f, -0.6f, -0.6f}, {1.0f, 0.0f, 0.0f}),
@@ -21,8 +19,7 @@ TEST(GatherNoise, TheEstimateIsTheSpreadOverSeeds) {
         for (const SurfacePoint& point : points) {
             Mean light, variance;
             for (std::uint32_t seed = 0; seed < 64; ++seed) {
-                const IrradianceSample sample = gather_irradiance(stage.lighting(), task, point,
-                                                                  {choose_strata(samples), {seed, 7, 0, 0}}, scratch);
+                const IrradianceSample sample = room.gather(point, {choose_strata(samples), {seed, 7, 0, 0}});
                 light.add(luminance(sample.irradiance));
                 variance.add(static_cast<double>(sample.relative_error) * sample.relative_error);
             }
@@ -35,9 +32,7 @@ TEST(GatherNoise, TheEstimateIsTheSpreadOverSeeds) {
 
 /// Cells that take more rays change neither the mean nor what the estimate says of the noise.
 TEST(GatherNoise, DividedCellsKeepTheMeanAndTheEstimate) {
-    const Stage stage(make_cluttered_room());
-    RayTask task(stage.rays);
-    GatherScratch scratch;
+    Gathering room(make_cluttered_room());
     const SurfacePoint point = make_point({-0.2f, -1.499f, -0.2f}, {0.0f, 1.0f, 0.0f});
     const HemisphereStrata strata = choose_strata(64);
     std::vector<DividedCell> divided;
@@ -46,12 +41,10 @@ TEST(GatherNoise, DividedCellsKeepTheMeanAndTheEstimate) {
         const std::uint32_t runs = trial.times(256u);
         Mean light, variance, plain;
         for (std::uint32_t seed = trial.seed; seed < trial.seed + runs; ++seed) {
-            const IrradianceSample sample = gather_irradiance(stage.lighting(), task, point, {strata, {seed, 7, 0, 0}},
-                                                              scratch, {.divided = divided});
+            const IrradianceSample sample = room.gather(point, {strata, {seed, 7, 0, 0}}, {.divided = divided});
             light.add(luminance(sample.irradiance));
             variance.add(static_cast<double>(sample.relative_error) * sample.relative_error);
-            plain.add(luminance(
-                gather_irradiance(stage.lighting(), task, point, {strata, {seed, 8, 0, 0}}, scratch).irradiance));
+            plain.add(luminance(room.gather(point, {strata, {seed, 8, 0, 0}}).irradiance));
             EXPECT_GT(sample.rays, 3 * strata.count() / 2);
         }
         trial.near(light, plain);
@@ -61,12 +54,9 @@ TEST(GatherNoise, DividedCellsKeepTheMeanAndTheEstimate) {
 }
 
 TEST(GatherNoise, EdgesOfTheEstimate) {
-    const Stage stage(make_cluttered_room());
-    RayTask task(stage.rays);
-    GatherScratch scratch;
-    const SurfacePoint point = make_point({-0.2f, -1.499f, -0.2f}, {0.0f, 1.0f, 0.0f});
+    Gathering room(make_cluttered_room());
     const auto error_of = [&](int samples) {
-        return gather_irradiance(stage.lighting(), task, point, {choose_strata(samples)}, scratch).relative_error;
+        return room.at({-0.2f, -1.499f, -0.2f}, {0.0f, 1.0f, 0.0f}, samples).relative_error;
     };
     EXPECT_TRUE(std::isinf(error_of(1)));
     EXPECT_TRUE(std::isinf(error_of(2)));
@@ -76,12 +66,7 @@ TEST(GatherNoise, EdgesOfTheEstimate) {
     }
     Scene dark;
     add_mesh(dark, make_faceted_sphere(2.0, 16, add_lambert(dark, glm::dvec3(0.5))));
-    const Stage unlit(std::move(dark));
-    RayTask unlit_task(unlit.rays);
-    EXPECT_EQ(gather_irradiance(unlit.lighting(), unlit_task, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}),
-                                {choose_strata(64)}, scratch)
-                  .relative_error,
-              0.0f);
+    EXPECT_EQ(Gathering(std::move(dark)).at(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 64).relative_error, 0.0f);
 }
 
 }  // namespace

@@ -31,18 +31,9 @@ TEST(GatherRays, BlocksAreBandsOfFourRows) {
     };
     EXPECT_EQ(order({1, 2}), (Places{{0, 0}, {0, 1}}));
     EXPECT_EQ(order({5, 2}), (Places{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}}));
-    EXPECT_EQ(order({6, 2}), (Places{{0, 0},
-                                     {1, 0},
-                                     {2, 0},
-                                     {0, 1},
-                                     {1, 1},
-                                     {2, 1},  // two bands
-                                     {3, 0},
-                                     {4, 0},
-                                     {5, 0},
-                                     {3, 1},
-                                     {4, 1},
-                                     {5, 1}}));
+    EXPECT_EQ(order({6, 2}),
+              (Places{{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 0}, {4, 0}, {5, 0}, {3, 1}, {4, 1}, {5, 1}}))
+        << "two bands";
     EXPECT_EQ(order({10, 1}).size(), 10u);
     EXPECT_EQ(order({10, 3})[9], std::pair(3, 0));  // three bands: rows 0 to 2, 3 to 5, 6 to 9
     EXPECT_EQ(order({10, 3})[18], std::pair(6, 0));

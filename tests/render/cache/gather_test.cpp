@@ -3,7 +3,8 @@
 
 #include "render/cache/gather.h"
 #include "tests/support/directions.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/indirect_pictures.h"
+#include "tests/support/penumbra.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
 
@@ -12,25 +13,19 @@ namespace {
 
 /// A ceiling lit from below by directional light, so that all of it reflects the same known radiance without noise.
 /// There is no floor: irradiance is gathered at points where it would be.
-Scene make_lit_ceiling(Mesh (*make_ceiling)(int material), const glm::dvec3& position, double albedo, double lux) {
+/// @param ceiling  of the first material, whose albedo is that given
+Scene make_lit_ceiling(const Mesh& ceiling, const glm::dvec3& position, double albedo, double lux) {
     Scene scene;
-    const int white = add_lambert(scene, glm::dvec3(albedo));
-    add_mesh(scene, make_ceiling(white), position);
-    add_light(scene, Light::Kind::directional, glm::dvec3(lux), glm::dvec3(0.0),
-              glm::angleAxis(pi / 2, glm::dvec3(1.0, 0.0, 0.0)));
+    add_lambert(scene, glm::dvec3(albedo));
+    add_mesh(scene, ceiling, position);
+    add_light(scene, Light::Kind::directional, glm::dvec3(lux), glm::dvec3(0.0), z_to_down);
     return scene;
 }
 
-struct Gathering {
-    explicit Gathering(Scene scene) : stage(std::move(scene)), task(stage.rays) {}
-    IrradianceSample at(const glm::vec3& position, const glm::vec3& normal, int samples, std::uint32_t seed = 0) {
-        return gather_irradiance(stage.lighting(), task, make_point(position, normal),
-                                 {choose_strata(samples), {seed, 0, 0, 0}}, scratch);
-    }
-    Stage stage;
-    RayTask task;
-    GatherScratch scratch;
-};
+/// It reflects a radiosity of 3.
+Scene make_lit_disc(float radius, unsigned segments, const glm::dvec3& position) {
+    return make_lit_ceiling(make_disc_facing_down(radius, segments, 0), position, 0.6, 5.0);
+}
 
 /// The mean over independent gathers is the truth, and within this share of it.
 void expect_irradiance(Gathering& gathering, const glm::vec3& position, const glm::vec3& normal, double expected,
@@ -62,16 +57,14 @@ TEST(Gather, MC04_StrataUseTheSamplesAskedFor) {
 
 TEST(Gather, DiscOverheadIsSineSquared) {
     for (const float height : {0.3f, 1.0f, 3.0f}) {
-        Gathering gathering(
-            make_lit_ceiling([](int m) { return make_disc_facing_down(1.0f, 720, m); }, {0.0, height, 0.0}, 0.6, 5.0));
+        Gathering gathering(make_lit_disc(1.0f, 720, {0.0, height, 0.0}));
         const double sine2 = 1.0 / (1.0 + height * height);
         expect_irradiance(gathering, glm::vec3(0.0f), up, 0.6 * 5.0 * sine2);
     }
 }
 
 TEST(Gather, EndlessCeilingGivesItsRadiosity) {
-    Gathering gathering(
-        make_lit_ceiling([](int m) { return make_disc_facing_down(5000.0f, 64, m); }, {0.0, 1.0, 0.0}, 0.6, 5.0));
+    Gathering gathering(make_lit_disc(5000.0f, 64, {0.0, 1.0, 0.0}));
     const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 1024);
     EXPECT_NEAR(sample.irradiance.x, 3.0, 1e-3);
     // Irradiance is the same everywhere. It changes with rotation only in second order, because below the horizon it is
@@ -82,28 +75,20 @@ TEST(Gather, EndlessCeilingGivesItsRadiosity) {
 
 TEST(Gather, BackOfTheCeilingIsLitByWhatMeetsIt) {
     // The light comes from below. Above the ceiling, facing down, only its unlit back is visible.
-    Gathering gathering(
-        make_lit_ceiling([](int m) { return make_disc_facing_down(5.0f, 64, m); }, {0.0, 1.0, 0.0}, 0.6, 5.0));
+    Gathering gathering(make_lit_disc(5.0f, 64, {0.0, 1.0, 0.0}));
     EXPECT_EQ(gathering.at({0.0f, 2.0f, 0.0f}, -up, 256).irradiance, Rgb(0.0f));
     EXPECT_EQ(gathering.at({0.0f, 2.0f, 0.0f}, up, 256).irradiance, Rgb(0.0f));
 }
 
-/// Share of a point's hemisphere that a parallel rectangle takes, one corner straight above it (Howell's catalogue,
-/// B-4).
-double corner_factor(double width, double depth, double height) {
-    const double x = width / height, y = depth / height, a = std::sqrt(1.0 + x * x), b = std::sqrt(1.0 + y * y);
-    return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2.0 * pi);
-}
-
-Mesh make_ceiling_two_by_one(int material) {
-    Mesh mesh = make_quad(2.0, 1.0, material);
+Mesh make_quad_facing_down(double width, double depth, int material) {
+    Mesh mesh = make_quad(width, depth, material);
     for (glm::vec3& p : mesh.positions) p = {p.x, 0.0f, p.y};  // faces down
     mesh.normals.clear();
     return mesh;
 }
 
 TEST(Gather, ParallelRectangle) {
-    Gathering gathering(make_lit_ceiling(make_ceiling_two_by_one, {0.0, 0.8, 0.0}, 0.5, 2.0));
+    Gathering gathering(make_lit_ceiling(make_quad_facing_down(2.0, 1.0, 0), {0.0, 0.8, 0.0}, 0.5, 2.0));
     expect_irradiance(gathering, glm::vec3(0.0f), up, 4.0 * corner_factor(1.0, 0.5, 0.8));
     expect_irradiance(gathering, {1.0f, 0.0f, 0.5f}, up, corner_factor(2.0, 1.0, 0.8));  // under a corner
     expect_irradiance(gathering, {1.0f, 0.0f, 0.0f}, up, 2.0 * corner_factor(2.0, 0.5, 0.8));
@@ -112,19 +97,18 @@ TEST(Gather, ParallelRectangle) {
 TEST(Gather, ShadowsOfTheLightAreSeen) {
     // A blind below the point keeps the light off half of the ceiling. The blind's lit underside is not visible from
     // the point, which is above it.
-    Scene scene = make_lit_ceiling(make_ceiling_two_by_one, {0.0, 0.8, 0.0}, 0.5, 2.0);
-    add_mesh(scene, flip_winding(make_ceiling_two_by_one(0)), {1.0, -0.5, 0.0});
+    const Mesh ceiling = make_quad_facing_down(2.0, 1.0, 0);
+    Scene scene = make_lit_ceiling(ceiling, {0.0, 0.8, 0.0}, 0.5, 2.0);
+    add_mesh(scene, flip_winding(ceiling), {1.0, -0.5, 0.0});
     Gathering gathering(std::move(scene));
     expect_irradiance(gathering, glm::vec3(0.0f), up, 2.0 * corner_factor(1.0, 0.5, 0.8));
 }
 
 TEST(Gather, ManyLightsAddUp) {
     // More lights than are compared at a hit. The choice among them must not lose energy.
-    Scene scene = make_lit_ceiling(make_ceiling_two_by_one, {0.0, 0.8, 0.0}, 0.5, 0.1);
-    for (int i = 1; i < 40; ++i) {
-        add_light(scene, Light::Kind::directional, glm::dvec3(i % 3 == 0 ? 0.0 : 0.1), glm::dvec3(0.0),
-                  glm::angleAxis(pi / 2, glm::dvec3(1.0, 0.0, 0.0)));
-    }
+    Scene scene = make_lit_ceiling(make_quad_facing_down(2.0, 1.0, 0), {0.0, 0.8, 0.0}, 0.5, 0.1);
+    for (int i = 1; i < 40; ++i)
+        add_light(scene, Light::Kind::directional, glm::dvec3(i % 3 == 0 ? 0.0 : 0.1), glm::dvec3(0.0), z_to_down);
     Gathering gathering(std::move(scene));
     expect_irradiance(gathering, glm::vec3(0.0f), up, 27 * 0.05 * 4.0 * corner_factor(1.0, 0.5, 0.8), 0.02);
 }
@@ -143,17 +127,14 @@ TEST(Gather, MeanDistanceInASphereIsItsRadius) {
 TEST(Gather, MeanDistanceUnderACeilingCountsMissesAsFar) {
     // Under an endless ceiling at h, the cosine-weighted mean of 1 / r = cos / h is 2 / (3 h); under half a ceiling,
     // half of that.
-    Gathering whole(
-        make_lit_ceiling([](int m) { return make_disc_facing_down(3000.0f, 64, m); }, {0.0, 2.0, 0.0}, 0.6, 5.0));
+    Gathering whole(make_lit_disc(3000.0f, 64, {0.0, 2.0, 0.0}));
     EXPECT_NEAR(whole.at(glm::vec3(0.0f), up, 4096).harmonic_mean_distance, 3.0, 0.01);
-    Gathering half(
-        make_lit_ceiling([](int m) { return make_disc_facing_down(3000.0f, 4, m); }, {1500.0, 2.0, 1500.0}, 0.6, 5.0));
+    Gathering half(make_lit_disc(3000.0f, 4, {1500.0, 2.0, 1500.0}));
     EXPECT_NEAR(half.at(glm::vec3(0.0f), up, 4096).harmonic_mean_distance, 6.0, 0.05);
 }
 
 TEST(Gather, InTheOpenTheDistanceIsInfinite) {
-    Gathering gathering(
-        make_lit_ceiling([](int m) { return make_disc_facing_down(1.0f, 16, m); }, {0.0, 1.0, 0.0}, 0.6, 5.0));
+    Gathering gathering(make_lit_disc(1.0f, 16, {0.0, 1.0, 0.0}));
     const IrradianceSample sample = gathering.at({0.0f, 2.0f, 0.0f}, up, 64);
     EXPECT_EQ(sample.harmonic_mean_distance, float_infinity);
     EXPECT_EQ(sample.irradiance, Rgb(0.0f));
@@ -183,12 +164,8 @@ struct Patch {
         Scene scene;
         const int black = add_lambert(scene, glm::dvec3(0.0)), white = add_lambert(scene, glm::dvec3(1.0));
         add_mesh(scene, make_disc_facing_down(100.0f, 64, black), {0.0, height + 1e-4, 0.0});
-        Mesh patch = make_quad(size, size, white);
-        for (glm::vec3& p : patch.positions) p = {p.x, 0.0f, p.y};
-        patch.normals.clear();
-        add_mesh(scene, patch, {x, height, 0.0});
-        add_light(scene, Light::Kind::directional, glm::dvec3(radiosity), glm::dvec3(0.0),
-                  glm::angleAxis(pi / 2, glm::dvec3(1.0, 0.0, 0.0)));
+        add_mesh(scene, make_quad_facing_down(size, size, white), {x, height, 0.0});
+        add_light(scene, Light::Kind::directional, glm::dvec3(radiosity), glm::dvec3(0.0), z_to_down);
         return scene;
     }
 

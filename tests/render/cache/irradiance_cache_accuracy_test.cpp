@@ -13,20 +13,12 @@ namespace aleph {
 namespace {
 
 constexpr int small_width = 16, small_height = 12;
-using PixelMeans = std::vector<Mean>;
-
-/// Luminance per pixel, and last of the whole picture, over `runs` seeds. Pictures are of pixel centres.
-PixelMeans render_runs(const Stage& stage, RenderSettings settings, std::uint32_t runs) {
-    PixelMeans means(small_width * small_height + 1);
+/// Pictures of pixel centres, of so many seeds.
+PictureMeans render_runs(const Stage& stage, RenderSettings settings, std::uint32_t runs) {
+    PictureMeans means;
     for (std::uint32_t run = 0; run < runs; ++run) {
         ++settings.seed;
-        const ShadedFrame out = shade(stage, settings);
-        double sum = 0.0;
-        for (std::size_t i = 0; i < out.color.size(); ++i) {
-            means[i].add(luminance(out.color.pixels[i]));
-            sum += luminance(out.color.pixels[i]);
-        }
-        means.back().add(sum);
+        means.add(shade(stage, settings).color);
     }
     return means;
 }
@@ -36,7 +28,7 @@ PixelMeans render_runs(const Stage& stage, RenderSettings settings, std::uint32_
 Scene make_block_room(double fov) {
     Scene scene = make_lamp_room({-0.8, 1.0, 0.5});
     add_mesh(scene, make_box({0.8, 0.8, 0.8}, add_lambert(scene, {0.7, 0.1, 0.1})), {0.5, -1.1, -0.5},
-             glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
+             turn_about_y(0.4));
     add_camera(scene, {0.0, 0.0, 1.8}, {0.2, -1.4, -0.1}, fov);
     return scene;
 }
@@ -46,21 +38,21 @@ Scene make_block_room(double fov) {
 TEST(IrradianceCache, IC12_TowardsAccuracyZeroItIsMonteCarlo) {
     const Stage stage(make_block_room(0.1), small_width, small_height);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        const PixelMeans traced = render_runs(stage, path_settings(1, 1, trial.seed), trial.times(800u));
+        const PictureMeans traced = render_runs(stage, path_settings(1, 1, trial.seed), trial.times(800u));
         for (const double accuracy : {0.0, 1e-30, 1e-3}) {
             RenderSettings settings = plain_settings(accuracy, 128);
             settings.seed = 10'000 + trial.seed;
             settings.light.light_samples = 1;
-            const PixelMeans cached = render_runs(stage, settings, trial.times(12u));
-            trial.near(traced.back(), cached.back());
+            const PictureMeans cached = render_runs(stage, settings, trial.times(12u));
+            trial.near(traced.all, cached.all);
+            constexpr int pixels = small_width * small_height;
             double squares = 0.0;
-            for (std::size_t i = 0; i + 1 < traced.size(); ++i) {
-                const double difference = traced[i].mean() - cached[i].mean();
-                squares += difference * difference / (std::pow(traced[i].error(), 2) + std::pow(cached[i].error(), 2));
+            for (int i = 0; i < pixels; ++i) {
+                const Mean &a = traced.pixels[i], &b = cached.pixels[i];
+                squares += std::pow((a.mean() - b.mean()) / std::hypot(a.error(), b.error()), 2.0);
             }
-            const double pixels = static_cast<double>(traced.size() - 1);
             trial.at_most(squares, std::sqrt(2.0 * pixels), pixels);
-            EXPECT_LT(std::hypot(traced.back().error(), cached.back().error()), 0.005 * traced.back().mean());
+            EXPECT_LT(std::hypot(traced.all.error(), cached.all.error()), 0.005 * traced.all.mean());
         }
     }));
 }

@@ -2,7 +2,7 @@
 
 #include "engine/base/parallel.h"
 #include "tests/support/first_hits.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -14,8 +14,7 @@ Scene make_corner() {
     const int white = add_lambert(scene, glm::dvec3(0.8));
     add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 0.0, 0.0}, z_to_up);
     add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 1.0, -1.0});
-    add_mesh(scene, make_quad(2.0, 2.0, white), {-1.0, 1.0, 0.0},
-             glm::angleAxis(std::numbers::pi / 2, glm::dvec3(0.0, 1.0, 0.0)));
+    add_mesh(scene, make_quad(2.0, 2.0, white), {-1.0, 1.0, 0.0}, turn_about_y(pi / 2));
     add_light(scene, Light::Kind::point, glm::dvec3(3.0), {0.3, 0.8, 0.3});
     add_camera(scene, {0.0, 1.0, 1.0}, {-1.0, 0.0, -1.0}, 0.25);
     return scene;
@@ -39,23 +38,18 @@ Scene make_open_tiles() {
     const int white = add_lambert(scene, glm::dvec3(0.8)), red = add_lambert(scene, {0.9, 0.05, 0.05});
     add_mesh(scene, make_quad(1.0, 1.0, white), {0.0, 0.0, 0.0}, z_to_up);
     add_mesh(scene, make_quad(1.0, 1.0, white), {10.0, 0.0, 0.0}, z_to_up);
-    add_mesh(scene, make_quad(1.0, 1.0, red), {10.5, 0.5, 0.0},
-             glm::angleAxis(-std::numbers::pi / 2, glm::dvec3(0.0, 1.0, 0.0)));
-    const glm::dquat towards_wall = glm::angleAxis(-std::numbers::pi / 2, glm::dvec3(0.0, 1.0, 0.0));
-    add_light(scene, Light::Kind::directional, glm::dvec3(2.0), glm::dvec3(0.0), towards_wall);
+    add_mesh(scene, make_quad(1.0, 1.0, red), {10.5, 0.5, 0.0}, turn_about_y(-pi / 2));
+    add_light(scene, Light::Kind::directional, glm::dvec3(2.0), glm::dvec3(0.0), turn_about_y(-pi / 2));
     add_camera(scene, {5.0, 6.0, 6.0}, {5.0, 0.0, 0.0}, 1.2);
     return scene;
 }
 
 TEST(IrradianceCache, IC06_ARecordInTheOpenDoesNotCoverTheNextObject) {
     const Stage stage(make_open_tiles(), 80, 40);
-    RayTask task(stage.rays);
-    GatherScratch scratch;
+    Gathering tiles(make_open_tiles());
     const glm::vec3 up(0.0f, 1.0f, 0.0f), anchor(stage.shading.anchor);
     const glm::vec3 first = glm::vec3(-0.4f, 0.0f, 0.0f) - anchor, second = glm::vec3(10.3f, 0.0f, 0.0f) - anchor;
-    const auto gather = [&](const glm::vec3& p) {
-        return gather_irradiance(stage.lighting(), task, make_point(p, up), {choose_strata(1024)}, scratch);
-    };
+    const auto gather = [&](const glm::vec3& p) { return tiles.at(p, up, 1024); };
     const float largest = scene_radius(stage.shading);
     IrradianceCache cache = make_cache(stage.shading);
     cache.insert(make_record(first, up, 1.0f, gather(first), {1e-3f, largest}).value());
@@ -83,7 +77,7 @@ TEST(IrradianceCache, IC10_WindingDoesNotMatterToATwoSidedSurface) {
         Mesh room = make_box({4.0, 3.0, 4.0}, white), block = make_box({0.8, 0.8, 0.8}, white);
         if (flipped) room = flip_winding(room), block = flip_winding(block);
         add_mesh(scene, room);
-        add_mesh(scene, block, {0.5, -1.1, -0.5}, glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
+        add_mesh(scene, block, {0.5, -1.1, -0.5}, turn_about_y(0.4));
         add_light(scene, Light::Kind::point, glm::dvec3(4.0), {-0.5, 1.0, 0.3});
         add_camera(scene, {0.0, 0.0, 1.8}, {0.0, -0.4, 0.0}, 1.0);
         const Stage stage(std::move(scene), 64, 48);
@@ -104,42 +98,31 @@ Scene make_room() {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
     const int red = add_lambert(scene, {0.7, 0.1, 0.1}, glm::dvec3(0.0), true);
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(10.0));
     add_mesh(scene, make_box({4.0, 3.0, 4.0}, white));
-    add_mesh(scene, make_box({0.8, 0.8, 0.8}, red), {0.5, -1.1, -0.5}, glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
-    add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, 1.49, 0.0}, z_to_down);
+    add_mesh(scene, make_box({0.8, 0.8, 0.8}, red), {0.5, -1.1, -0.5}, turn_about_y(0.4));
+    add_lamp(scene, 1.0, glm::dvec3(10.0), {0.0, 1.49, 0.0});
     add_camera(scene, {0.0, 0.0, 1.8}, {0.0, -0.4, 0.0}, 1.0);
     return scene;
 }
 
 TEST(IrradianceCache, IC13_TheSameRecordsFromAnyNumberOfThreads) {
-    const Stage stage(make_room(), 96, 72);
-    RenderSettings settings = plain_settings(0.15, 64);
-    settings.light.light_samples = 4;
-    Image<float> accuracy(96, 72);
-    for (int y = 0; y < 72; ++y) {
-        for (int x = 0; x < 96; ++x) accuracy(x, y) = x < 48 ? 0.15f : 0.6f;  // as a guide would give
-    }
-    const LightingContext lighting = stage.lighting();
-    const IndirectContext context{lighting, stage.view, settings, accuracy, 0, scene_radius(stage.shading), {}};
-    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    IndirectStage room(make_room(), 96, 72, 0.15);
+    room.settings.light.light_samples = 4;
+    for (const auto [x, y] : all_pixels(room.alpha)) room.alpha(x, y) = x < 48 ? 0.15f : 0.6f;  // as by a guide
     std::vector<IrradianceRecord> first;
     Image<Rgb> first_picture;
     for (const int threads : {1, 2, 4, 8}) {
         const ThreadLimit limit(threads);
-        IrradianceCache cache = make_cache(stage.shading);
-        FrameTally tally{Image<float>(96, 72), Image<float>(96, 72), {}};
-        fill_cache(cache, context, centers, tally);
-        const Image<Rgb> picture = shade_frame(context, centers, 1.0).color;
+        const std::vector<IrradianceRecord> records = room.fill().cache.records();
+        const Image<Rgb> picture = shade_frame(room.context, room.centers, 1.0).color;
         if (threads == 1) {
-            first = cache.records();
+            first = records;
             first_picture = picture;
             ASSERT_GT(first.size(), 50u);
-            continue;
         }
-        ASSERT_EQ(cache.records().size(), first.size());
+        ASSERT_EQ(records.size(), first.size());
         for (std::size_t i = 0; i < first.size(); ++i) {
-            const IrradianceRecord &a = first[i], &b = cache.records()[i];
+            const IrradianceRecord &a = first[i], &b = records[i];
             ASSERT_EQ(a.position, b.position);
             ASSERT_EQ(a.normal, b.normal);
             ASSERT_EQ(a.irradiance, b.irradiance);

@@ -2,7 +2,7 @@
 // caches.
 
 #include "tests/support/directions.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -110,11 +110,8 @@ TEST(IrradianceCache, IC05_SelfHitsDoNotShrinkTheRadius) {
             // 1e-5 m above the point, less than 1e-4 of the radius, and small: like a self-hit by rounding.
             add_mesh(scene, make_quad(1e-6, 1e-6, white), {0.0, 1.2e-5, 0.0}, z_to_down);
         }
-        const Stage stage(std::move(scene));
-        RayTask task(stage.rays);
-        GatherScratch scratch;
-        return gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1e-5f),
-                                 {choose_strata(2048), {1, 2, 3, 4}}, scratch);
+        return Gathering(std::move(scene))
+            .gather(make_point(glm::vec3(0.0f), up, 1e-5f), {choose_strata(2048), {1, 2, 3, 4}});
     };
     const IrradianceSample clean = mean_distance(false), disturbed = mean_distance(true);
     EXPECT_EQ(clean.ignored_distances, 0);
@@ -130,11 +127,7 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
         add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 0.0, -distance});
         add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 1.0, 0.0}, z_to_down);
         add_light(scene, Light::Kind::point, glm::dvec3(5.0), {0.1, 0.3, 0.5});
-        const Stage stage(std::move(scene));
-        RayTask task(stage.rays);
-        GatherScratch scratch;
-        const IrradianceSample sample =
-            gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), up), {choose_strata(1024)}, scratch);
+        const IrradianceSample sample = Gathering(std::move(scene)).at(glm::vec3(0.0f), up, 1024);
         ASSERT_GT(sample.irradiance.x, 0.0f) << distance;
         const IrradianceRecord record = make_record(glm::vec3(0.0f), up, 1.0f, sample, any_radius).value();
         for (std::size_t c = 0; c < 3; ++c) {

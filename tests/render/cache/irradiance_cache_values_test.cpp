@@ -100,6 +100,7 @@ TEST(IrradianceCacheValues, MuchLooserRecordsCoverNothing) {
 
 TEST(IrradianceCacheValues, ExpectedRecordsAreMeansWeightedByDistance) {
     IrradianceCache cache = make_empty_cache();
+    EXPECT_FALSE(cache.expect(make_query(0.0f, 0.1f), 9.0f).has_value());
     const auto add = [&](float x, float radius, float variance, const glm::vec3& normal = up) {
         IrradianceRecord record = make_record_at(x, radius);
         record.normal = normal;
@@ -220,7 +221,7 @@ TEST(IrradianceCacheValues, BeyondTheClearanceARayDecides) {
         Scene scene;
         const int black = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0), true);
         const glm::dvec3 shift(30.0, 0.0, 0.0), at = shift + glm::dvec3(origin);  // rays have other coordinates
-        const glm::dquat quarter = glm::angleAxis(pi / 2, glm::dvec3(0.0, 1.0, 0.0));
+        const glm::dquat quarter = turn_about_y(pi / 2);
         add_mesh(scene, make_quad(2.0, 2.0 * height, black), at + glm::dvec3(1.0, 0.0, 0.0), quarter);
         add_mesh(scene, make_quad(2.0, 2.0, black), at + glm::dvec3(2.1, 0.0, 0.0), quarter);   // behind the query
         add_mesh(scene, make_quad(2.0, 2.0, black), at + glm::dvec3(-0.1, 0.0, 0.0), quarter);  // behind the record

@@ -1,7 +1,7 @@
 // Places that mirrors show: a mirror faces a wall behind the camera.
 
 #include "render/cache/mirror_places.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -23,27 +23,17 @@ struct Mirror {
                                    .gloss = {.metallic = 1.0, .roughness = roughness},
                                    .layers = {.anisotropy = anisotropy}});
         add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
-        add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, 3.0},
-                 glm::angleAxis(std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
+        add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, 3.0}, turn_about_y(std::numbers::pi));
         add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0});
         return scene;
     }
 
     void expect(const std::function<void(const Stage&, const MirrorPlaces&, const RayCounts&)>& check) const {
-        const Stage stage(make_scene(), width, height);
-        RenderSettings settings = plain_settings(0.1, 64);
-        settings.light.bounces = 1;
-        settings.light.path_depth = path_depth;
-        const Image<float> alpha(width, height, accuracy);
-        const LightingContext lighting = stage.lighting();
-        const IndirectContext context{.lighting = lighting,
-                                      .view = stage.view,
-                                      .settings = settings,
-                                      .accuracy = alpha,
-                                      .progress = {},
-                                      .carried = carried};
+        IndirectStage room(make_scene(), width, height, accuracy);
+        room.settings.light.path_depth = path_depth;
+        room.context.carried = carried;
         RayCounts counts;
-        check(stage, cast_mirror_places(context, cast_centers(stage.rays, stage.view, nullptr), counts), counts);
+        check(room.stage, cast_mirror_places(room.context, room.centers, counts), counts);
     }
 
     /// Whether places are found, and their accuracy in the middle of the picture.
@@ -63,14 +53,12 @@ TEST(MirrorPlaces, PathsArriveAtTheWall) {
         EXPECT_TRUE(found.any);
         EXPECT_EQ(counts.specular, static_cast<std::uint64_t>(width * height));
         EXPECT_NEAR(found.places.solid_angle, std::pow(stage.view.pixels_per_unit, -2.0), 1e-9);
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
-                expect_near(found.places.directions(x, y), {ray.x, ray.y, -ray.z}, 1e-6);
-                const double distance = 11.0 / std::abs(ray.z);
-                ASSERT_EQ(found.places.hits(x, y).instance, 1);
-                EXPECT_NEAR(found.places.hits(x, y).distance, distance, 1e-5 * distance);
-            }
+        for (const auto [x, y] : all_pixels(width, height)) {
+            const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
+            expect_near(found.places.directions(x, y), {ray.x, ray.y, -ray.z}, 1e-6);
+            const double distance = 11.0 / std::abs(ray.z);
+            ASSERT_EQ(found.places.hits(x, y).instance, 1);
+            EXPECT_NEAR(found.places.hits(x, y).distance, distance, 1e-5 * distance);
         }
     });
 }
@@ -98,28 +86,18 @@ TEST(MirrorPlaces, TurnsEndWithThePath) {
 TEST(MirrorPlaces, GlassIsLookedThrough) {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.5));
-    Material glass;
-    glass.gloss.metallic = glass.gloss.roughness = 0.0;
-    glass.glass.transmission = 1.0;
-    scene.materials.push_back(glass);
+    scene.materials.push_back({.gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}});
     add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
     add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, -9.0});
     add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0});
-    const Stage stage(std::move(scene), width, height);
-    const RenderSettings settings = plain_settings(0.1, 64);
-    const Image<float> alpha(width, height, 0.1f);
-    const LightingContext lighting = stage.lighting();
-    const IndirectContext context{
-        .lighting = lighting, .view = stage.view, .settings = settings, .accuracy = alpha, .progress = {}};
+    const IndirectStage room(std::move(scene), width, height, 0.1);
     RayCounts counts;
-    const MirrorPlaces found = cast_mirror_places(context, cast_centers(stage.rays, stage.view, nullptr), counts);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
-            ASSERT_EQ(found.places.hits(x, y).instance, 1);
-            expect_near(found.places.directions(x, y), ray, 1e-6);
-            EXPECT_NEAR(found.places.hits(x, y).distance, 9.0 / std::abs(ray.z), 1e-4);
-        }
+    const MirrorPlaces found = cast_mirror_places(room.context, room.centers, counts);
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const glm::dvec3 ray = make_camera_ray(room.stage.view, x + 0.5, y + 0.5).direction;
+        ASSERT_EQ(found.places.hits(x, y).instance, 1);
+        expect_near(found.places.directions(x, y), ray, 1e-6);
+        EXPECT_NEAR(found.places.hits(x, y).distance, 9.0 / std::abs(ray.z), 1e-4);
     }
 }
 

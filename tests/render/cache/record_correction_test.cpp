@@ -17,24 +17,6 @@ IrradianceRecord make_flat_record(const glm::vec3& position, float irradiance, f
             .accuracy = 0.2f};
 }
 
-TEST(RecordCorrection, RecordsThatDisagreeReachLessFar) {
-    for (const float difference : {0.0f, 0.05f, 0.5f}) {
-        IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
-        cache.insert(make_flat_record(glm::vec3(0.0f), 1.0f, 0.02f));
-        cache.insert(make_flat_record({0.1f, 0.0f, 0.0f}, 1.0f - difference, 0.02f));
-        for (const IrradianceRecord& record : cache.records()) {
-            if (difference < 0.5f) {
-                EXPECT_EQ(record.growth, 0.0f) << "a difference that noise explains";
-            } else {
-                // The error allowed at alpha is alpha / 2: reached nearer than at the other record.
-                EXPECT_GT(0.1f * 0.1f * record.growth, 0.2f);
-                const float relative = difference / (1.0f - 0.5f * difference);  // to the mean of both
-                EXPECT_NEAR(0.1f * 0.1f * record.growth, relative / 0.5f, 0.02f);
-            }
-        }
-    }
-}
-
 TEST(RecordCorrection, AveragesLowerNoiseAndKeepEdges) {
     constexpr float noise = 0.03f, edge = 0.4f;
     std::mt19937 engine(5);
@@ -73,19 +55,6 @@ TEST(RecordCorrection, RaysFollowVarianceAndAccuracy) {
     settings.cache.gather = 1000;
     EXPECT_EQ(choose_rays(settings, 0.1f, 9.0f), 1000);
     EXPECT_EQ(choose_rays(settings, 0.2f, 9.0f), 250);
-}
-
-TEST(RecordCorrection, VarianceIsExpectedFromRecordsAround) {
-    IrradianceCache cache(glm::vec3(-5.0f), glm::vec3(5.0f));
-    EXPECT_FALSE(cache.expect({glm::vec3(0.0f), up, 0.1f}, 9.0f).has_value());
-    for (const auto& [x, variance] : {std::pair(-4.0f, 8.0f), std::pair(4.0f, 2.0f)}) {
-        IrradianceRecord record = make_flat_record({x, 0.0f, 0.0f}, 1.0f, 0.1f);
-        record.noise.ray_variance = variance;
-        cache.insert(record);
-    }
-    EXPECT_FLOAT_EQ(cache.expect({{-3.9f, 0.0f, 0.0f}, up, 0.1f}, 9.0f)->ray_variance, 8.0f);
-    EXPECT_FLOAT_EQ(cache.expect({{3.9f, 0.0f, 0.0f}, up, 0.1f}, 9.0f)->ray_variance, 2.0f);
-    EXPECT_FLOAT_EQ(cache.expect({glm::vec3(0.0f), up, 0.1f}, 9.0f)->ray_variance, 5.0f);  // none is near: all
 }
 
 TEST(RecordCorrection, ContactsHaveNoGradientBeyondThem) {

@@ -3,12 +3,11 @@
 #include "render/cache/record_worth.h"
 
 #include "engine/load/load_scene.h"
-#include "render/cache/cache_fill.h"
 #include "render/cache/gather_at.h"
 #include "render/frame/sequence.h"
 #include "render/guide/stopping_rule.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/paths.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -56,20 +55,10 @@ TEST(RecordWorth, MoreRaysKeepNoiseCloseToThatOfSamples) {
 }
 
 TEST(RecordWorth, ATolerantPictureHasFewerRecordsAndAStrictOneAll) {
-    const Stage stage(make_cluttered_room(), 96, 72);
-    RenderSettings settings = plain_settings(0.05, 64);
-    settings.cache.gather = 1024;  // where a record costs much, fewer pay
-    const Image<float> alpha(96, 72, 0.05f);
-    const LightingContext lighting = stage.lighting();
-    const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
+    IndirectStage room(make_cluttered_room(), 96, 72, 0.05, 1024);  // where a record costs much, fewer pay
     const auto count = [&](const Image<float>* tolerance) {
-        IndirectContext context{lighting, stage.view, settings, alpha, 0, scene_radius(stage.shading), {}};
-        context.tolerance = tolerance;
-        FrameTally tally;
-        tally.records = tally.invalid_samples = Image<float>(96, 72);
-        IrradianceCache cache = make_cache(stage.shading);
-        fill_cache(cache, context, hits, tally);
-        return cache.records().size();
+        room.context.tolerance = tolerance;
+        return room.fill().cache.records().size();
     };
     const Image<float> loose(96, 72, 1e6f), strict(96, 72, 0.0f);
     const std::size_t all = count(nullptr), few = count(&loose), most = count(&strict);
@@ -81,9 +70,7 @@ TEST(RecordWorth, ATolerantPictureHasFewerRecordsAndAStrictOneAll) {
 /// Rays of samples are without bias, and records nearly: the mixture has the light of traced paths.
 TEST(RecordWorth, FramesMixRecordsAndRaysOfSamples) {
     const Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
-    RenderSettings settings;
-    settings.picture.width = 48;
-    settings.picture.height = 36;
+    RenderSettings settings{.picture = {.width = 48, .height = 36}};
     follow_error(settings, 1.0);
     settings.light.bounces = 2;
     const FrameOutput mixed = Sequence(scene, settings).render(15);

@@ -96,14 +96,9 @@ TEST(IndirectEstimate, IsTheSameForAnyNumberOfThreads) {
 
 TEST(IndirectEstimate, NoBouncesMeansNone) {
     const auto maps = [](int bounces) {
-        RenderSettings settings;
-        settings.picture.width = 40;
-        settings.picture.height = 30;
-        settings.light.bounces = bounces;
+        const RenderSettings settings{.picture = {.width = 40, .height = 30}, .light = {.bounces = bounces}};
         Sequence sequence(make_room(), settings);
-        FrameRequest request;
-        request.frame = false;
-        return std::pair(sequence.render(0, request), sequence.exposure());
+        return std::pair(sequence.render(0, {.frame = false, .progress = {}}), sequence.exposure());
     };
     const auto [none, exposure_of_none] = maps(0);
     const auto [one, exposure_of_one] = maps(1);
@@ -126,12 +121,8 @@ double share_beyond(const Image<float>& a, const Image<float>& b) {
 
 TEST(IndirectEstimate, GivesTheThresholdsOfTheFinishedFrameInCornell) {
     const Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
-    RenderSettings settings;
-    settings.picture.width = 128;
-    settings.picture.height = 96;
-    settings.sampling.spp = 1;
-    settings.cache.gather = 256;
-    settings.cache.accuracy = 0.1;
+    RenderSettings settings{
+        .picture = {.width = 128, .height = 96}, .cache = {.accuracy = 0.1, .gather = 256}, .sampling = {.spp = 1}};
     const auto render = [&](int bounces) {
         settings.light.bounces = bounces;
         return Sequence(scene, settings).render(10);

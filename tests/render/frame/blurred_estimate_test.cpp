@@ -92,10 +92,8 @@ TEST(BlurredEstimate, WhatRestsKeepsItsValues) {
         return look(std::move(scene), 1).estimate;
     };
     const Image<Rgb> open = estimate({-0.5, 0.5}), closed = estimate({0.0, 0.0});
-    for (int y = 0; y < 8; ++y) {
-        for (int x = 0; x < width; ++x) {
-            EXPECT_NEAR(open(x, y).x, closed(x, y).x, 1e-4f * closed(x, y).x) << x << " " << y;
-        }
+    for (const auto [x, y] : all_pixels(width, 8)) {
+        EXPECT_NEAR(open(x, y).x, closed(x, y).x, 1e-4f * closed(x, y).x) << x << " " << y;
     }
     EXPECT_GT(std::abs(open(width / 2 + 5, height / 2).x - closed(width / 2 + 5, height / 2).x), 0.05f);
 }
@@ -107,12 +105,10 @@ TEST(BlurredEstimate, ALensBlursByTheCircleOfConfusion) {
     scene.nodes[0].transform.scale = glm::dvec3(0.5);
     const Image<Rgb> estimate = look(scene).estimate;
     double sum = 0.0, squares = 0.0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const glm::dvec2 at = (glm::dvec2(x, y) + 0.5 - 0.5 * glm::dvec2(width, height)) / pixels_per_metre;
-            sum += estimate(x, y).x - 0.1;
-            squares += (estimate(x, y).x - 0.1) * glm::dot(at, at);
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const glm::dvec2 at = (glm::dvec2(x, y) + 0.5 - 0.5 * glm::dvec2(width, height)) / pixels_per_metre;
+        sum += estimate(x, y).x - 0.1;
+        squares += (estimate(x, y).x - 0.1) * glm::dot(at, at);
     }
     EXPECT_NEAR(sum, 0.7 * 0.25 * pixels_per_metre * pixels_per_metre, 0.5);
     // A disc of radius r has the second keyframe r^2 / 2, a square of side s s^2 / 6.

@@ -14,9 +14,7 @@ namespace {
 
 TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
     const Scene scene = load_scene(source_folder() / "scenes/pool/scene.json");
-    RenderSettings settings;
-    settings.picture.width = 80;
-    settings.picture.height = 60;
+    RenderSettings settings{.picture = {.width = 80, .height = 60}};
     settings.guide.motion = MotionSource::census;
     const FrameRequest request{.frame = false, .maps = true, .progress = {}};
     Sequence sequence(scene, settings);
@@ -39,9 +37,7 @@ TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
 TEST(SceneMotionFromImages, NoneAcrossACut) {
     Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
     scene.film.cuts = {5};
-    RenderSettings settings;
-    settings.picture.width = 40;
-    settings.picture.height = 30;
+    RenderSettings settings{.picture = {.width = 40, .height = 30}};
     settings.guide.motion = MotionSource::census;
     const FrameOutput output = Sequence(scene, settings).render(4, {.frame = false, .maps = true, .progress = {}});
     for (const glm::dvec2& d : output.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
@@ -95,9 +91,7 @@ TEST(SceneMotionFromImages, WhatIsValidOnTheBoomerangIsNearTheTruth) {
 
 TEST(SceneMotionFromMaps, IsRasterizedBothWaysAndMarksWhatIsHidden) {
     const Scene scene = load_scene(source_folder() / "scenes/pool/scene.json");
-    RenderSettings settings;
-    settings.picture.width = 80;
-    settings.picture.height = 60;
+    RenderSettings settings{.picture = {.width = 80, .height = 60}};
     const FrameRequest request{.frame = false, .maps = true, .progress = {}};
     const FrameOutput exact = Sequence(scene, settings).render(20, request);
     settings.guide.motion = MotionSource::raster;

@@ -1,6 +1,9 @@
 // A sequence of frames as C++ programs use it.
 
 #include "render/frame/sequence.h"
+
+#include <numeric>
+
 #include "tests/support/perception_scene.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
@@ -13,25 +16,13 @@ namespace {
 Scene make_moving_scene() {
     Scene scene;
     const int grey = add_lambert(scene, glm::dvec3(0.5));
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(10.0));
-    scene.meshes = {make_quad(8.0, 8.0, grey), make_box(glm::dvec3(0.6), grey), make_quad(1.0, 1.0, lamp)};
-    scene.nodes.resize(4);
-    const glm::dquat down = glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));
-    scene.nodes[0].name = "floor";
-    scene.nodes[0].meshes = {0};
-    scene.nodes[0].transform.rotation = glm::inverse(down);
-    scene.nodes[1].name = "box";
-    scene.nodes[1].meshes = {1};
+    add_mesh(scene, make_quad(8.0, 8.0, grey), glm::dvec3(0.0), z_to_up);
+    add_mesh(scene, make_box(glm::dvec3(0.6), grey));
     scene.nodes[1].transform.translation.values = {{-1.0, 0.5, 0.0}, {1.0, 0.5, 0.0}};
-    scene.nodes[1].transform.translation.sampling.period = 1.0;
-    scene.nodes[2].name = "lamp";
-    scene.nodes[2].meshes = {2};
-    scene.nodes[2].transform.translation = glm::dvec3(0.0, 3.0, 0.0);
-    scene.nodes[2].transform.rotation = down;
+    add_lamp(scene, 1.0, glm::dvec3(10.0), {0.0, 3.0, 0.0});
     scene.cameras.emplace_back();
-    scene.nodes[3].name = "eye";
-    scene.nodes[3].camera = 0;
-    scene.nodes[3].transform.translation = glm::dvec3(0.0, 1.0, 5.0);
+    scene.nodes.push_back({.transform = {.translation = glm::dvec3(0.0, 1.0, 5.0)}, .camera = 0});
+    for (int i = 0; i < 4; ++i) scene.nodes[i].name = std::array{"floor", "box", "lamp", "eye"}[i];
     return scene;
 }
 
@@ -53,9 +44,9 @@ TEST(Sequence, SeesWithAProgramsOwnModelOfVision) {
 
 /// Share of the pixels that two frames have in common.
 double share_equal(const Image<Rgb>& a, const Image<Rgb>& b) {
-    int equal = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) equal += a.pixels[i] == b.pixels[i] ? 1 : 0;
-    return equal / static_cast<double>(a.size());
+    const auto equal =
+        std::inner_product(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), 0, std::plus<>(), std::equal_to<>());
+    return static_cast<double>(equal) / static_cast<double>(a.size());
 }
 
 TEST(Sequence, NoiseOfAStillCameraIsNewInEachFrameWhereAnErrorIsAskedFor) {
@@ -81,8 +72,7 @@ TEST(Sequence, NoiseOfAHeldFrameIsSeenMore) {
     Scene scene = make_moving_scene();
     RenderSettings settings = quick_settings(40, 30);
     follow_error(settings, 4.0);
-    FrameRequest request;
-    request.maps = true;
+    const FrameRequest request{.maps = true, .progress = {}};
     const float moving = Sequence(scene, settings).render(10, request).limits.threshold_noise(1, 28);
     scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.5, 0.0);
     const float held = Sequence(scene, settings).render(10, request).limits.threshold_noise(1, 28);

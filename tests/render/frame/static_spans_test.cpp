@@ -2,6 +2,7 @@
 
 #include "render/frame/static_spans.h"
 #include "render/frame/sequence.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
@@ -29,17 +30,11 @@ double move_and_rest(int frame) {
 Scene make_scene() {
     Scene scene;
     const int grey = add_lambert(scene, glm::dvec3(0.5));
-    scene.meshes = {make_box(glm::dvec3(0.8), grey), make_quad(6.0, 6.0, grey)};
-    scene.nodes.resize(4);
-    scene.nodes[0].meshes = {0};
-    scene.nodes[1].meshes = {1};
-    scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, -1.0);
-    scene.cameras.emplace_back();
-    scene.nodes[2].camera = 0;
-    scene.nodes[2].transform.translation = glm::dvec3(0.0, 0.0, 3.0);
-    scene.lights.emplace_back().intensity = 20.0;
-    scene.nodes[3].light = 0;
-    scene.nodes[3].transform.translation = glm::dvec3(1.0, 1.0, 2.0);
+    add_mesh(scene, make_box(glm::dvec3(0.8), grey));
+    add_mesh(scene, make_quad(6.0, 6.0, grey), {0.0, 0.0, -1.0});
+    add_camera(scene, {0.0, 0.0, 3.0}, glm::dvec3(0.0));
+    add_light(scene, Light::Kind::point, glm::dvec3(1.0), {1.0, 1.0, 2.0});
+    scene.lights[0].intensity = 20.0;
     scene.film.range = FrameRange{0, frames - 1};
     scene.film.exposure = 1.0;
     return scene;
@@ -106,13 +101,10 @@ TEST(StaticSpans, AnOpenShutterSeesWhatChangesAroundAFrame) {
     scene.cameras[0].shutter = {-0.5, 0.5};
     EXPECT_EQ(list_firsts(scene), (Firsts{0, 1, 2, 3, 4, 5, 5, 5, 5, 9, 10, 11, 12, 13, 14}));
     // A lamp that is off only while the shutter of frame 7 is open, at no frame's own time.
-    scene.lights[0].intensity = Track<double>();
-    scene.lights[0].intensity.interpolation = Interpolation::step;
-    scene.lights[0].intensity.sampling.kind = TimeSampling::Kind::acyclic;
     const double period = scene.film.frame_rate.seconds_of(1);
-    scene.lights[0].intensity.sampling.times = {0.0, 7.2 * period, 7.3 * period};
-    scene.lights[0].intensity.values = {20.0, 0.0, 20.0};
-    EXPECT_EQ(list_firsts(scene), (Firsts{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14}));
+    scene.lights[0].intensity =
+        keyed<double>({0.0, 7.2 * period, 7.3 * period}, {20.0, 0.0, 20.0}, Interpolation::step);
+    EXPECT_EQ(list_firsts(scene), own);
 }
 
 /// The firsts of a resting scene after a change that lasts for frame 7 alone.

@@ -13,25 +13,17 @@ namespace {
 
 constexpr Sampling rules[] = {Sampling::consecutive, Sampling::variance, Sampling::protocol, Sampling::threshold};
 
-SampleLight grey(float value) {
-    SampleLight light;
-    light[LightPart::direct] = Rgb(value);
-    light.place.instance = 0;
-    return light;
-}
-
 /// A sample's luminance, from uniform numbers of its own.
 using Distribution = std::function<double(RandomStream&)>;
 
-Image<PixelSamples> sample_picture(const SamplingPlan& plan, int width, int height, std::uint32_t seed,
-                                   const Distribution& draw) {
-    Image<PixelSamples> pixels(width, height);
+Image<PixelSamples> sample_picture(const SamplingPlan& plan, std::uint32_t seed, const Distribution& draw) {
+    Image<PixelSamples> pixels(plan.aleph.width, plan.aleph.height);
     sample_by_stages(plan, pixels, [&](std::span<const PixelRange> ranges) {
         for (const PixelRange& range : ranges) {
             const auto pixel = static_cast<std::uint32_t>(pixels.index(range.x, range.y));
             for (int i = range.first; i < range.last; ++i) {
                 RandomStream random({seed, 0, pixel, static_cast<std::uint32_t>(i)});
-                pixels(range.x, range.y).add(grey(static_cast<float>(draw(random))));
+                pixels(range.x, range.y).add(grey_sample(static_cast<float>(draw(random))));
             }
         }
     });
@@ -49,25 +41,36 @@ SamplingPlan make_plan(Sampling rule, int most, int width, int height, float tol
     return plan;
 }
 
+/// Each sample sees a light with probability p.
+Distribution rarely_lit(double p, double light = 1.0) {
+    return [=](RandomStream& random) { return random.next() < p ? light : 0.0; };
+}
+
 /// Pictures of 10,000 pixels: a mean that is biased towards early calm runs would show beside its error.
-void expect_unbiased(const Distribution& draw, double mean, float tolerance) {
-    constexpr int width = 100, height = 100, most = 512;
+/// @param numbers  samples that pixels took; may be null
+Mean draw_pictures(const SamplingPlan& plan, const Trial& trial, const Distribution& draw,
+                   std::set<int>* numbers = nullptr) {
+    Mean pictures;
+    for (std::uint32_t run = 0; run < trial.times(12u); ++run) {
+        double sum = 0.0;
+        for (const PixelSamples& pixel : sample_picture(plan, run + trial.seed, draw).pixels) {
+            sum += luminance(pixel.mean()) / 1e4;
+            if (numbers != nullptr) numbers->insert(pixel.taken());
+        }
+        pictures.add(sum);
+    }
+    return pictures;
+}
+
+void expect_unbiased(double p, double light, float tolerance) {
     for (const Sampling rule : rules) {
-        SCOPED_TRACE(static_cast<int>(rule));
-        const SamplingPlan plan = make_plan(rule, most, width, height, tolerance, 8.0f);
+        SCOPED_TRACE(testing::Message() << "rule " << static_cast<int>(rule) << ", probability " << p);
+        const SamplingPlan plan = make_plan(rule, 512, 100, 100, tolerance, 8.0f);
         EXPECT_TRUE(holds([&](Trial& trial) {
-            Mean pictures;
             std::set<int> numbers;
-            for (std::uint32_t run = 0; run < trial.times(12u); ++run) {
-                double sum = 0.0;
-                for (const PixelSamples& pixel : sample_picture(plan, width, height, run + trial.seed, draw).pixels) {
-                    sum += luminance(pixel.mean()) / (width * height);
-                    numbers.insert(pixel.taken());
-                }
-                pictures.add(sum);
-            }
-            trial.near(pictures, mean);
-            EXPECT_LT(pictures.error(), 0.1 * mean);
+            const Mean pictures = draw_pictures(plan, trial, rarely_lit(p, light), &numbers);
+            trial.near(pictures, p * light);
+            EXPECT_LT(pictures.error(), 0.1 * p * light);
             if (rule == Sampling::threshold) {
                 EXPECT_GT(numbers.size(), 1u);
             }
@@ -76,23 +79,8 @@ void expect_unbiased(const Distribution& draw, double mean, float tolerance) {
 }
 
 TEST(StoppingRule, MC21_RarelyLitPixelsKeepTheirMean) {
-    for (const double p : {0.02, 0.5}) {
-        SCOPED_TRACE(p);
-        expect_unbiased([p](RandomStream& random) { return random.next() < p ? 1.0 : 0.0; }, p, p < 0.1 ? 0.02f : 0.1f);
-    }
-}
-
-/// Pictures of 10,000 pixels, each of whose samples sees a light of 1 with probability p.
-Mean draw_rarely_lit(const SamplingPlan& plan, double p, const Trial& trial) {
-    Mean pictures;
-    const auto draw = [p](RandomStream& random) { return random.next() < p ? 1.0 : 0.0; };
-    for (std::uint32_t run = 0; run < trial.times(12u); ++run) {
-        double sum = 0.0;
-        for (const PixelSamples& pixel : sample_picture(plan, 100, 100, run + trial.seed, draw).pixels)
-            sum += luminance(pixel.mean()) / 1e4;
-        pictures.add(sum);
-    }
-    return pictures;
+    expect_unbiased(0.02, 1.0, 0.02f);
+    expect_unbiased(0.5, 1.0, 0.1f);
 }
 
 TEST(StoppingRule, MC21_OwnSamplesMakeRarelyLitPixelsTooDark) {
@@ -105,18 +93,18 @@ TEST(StoppingRule, MC21_OwnSamplesMakeRarelyLitPixelsTooDark) {
         SamplingPlan plan = make_plan(rule, static_cast<int>(most), 100, 100, static_cast<float>(tolerance));
         plan.stopping = Stopping::pixel;
         EXPECT_TRUE(holds([&](Trial& trial) {
-            const Mean pictures = draw_rarely_lit(plan, p, trial);
+            const Mean pictures = draw_pictures(plan, trial, rarely_lit(p));
             trial.at_most(pictures, 0.9 * p);
             if (rule == Sampling::variance) trial.near(pictures, p * (first + (most - first) * lit) / most);
         }));
         plan.stopping = Stopping::neighbourhood;
-        EXPECT_TRUE(holds([&](Trial& trial) { trial.near(draw_rarely_lit(plan, p, trial), p); }));
+        EXPECT_TRUE(holds([&](Trial& trial) { trial.near(draw_pictures(plan, trial, rarely_lit(p)), p); }));
     }
 }
 
 TEST(StoppingRule, OwnSamplesTellDifferenceAndDeviation) {
     PixelSamples pixel;
-    for (const float value : {1.0f, 1.0f, 2.0f, 4.0f}) pixel.add(grey(value));
+    for (const float value : {1.0f, 1.0f, 2.0f, 4.0f}) pixel.add(grey_sample(value));
     const MeanEstimate mean = estimate_own_mean(pixel);
     EXPECT_EQ(mean.samples, 4);
     EXPECT_NEAR(mean.error2, 1.0, 1e-6) << "the mean was 1 after two samples and is 2 after four";
@@ -124,38 +112,37 @@ TEST(StoppingRule, OwnSamplesTellDifferenceAndDeviation) {
 }
 
 TEST(StoppingRule, MC21_SpikesKeepTheirMean) {
-    const double p = 1e-3, spike = 1e4;
-    expect_unbiased([=](RandomStream& random) { return random.next() < p ? spike : 0.0; }, p * spike, 1.0f);
+    expect_unbiased(1e-3, 1e4, 1.0f);
 }
 
 TEST(StoppingRule, MC02_AnEmitterThatIsSeldomHit) {
-    const double p = 1.0 / 64.0;
-    expect_unbiased([p](RandomStream& random) { return random.next() < p ? 64.0 : 0.0; }, 1.0, 1.0f);
+    expect_unbiased(1.0 / 64.0, 64.0, 1.0f);
 }
 
 TEST(StoppingRule, MC17_BlackPixelsStopAtTheLeastNumber) {
     for (const Sampling rule : rules) {
         for (const float tolerance : {0.0f, 1e-6f}) {
             const SamplingPlan plan = make_plan(rule, 512, 8, 6, tolerance, 1000.0f);
-            const Image<PixelSamples> pixels = sample_picture(plan, 8, 6, 0, [](RandomStream&) { return 0.0; });
-            for (const PixelSamples& pixel : pixels.pixels) {
+            for (const PixelSamples& pixel : sample_picture(plan, 0, rarely_lit(0.0)).pixels)
                 EXPECT_EQ(pixel.taken(), rule == Sampling::threshold ? own_samples : 16);
-            }
         }
     }
 }
 
+double next_number(RandomStream& random) {
+    return random.next();
+}
+
 TEST(StoppingRule, ToleranceThatIsNotANumberSamplesToTheEnd) {
     const SamplingPlan plan = make_plan(Sampling::threshold, 64, 4, 3, float_nan);
-    const Image<PixelSamples> pixels = sample_picture(plan, 4, 3, 0, [](RandomStream& r) { return r.next(); });
-    for (const PixelSamples& pixel : pixels.pixels) EXPECT_EQ(pixel.taken(), 64);
+    for (const PixelSamples& pixel : sample_picture(plan, 0, next_number).pixels) EXPECT_EQ(pixel.taken(), 64);
 }
 
 TEST(StoppingRule, OnePixelDecidesByItself) {
     const SamplingPlan plan = make_plan(Sampling::threshold, 4096, 1, 1, 0.02f);
-    const Image<PixelSamples> pixels = sample_picture(plan, 1, 1, 1, [](RandomStream& r) { return r.next(); });
-    EXPECT_GT(pixels(0, 0).taken(), own_samples);
-    EXPECT_LT(pixels(0, 0).taken(), 4096);
+    const int taken = sample_picture(plan, 1, next_number)(0, 0).taken();
+    EXPECT_GT(taken, own_samples);
+    EXPECT_LT(taken, 4096);
 }
 
 TEST(StoppingRule, SamplesFollowTheTolerance) {
@@ -164,10 +151,9 @@ TEST(StoppingRule, SamplesFollowTheTolerance) {
     const double deviation = std::sqrt(1.0 / 12.0);
     for (const float tolerance : {0.2f, 0.1f, 0.05f}) {
         const SamplingPlan plan = make_plan(Sampling::threshold, 4096, 40, 30, tolerance);
-        const Image<PixelSamples> pixels = sample_picture(plan, 40, 30, 3, [](RandomStream& r) { return r.next(); });
         double samples = 0.0;
         int beyond = 0;
-        for (const PixelSamples& pixel : pixels.pixels) {
+        for (const PixelSamples& pixel : sample_picture(plan, 3, next_number).pixels) {
             samples += pixel.taken() / 1200.0;
             if (std::abs(luminance(pixel.mean()) - 0.5) > tolerance) ++beyond;
         }
@@ -184,7 +170,7 @@ TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
     for (int y = 0; y < 3; ++y) {
         outlines(1, y) = Outline::still;
         for (int x = 0; x < 3; ++x) {
-            for (int i = 0; i < 2; ++i) pixels(x, y).add(grey(x == 1 ? static_cast<float>(i) : 0.0f));
+            for (int i = 0; i < 2; ++i) pixels(x, y).add(grey_sample(x == 1 ? static_cast<float>(i) : 0.0f));
         }
     }
     EXPECT_NEAR(estimate_mean(pixels, outlines, 1, 1).error2, 0.25, 1e-7);
@@ -194,9 +180,9 @@ TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
     outlines = Image<Outline>(5, 5, Outline::none);
     outlines(1, 1) = Outline::still;  // alone among others
     for (PixelSamples& pixel : pixels.pixels) {
-        for (int i = 0; i < 2; ++i) pixel.add(grey(0.0f));
+        for (int i = 0; i < 2; ++i) pixel.add(grey_sample(0.0f));
     }
-    for (int i = 0; i < 2; ++i) pixels(0, 1).add(grey(static_cast<float>(i)));
+    for (int i = 0; i < 2; ++i) pixels(0, 1).add(grey_sample(static_cast<float>(i)));
     EXPECT_GT(estimate_mean(pixels, outlines, 1, 1).error2, 0.0);
     // Noise two pixels away, where the nearest are calm.
     EXPECT_EQ(estimate_mean(pixels, {}, 3, 1).error2, 0.0);
@@ -206,10 +192,8 @@ TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
 /// Every pixel's two samples differ by twice its deviation.
 Image<PixelSamples> pixels_of_deviations(int width, int height, const std::function<float(int, int)>& deviation) {
     Image<PixelSamples> pixels(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            for (const float sign : {-1.0f, 1.0f}) pixels(x, y).add(grey(10.0f + sign * deviation(x, y)));
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        for (const float sign : {-1.0f, 1.0f}) pixels(x, y).add(grey_sample(10.0f + sign * deviation(x, y)));
     }
     return pixels;
 }
@@ -222,7 +206,7 @@ TEST(StoppingRule, DeviationsAroundAreMeansOfOtherPixels) {
     EXPECT_NEAR(around(11, 0), one * 3.0, 1e-5);
     EXPECT_NEAR(around(5, 6), one * (5.0 * 5.0 + 4.0 * 5.0 * 3.0 - 1.0) / (9.0 * 5.0 - 1.0), 1e-5);
     pixels(0, 0) = PixelSamples();  // not known
-    for (const float value : {0.0f, 100.0f}) pixels(1, 0).add(grey(value));
+    for (const float value : {0.0f, 100.0f}) pixels(1, 0).add(grey_sample(value));
     EXPECT_NEAR(deviations_around(pixels, 4)(6, 6), around(6, 6), 1e-6) << "beyond reach";
     EXPECT_NEAR(deviations_around(pixels_of_deviations(1, 1, [](int, int) { return 2.0f; }), 4)(0, 0), 2.0 * one, 1e-5);
     Image<float> values(20, 1, 1.0f);
@@ -257,18 +241,17 @@ TEST(StoppingRule, AnOutlineNeedsFewerSamplesThanItsOwnErrorSays) {
                 RandomStream random(
                     {1, 0, static_cast<std::uint32_t>(pixels.index(x, y)), static_cast<std::uint32_t>(i)});
                 const double deviation = plan.outlines(x, y) == Outline::none ? 1.0 : 8.0;
-                pixels(x, y).add(grey(static_cast<float>(10.0 + deviation * std::sqrt(12.0) * (random.next() - 0.5))));
+                pixels(x, y).add(
+                    grey_sample(static_cast<float>(10.0 + deviation * std::sqrt(12.0) * (random.next() - 0.5))));
             }
         }
     });
     double taken = 0.0, energy = 0.0, alone = 0.0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const double deviation = plan.outlines(x, y) == Outline::none ? 1.0 : 8.0;
-            taken += pixels(x, y).taken();
-            energy += std::pow(luminance(pixels(x, y).mean()) - 10.0, 2.0) / (width * height);
-            alone += std::pow(error_deviations * deviation / tolerance, 2.0);
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const double deviation = plan.outlines(x, y) == Outline::none ? 1.0 : 8.0;
+        taken += pixels(x, y).taken();
+        energy += std::pow(luminance(pixels(x, y).mean()) - 10.0, 2.0) / (width * height);
+        alone += std::pow(error_deviations * deviation / tolerance, 2.0);
     }
     EXPECT_LT(std::sqrt(energy) * error_deviations, 1.1 * tolerance);
     EXPECT_LT(taken, 0.7 * alone);

@@ -116,8 +116,7 @@ TEST(LightTree, TheBoundOfATexturedLampIsThatOfItsBrightestTexel) {
         for (glm::vec4& texel : image.floats.pixels) texel = glm::vec4(0.5f * value);
         image.floats(1, 1) = glm::vec4(value);
         scene.images.push_back(image);
-        add_mesh(scene, make_quad(0.5, 0.5, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0))), {0.0, 2.0, 0.0},
-                 z_to_down);
+        add_lamp(scene, 0.5, glm::dvec3(1.0), {0.0, 2.0, 0.0});
         scene.materials[0].textures[TextureSlot::emission] = {.image = 0, .nearest = true};
         const Stage stage(std::move(scene));
         const Receiver receiver{{0.3f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}};

@@ -13,8 +13,7 @@ namespace {
 
 Scene make_lamp_scene(double size, double height) {
     Scene scene;
-    add_mesh(scene, make_quad(size, size, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(4.0))), {0.0, height, 0.0},
-             z_to_down);
+    add_lamp(scene, size, glm::dvec3(4.0), {0.0, height, 0.0});
     return scene;
 }
 
@@ -69,12 +68,11 @@ TEST(Lights, DensityMeasuresTheSolidAngle) {
     // E[1 / pdf] over light samples is the visible solid angle. For a square overhead it has a closed form.
     const Stage stage(make_lamp_scene(2.0, 1.5));
     EXPECT_TRUE(holds([&](Trial& trial) {
-        std::mt19937 engine(6 + trial.seed);
-        std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+        RandomStream random({6 + trial.seed, 0, 0, 0});
         Mean solid_angle, side;
         for (int i = 0; i < trial.times(100'000); ++i) {
             const LightSample sample =
-                sample_light(stage.shading, stage.lights, 0, {glm::vec3(0.0f), up}, {unit(engine), unit(engine)});
+                sample_light(stage.shading, stage.lights, 0, {glm::vec3(0.0f), up}, random.next_2d());
             ASSERT_GT(sample.pdf, 0.0f);
             ASSERT_NEAR(sample.incoming.x * sample.pdf, 4.0f, 1e-4f);
             ASSERT_NEAR(sample.distance, 1.5f / sample.direction.y, 1e-3f);
@@ -93,13 +91,11 @@ TEST(Lights, FarLampsAreSampledByAreaWithTheSameMean) {
     const double height = 9.0, a = 1.0 / height;
     const Stage stage(make_lamp_scene(2.0, height));
     EXPECT_TRUE(holds([&](Trial& trial) {
-        std::mt19937 engine(7 + trial.seed);
-        std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+        RandomStream random({7 + trial.seed, 0, 0, 0});
         Mean solid_angle;
         for (int i = 0; i < trial.times(100'000); ++i) {
-            solid_angle.add(
-                1.0 /
-                sample_light(stage.shading, stage.lights, 0, {glm::vec3(0.0f), up}, {unit(engine), unit(engine)}).pdf);
+            solid_angle.add(1.0 /
+                            sample_light(stage.shading, stage.lights, 0, {glm::vec3(0.0f), up}, random.next_2d()).pdf);
         }
         EXPECT_GT(solid_angle.error(), 0.0);
         trial.near(solid_angle, 4.0 * std::asin(a * a / (1.0 + a * a)));
@@ -128,12 +124,11 @@ TEST(Lights, SphericalTriangleIsUniformInSolidAngle) {
     }
     EXPECT_NEAR(solid_angle(corners[0], corners[1], corners[2]), total, 1e-4 * total);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        std::mt19937 engine(8 + trial.seed);
-        std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+        RandomStream random({8 + trial.seed, 0, 0, 0});
         Mean mean[3];
         for (int i = 0; i < trial.times(100'000); ++i) {
             const glm::vec3 d = sample_spherical_triangle(corners[0], corners[1], corners[2], static_cast<float>(total),
-                                                          {unit(engine), unit(engine)});
+                                                          random.next_2d());
             ASSERT_NEAR(glm::length(d), 1.0f, 1e-5f);
             for (int c = 0; c < 3; ++c) mean[c].add(d[c]);
         }
@@ -168,9 +163,7 @@ TEST(Lights, TexturedLampHasTheTexturesMeanPower) {
 TEST(Lights, ASharesTextureIsAveraged) {
     Scene scene = make_lamp_scene(2.0, 1.5);
     SceneImage image{.floats = Image<glm::vec4>(64, 64)};
-    for (int y = 0; y < 64; ++y) {
-        for (int x = 0; x < 64; ++x) image.floats(x, y) = glm::vec4((x + y) % 2 == 0 ? 1.0f : 0.0f);
-    }
+    for (const auto [x, y] : all_pixels(64, 64)) image.floats(x, y) = glm::vec4((x + y) % 2 == 0 ? 1.0f : 0.0f);
     scene.images.push_back(image);
     scene.materials[0].textures[TextureSlot::emission] = {.image = 0, .nearest = true};
     const Stage stage(std::move(scene));
@@ -239,8 +232,7 @@ TEST(Lights, UnlitSurfacesAreSeenAsTheyAreAndLightNothing) {
         const int unlit = add_lambert(scene, {0.3, 0.6, 0.9});
         scene.materials[0].unlit = true;
         add_mesh(scene, flip_winding(make_quad(2.0, 4.0, unlit)), {-1.0, 0.0, -3.0});
-        add_mesh(scene, make_quad(2.0, 4.0, add_lambert(scene, glm::dvec3(1.0))), {1.0, 0.0, -3.0},
-                 glm::angleAxis(-0.8, glm::dvec3(0.0, 1.0, 0.0)));
+        add_mesh(scene, make_quad(2.0, 4.0, add_lambert(scene, glm::dvec3(1.0))), {1.0, 0.0, -3.0}, turn_about_y(-0.8));
         if (lamp) add_light(scene, Light::Kind::point, glm::dvec3(5.0), glm::dvec3(0.0, 0.0, -1.0));
         const Stage stage(std::move(scene), 32, 24);
         const ShadedFrame frame = shade(stage, plain_settings(0.0, 64));

@@ -3,6 +3,7 @@
 #include "render/path/direct_light.h"
 #include "tests/support/directions.h"
 #include "tests/support/lobes.h"
+#include "tests/support/penumbra.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
@@ -98,10 +99,9 @@ Scene make_square_lamp(const glm::dquat& turn, bool double_sided, double size = 
     return scene;
 }
 
-/// Form factor of a square overhead, four corners (Howell's catalogue, B-4).
+/// Of four corners.
 double square_factor(double size, double height) {
-    const double x = 0.5 * size / height, a = std::sqrt(1.0 + x * x);
-    return 4.0 * 2.0 * x / a * std::atan(x / a) / (2.0 * pi);
+    return 4.0 * corner_factor(0.5 * size, 0.5 * size, height);
 }
 
 TEST(DirectLight, SquareLampOverhead) {
@@ -177,48 +177,6 @@ TEST(DirectLight, WhiteMetalInAWhiteFurnace) {
             })) << alpha
                 << ' ' << cosine;
         }
-    }
-}
-
-TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
-    // A lamp in the mirror direction: lamp samples are better for broad lobes, lobe samples for narrow ones.
-    for (const float alpha : {0.05f, 0.3f, 1.0f}) {
-        Lighting lighting(make_square_lamp(z_to_down, false));
-        const SurfaceMaterial metal = make_metal(alpha);
-        const glm::vec3 view = glm::normalize(glm::vec3(-0.4f, 1.0f, 0.1f));
-        const Basis basis = make_basis(up);
-        const glm::vec3 local_view = basis.to_local(view);
-        const SurfacePoint point = make_point(glm::vec3(0.0f), up);
-        EXPECT_TRUE(holds([&](Trial& trial) {
-            std::mt19937 engine(5 + trial.seed);
-            std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
-            Mean lamp_only, lobe_only;
-            for (int i = 0; i < trial.times(100'000); ++i) {
-                const LightSample sample = sample_light(lighting.stage.shading, lighting.stage.lights, 0,
-                                                        {point.position, up}, {unit(engine), unit(engine)});
-                const float cosine = glm::dot(up, sample.direction);
-                lamp_only.add(cosine > 0.0f ? (evaluate_glossy(metal, local_view, basis.to_local(sample.direction)) *
-                                               sample.incoming * cosine)
-                                                  .x
-                                            : 0.0);
-                const glm::vec3 local = sample_glossy(metal, local_view, {unit(engine), unit(engine)});
-                double found = 0.0;
-                if (local.z > 0.0f &&
-                    lighting.task.tracer.intersect({point.ray_origin(), basis.to_world(local)}).instance == 0) {
-                    found = evaluate_glossy(metal, local_view, local).x * 5.0 * local.z /
-                            pdf_glossy(metal, local_view, local);
-                }
-                lobe_only.add(found);
-            }
-            const Mean both = lighting.mean_of(metal, view, 16, trial.times(2000), trial.seed);
-            EXPECT_GT(both.mean(), 0.1);
-            trial.near(both, lamp_only);
-            trial.near(both, lobe_only);
-            // Per ray (16 + 16 per run), the combination is never much worse than the better of the two.
-            const double rays_both = 2000.0 * 32.0, rays_one = 100'000.0;
-            const double better = std::min(lamp_only.error(), lobe_only.error()) * std::sqrt(rays_one);
-            EXPECT_LT(both.error() * std::sqrt(rays_both), 2.0 * better);
-        })) << alpha;
     }
 }
 

@@ -11,16 +11,7 @@ namespace {
 
 /// Share of uniform light that all lobes but the Lambert layer reflect.
 Mean reflected_share(const ViewedSurface& surface, int count, std::uint32_t seed = 0) {
-    const LitSurface lit(surface);
-    const LobeShares shares = share_lobes(lit, LobeSet::specular);
-    RandomStream random({5 + seed, 0, 0, 0});
-    Mean mean;
-    for (int i = 0; i < count; ++i) {
-        const float pick = random.next();
-        const glm::vec2 u = random.next_2d();
-        mean.add(sample_scatter(lit, shares, pick, u, random.next()).weight.x);
-    }
-    return mean;
+    return mean_scattered(LitSurface(surface), count, 5 + seed, LobeSet::specular);
 }
 
 TEST(GlossyLight, AlbedoIsTheIntegralOfTheLobe) {

@@ -3,6 +3,7 @@
 #include "render/path/known_irradiance.h"
 #include "render/cache/mirror_places.h"
 #include "render/shade/frame_irradiance.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/lobes.h"
 #include "tests/support/path_estimates.h"
 #include "tests/support/test.h"
@@ -50,12 +51,10 @@ Estimator by_lobe_rays(const PathState& state) {
     return [=](const Stage& stage, RayTask& task, const ViewedSurface& surface, RandomStream& random) {
         const LitSurface lit(surface);
         const LobeShares shares = share_lobes(lit, LobeSet::specular);
-        PathState start = state;
-        const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
         // Without light sampling at the first surface, met light counts in full.
-        ScatterSample unweighted = sample;
+        ScatterSample unweighted = sample_scatter(lit, shares, random);
         unweighted.pdf = 0.0f;
-        return follow_sample(stage.lighting(), task, lit, unweighted, start, random);
+        return follow_sample(stage.lighting(), task, lit, unweighted, state, random);
     };
 }
 
@@ -116,9 +115,7 @@ TEST(KnownIrradianceTest, AccuracyIsLooserForFaintAndWideLobes) {
         material.gloss.f0 = Rgb(reflectance);
         material.gloss.f90 = reflectance;
         const ConstantIrradiance known(1);
-        PathState state = one_bounce(&known);
-        const ViewedSurface surface = make_inner_surface(material);
-        estimate(stage, surface, 200, by_lobe_rays(state));
+        estimate(stage, make_inner_surface(material), 200, by_lobe_rays(one_bounce(&known)));
         EXPECT_GT(known.lookups, 100);
         return std::pair(known.least, known.most);
     };
@@ -133,9 +130,8 @@ TEST(KnownIrradianceTest, AccuracyIsLooserForFaintAndWideLobes) {
 Scene make_lit_room() {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0));
     add_mesh(scene, make_box({4.0, 2.0, 4.0}, white));
-    add_mesh(scene, make_quad(0.5, 0.5, lamp), {0.6, 0.9, 0.0}, z_to_down);
+    add_lamp(scene, 0.5, glm::dvec3(9.0), {0.6, 0.9, 0.0});
     add_mesh(scene, make_box({0.5, 0.5, 0.5}, white), {0.2, -0.75, 0.3});
     return scene;
 }
@@ -169,28 +165,20 @@ Scene make_mirror_room() {
 }
 
 TEST(KnownIrradianceTest, AMirrorShowsWhatTheCacheHolds) {
-    const Stage stage(make_mirror_room(), 48, 36);
-    RenderSettings settings = plain_settings(0.2, 0);
-    settings.cache.min_radius_pixels = 2.0;  // the picture is small
-    const Image<float> accuracy(48, 36, 0.2f);
-    const LightingContext lighting = stage.lighting();
-    const float radius = scene_radius(stage.shading);
-    const IndirectContext context{lighting, stage.view, settings, accuracy, 0, radius, {}};
-    const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
-    FrameTally tally;
-    tally.records = tally.invalid_samples = Image<float>(48, 36);
-    IrradianceCache cache = make_cache(stage.shading);
-    fill_cache(cache, context, hits, tally);
+    IndirectStage room(make_mirror_room(), 48, 36, 0.2, 0);
+    room.settings.cache.min_radius_pixels = 2.0;  // the picture is small
+    const Stage& stage = room.stage;
+    auto [cache, tally] = room.fill();
     const std::size_t plain = cache.records().size();
-    fill_mirror_places(cache, context, hits, tally);
+    fill_mirror_places(cache, room.context, room.centers, tally);
     EXPECT_GT(cache.records().size(), plain + 5);
     EXPECT_EQ(tally.counts.records, cache.records().size());
     cache.finish();
-    const FrameIrradiance known(context, &cache);
+    const FrameIrradiance known(room.context, &cache);
     EXPECT_EQ(known.bounces, 1);
     RayTask task(stage.rays);
     GatherScratch scratch;
-    const MirrorPlaces mirrors = cast_mirror_places(context, hits, tally.counts.rays);
+    const MirrorPlaces mirrors = cast_mirror_places(room.context, room.centers, tally.counts.rays);
     int seen = 0, found = 0, compared = 0;
     double total = 0.0, difference = 0.0, squares = 0.0;
     for (int i = 0; i < 48 * 36; ++i) {
@@ -204,7 +192,7 @@ TEST(KnownIrradianceTest, AMirrorShowsWhatTheCacheHolds) {
         ++found;
         if (i % 7 != 0) continue;
         const IrradianceSample truth =
-            gather_irradiance(lighting, task, place.point,
+            gather_irradiance(room.lighting, task, place.point,
                               {choose_strata(1024), {9, 9, 9, static_cast<std::uint32_t>(i)}}, scratch, {30});
         total += luminance(truth.irradiance);
         difference += luminance(*light) - luminance(truth.irradiance);

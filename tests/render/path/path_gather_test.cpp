@@ -13,8 +13,7 @@ Scene make_box_scene(Walls walls) {
     const int white = add_lambert(scene, glm::dvec3(0.75), glm::dvec3(0.0), true);
     const int red = add_lambert(scene, {0.6, 0.1, 0.1}, glm::dvec3(0.0), true);
     add_small_room(scene, white, red, {9.0, 8.0, 6.0}, 0.6);
-    add_mesh(scene, make_box({0.6, 0.8, 0.6}, white), {0.3, -0.6, -0.2},
-             glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
+    add_mesh(scene, make_box({0.6, 0.8, 0.6}, white), {0.3, -0.6, -0.2}, turn_about_y(0.4));
     if (walls == Walls::glossy) {
         scene.materials[0].gloss.specular = 1.0;
         scene.materials[0].gloss.roughness = 0.5;
@@ -22,10 +21,7 @@ Scene make_box_scene(Walls walls) {
     if (walls == Walls::mirrors) {  // the red wall is one, and a pane of glass hangs under the lamp
         scene.materials[1] = {};
         scene.materials[1].gloss.roughness = 0.0;
-        Material glass;
-        glass.gloss.metallic = glass.gloss.roughness = 0.0;
-        glass.glass.transmission = 1.0;
-        scene.materials.push_back(glass);
+        scene.materials.push_back({.gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}});
         add_mesh(scene, make_quad(1.2, 1.2, 3), {0.0, 0.6, 0.0}, z_to_down);
     }
     if (walls == Walls::textured) {
@@ -45,32 +41,22 @@ TEST_P(PathGather, OneBounceIsThePictureOfTheGather) {
     constexpr std::uint32_t seeds = 40;
     const Stage stage(make_box_scene(GetParam()), width, height);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        std::vector<Mean> paths(width * height), gathers(width * height);
-        Mean all_paths, all_gathers;
+        PictureMeans paths, gathers;
         for (std::uint32_t seed = trial.seed; seed < trial.seed + trial.times(seeds); ++seed) {
             RenderSettings settings = path_settings(1, GetParam() == Walls::mirrors ? 16 : 4, seed);
-            const auto add = [&](std::vector<Mean>& pixels, Mean& all) {
-                const ShadedFrame out = shade(stage, settings);
-                double sum = 0.0;
-                for (std::size_t i = 0; i < pixels.size(); ++i) {
-                    pixels[i].add(luminance(out.color.pixels[i]));
-                    sum += luminance(out.color.pixels[i]);
-                }
-                all.add(sum / static_cast<double>(pixels.size()));
-            };
-            add(paths, all_paths);
+            paths.add(shade(stage, settings).color);
             settings.light.integrator = Integrator::cache;
             settings.cache.accuracy = 0.0;
             settings.cache.gather = 8;
             settings.seed = seed + 1000;
-            add(gathers, all_gathers);
+            gathers.add(shade(stage, settings).color);
         }
-        trial.near(all_paths, all_gathers);
-        EXPECT_LT(all_paths.error(), 0.01 * all_paths.mean());
+        trial.near(paths.all, gathers.all);
+        EXPECT_LT(paths.all.error(), 0.01 * paths.all.mean());
         int beyond = 0;
-        for (std::size_t i = 0; i < paths.size(); ++i) {
-            const double difference = std::abs(paths[i].mean() - gathers[i].mean());
-            if (difference > 3.0 * std::hypot(paths[i].error(), gathers[i].error()) + 1e-6) ++beyond;
+        for (std::size_t i = 0; i < paths.pixels.size(); ++i) {
+            const Mean &a = paths.pixels[i], &b = gathers.pixels[i];
+            if (std::abs(a.mean() - b.mean()) > 3.0 * std::hypot(a.error(), b.error()) + 1e-6) ++beyond;
         }
         // About one of 300 pixels is expected. Under mirrors, rare paths bring much of the light of some pixels, whose
         // spread over few renders says too little.
@@ -83,13 +69,9 @@ TEST_P(PathGather, IC23_ThreeBouncesWithTheCacheToo) {
     constexpr int width = 20, height = 15;
     const Stage stage(make_box_scene(GetParam()), width, height);
     const auto mean = [&](RenderSettings settings, std::uint32_t runs) {
-        Mean pictures;
-        for (std::uint32_t run = 0; run < runs; ++run, ++settings.seed) {
-            Mean picture;
-            for (const Rgb& pixel : shade(stage, settings).color.pixels) picture.add(luminance(pixel));
-            pictures.add(picture.mean());
-        }
-        return pictures;
+        PictureMeans pictures;
+        for (std::uint32_t run = 0; run < runs; ++run, ++settings.seed) pictures.add(shade(stage, settings).color);
+        return pictures.all;
     };
     EXPECT_TRUE(holds([&](Trial& trial) {
         RenderSettings settings = path_settings(3, 16, trial.seed);

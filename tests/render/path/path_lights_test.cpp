@@ -30,14 +30,13 @@ TEST(PathLights, MC10_ADiscAtAnyDistanceHasItsFormFactor) {
 }
 
 TEST(PathLights, MC10_ASquareNearbyIsSampledBySolidAngle) {
-    // Two triangles: no ray has to find them by chance, so direct light alone has the form factor (Howell B-4).
+    // Two triangles: no ray has to find them by chance, so direct light alone has the form factor.
     for (const double distance : {1.0, 0.1, 1e-3}) {
         SCOPED_TRACE(distance);
         Scene scene;
-        const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
-        add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, distance, 0.0}, z_to_down);
+        add_lamp(scene, 1.0, glm::dvec3(1.0), {0.0, distance, 0.0});
         const Stage stage(std::move(scene));
-        const double x = 0.5 / distance, a = std::sqrt(1.0 + x * x), expected = 4.0 / pi * x / a * std::atan(x / a);
+        const double expected = 4.0 * corner_factor(0.5, 0.5, distance);
         EXPECT_TRUE(holds([&](Trial& trial) {
             const Mean found =
                 estimate(stage, make_floor(glm::vec3(0.0f)), trial.times(40'000), by_paths(0, 1), trial.seed);
@@ -79,8 +78,7 @@ TEST(PathLights, MC10_MC11_ALampInThePlaneOfThePointIsDark) {
     for (const glm::dquat& turn : {z_to_down, no_turn}) {
         for (const glm::dvec3& at : {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 3.0)}) {
             Scene scene;
-            const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
-            add_mesh(scene, make_quad(1.0, 1.0, lamp), at, turn);
+            add_lamp(scene, 1.0, glm::dvec3(1.0), at, turn);
             const Stage stage(std::move(scene));
             for (const int bounces : {0, 1}) {
                 const Mean found = estimate(stage, make_floor(glm::vec3(0.0f)), 500, by_paths(bounces, 2));
@@ -112,7 +110,7 @@ TEST(PathLights, MC11_TrianglesWithoutAreaGiveNoLightAndTakeNone) {
     add_mesh(scene, nothing, {0.0, 1.0, 0.0}, z_to_down);
     const Stage stage(std::move(scene));
     EXPECT_EQ(stage.lights.count(), 1);
-    const double x = 0.5, a = std::sqrt(1.0 + x * x), expected = 4.0 / pi * x / a * std::atan(x / a);
+    const double expected = 4.0 * corner_factor(0.5, 0.5, 1.0);
     EXPECT_TRUE(holds([&](Trial& trial) {
         trial.near(estimate(stage, make_floor(glm::vec3(0.0f)), trial.times(4000), by_paths(0, 1), trial.seed),
                    expected, 1e-5);
@@ -189,12 +187,7 @@ TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
     // Per sample, relative to the mean. Ten lights are compared with one another, so that without shadows they have no
     // noise at all. With a random shadow they have: a sheet of alpha one half.
     const auto variance_of = [](int count, const Estimator& estimator) {
-        Scene scene;
-        const int side = static_cast<int>(std::ceil(std::sqrt(count)));
-        for (int i = 0; i < count; ++i) {
-            add_light(scene, Light::Kind::point, glm::dvec3(100.0 / count),
-                      {4.0 * (i % side + 0.5) / side - 2.0, 2.0, 4.0 * (i / side + 0.5) / side - 2.0});
-        }
+        Scene scene = make_crowd(count, Crowd::equal).first;
         scene.materials.push_back({.opacity = {.alpha = 0.5, .mode = Opacity::Mode::blend}, .double_sided = true});
         add_mesh(scene, make_quad(20.0, 20.0, 0), {0.0, 1.0, 0.0}, z_to_up);
         const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f), 0.6f), 6000, estimator);

@@ -18,16 +18,11 @@ Scene make_furnace(double albedo) {
     return scene;
 }
 
-/// The mean of all pixels.
-Mean mean_of(const Stage& stage, const RenderSettings& settings) {
-    return mean_of_pixels(shade(stage, settings));
-}
-
 void expect_value(const Stage& stage, RenderSettings settings, double expected) {
     EXPECT_TRUE(holds([&](Trial& trial) {
         settings.seed = trial.seed;
         settings.sampling.spp = trial.times(64);
-        const Mean mean = mean_of(stage, settings);
+        const Mean mean = mean_of_pixels(shade(stage, settings));
         trial.near(mean, expected, 1e-4 * expected);
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
     }));
@@ -48,7 +43,7 @@ TEST(Path, MC14_EachBounceAddsItsTerm) {
         expected += term *= 0.7;  // direct light counts as none
         // The last surface samples lamps only. Points of the wall next to it bring much and are met rarely: the
         // standard error of one picture is often too small.
-        const Mean mean = mean_of(stage, path_settings(bounces, 64));
+        const Mean mean = mean_of_pixels(shade(stage, path_settings(bounces, 64)));
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
         EXPECT_LT(mean.error(), 0.01 * expected);
     }
@@ -87,7 +82,7 @@ TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
         EXPECT_TRUE(holds([&](Trial& trial) {
             RenderSettings settings = path_settings(100, trial.times(32), trial.seed);
             settings.light.path_depth = 3;
-            const Mean mean = mean_of(stage, settings);
+            const Mean mean = mean_of_pixels(shade(stage, settings));
             trial.at_most(mean, 4.0);
             // The same without sampling lights, at the pixels' centres: the sphere looks the same all over.
             Mean lobes;
@@ -138,10 +133,9 @@ TEST(Path, VarianceTellsTheErrorOfThePixel) {
     // Smooth light on a floor that fills the picture: over seeds, pixel means spread as the variance says.
     Scene scene;
     const int grey = add_lambert(scene, glm::dvec3(0.6));
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(5.0));
     add_mesh(scene, make_quad(20.0, 20.0, grey), {0.0, -1.0, 0.0}, z_to_up);
     add_mesh(scene, make_quad(20.0, 20.0, grey), {0.0, 2.0, 0.0}, z_to_down);
-    add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.3, 1.5, 0.0}, z_to_down);
+    add_lamp(scene, 1.0, glm::dvec3(5.0), {0.3, 1.5, 0.0});
     add_camera(scene, glm::dvec3(0.0), {0.0, -1.0, -0.1}, 0.6);
     const Stage stage(std::move(scene), 12, 9);
     constexpr std::uint32_t seeds = 64;

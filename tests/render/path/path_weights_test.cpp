@@ -1,5 +1,7 @@
 // Paths weigh light sampling against lobe sampling: the mean must be that of either alone.
 
+#include "tests/support/directions.h"
+#include "tests/support/lobes.h"
 #include "tests/support/path_estimates.h"
 #include "tests/support/test.h"
 
@@ -13,7 +15,7 @@ Scene make_surroundings(Surroundings which) {
     Scene scene;
     const int grey = add_lambert(scene, {0.7, 0.5, 0.3}, glm::dvec3(0.0), true);
     add_mesh(scene, make_quad(4.0, 4.0, grey), {0.0, -1.0, 0.0}, z_to_up);
-    add_mesh(scene, make_quad(4.0, 4.0, grey), {-1.5, 0.0, 0.0}, glm::angleAxis(1.2, glm::dvec3(0.0, 1.0, 0.0)));
+    add_mesh(scene, make_quad(4.0, 4.0, grey), {-1.5, 0.0, 0.0}, turn_about_y(1.2));
     const double radiance = which == Surroundings::small_lamp ? 20.0 : 2.0;
     const int lamp = add_lambert(scene, glm::dvec3(0.0), radiance * glm::dvec3(2.0, 1.5, 1.0), true);
     switch (which) {
@@ -46,12 +48,8 @@ Scene make_surroundings(Surroundings which) {
 }
 
 SurfaceMaterial make_plastic() {
-    SurfaceMaterial material = make_lambert(0.5f);
-    material.gloss.f0 = Rgb(0.04f);
-    material.gloss.f90 = 1.0f;
-    material.gloss.f0_max = 0.04f;
-    material.gloss.f90_max = 1.0f;
-    material.gloss.alpha = 0.15f;
+    SurfaceMaterial material = make_white_plastic(0.15f);
+    material.diffuse = Rgb(0.5f);
     return material;
 }
 
@@ -60,13 +58,10 @@ SurfaceMaterial make_rough_sheet() {
 }
 
 SurfaceMaterial make_coated() {
-    SurfaceMaterial material = make_plastic();
-    material.coat.strength = 0.8f;
-    material.coat.alpha = 0.4f;
-    material.sheen.color = Rgb(0.4f);
-    material.sheen.alpha = 0.5f;
-    return material;
+    return with_sheen(with_coat(make_plastic(), 0.4f, 0.8f), std::sqrt(0.5f), 0.4f);
 }
+
+const glm::vec3 slanted_view = glm::normalize(glm::vec3(-0.7f, 0.6f, 0.2f));
 
 class PathWeights : public testing::TestWithParam<Surroundings> {};
 
@@ -74,13 +69,12 @@ TEST_P(PathWeights, BothWaysAloneGiveTheSameMean) {
     const Stage stage(make_surroundings(GetParam()));
     SurfaceMaterial volume = make_rough_sheet();
     volume.glass.volume = true;
-    const glm::vec3 up(0.0f, 1.0f, 0.0f), view = glm::normalize(glm::vec3(-0.7f, 0.6f, 0.2f));
     constexpr int depth = 3, count = 5000;
     std::uint32_t seed = 0;
     for (const SurfaceMaterial& material :
          {make_lambert(0.8f), make_metal(0.3f), make_plastic(), make_rough_sheet(), volume, make_coated()}) {
         SCOPED_TRACE(seed);
-        const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, view};
+        const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, slanted_view};
         EXPECT_TRUE(holds([&](Trial& trial) {
             const auto mean_of = [&](int samples, const Estimator& estimator, std::uint32_t stream) {
                 return estimate(stage, surface, trial.times(samples), estimator, seed + stream + trial.seed);
@@ -120,11 +114,10 @@ Estimator by_direct_samples_and_lobes(int count) {
 
 TEST_P(PathWeights, SharedSamplesOfDirectLightHaveTheSameMean) {
     const Stage stage(make_surroundings(GetParam()));
-    const glm::vec3 up(0.0f, 1.0f, 0.0f), view = glm::normalize(glm::vec3(-0.7f, 0.6f, 0.2f));
     std::uint32_t seed = 0;
     for (const SurfaceMaterial& material : {make_lambert(0.8f), make_metal(0.3f), make_plastic(), make_coated()}) {
         SCOPED_TRACE(seed);
-        const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, view};
+        const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, slanted_view};
         EXPECT_TRUE(holds([&](Trial& trial) {
             const Mean lobes = estimate(stage, surface, trial.times(6000), by_lobes(1), seed + 100 + trial.seed);
             for (const int count : {1, 4}) {
@@ -135,6 +128,27 @@ TEST_P(PathWeights, SharedSamplesOfDirectLightHaveTheSameMean) {
             }
         }));
         ++seed;
+    }
+}
+
+TEST(PathWeights, BothWaysTogetherAreHardlyNoisierThanTheBetterOne) {
+    // A lamp in the mirror direction: samples of it are better for broad lobes, those of the lobe for narrow ones.
+    Scene scene;
+    add_lamp(scene, 2.0, glm::dvec3(5.0), {0.0, 1.5, 0.0});
+    const Stage stage(std::move(scene));
+    const glm::vec3 view = glm::normalize(glm::vec3(-0.4f, 1.0f, 0.1f));
+    for (const float alpha : {0.05f, 0.3f, 1.0f}) {
+        const ViewedSurface surface{make_point(glm::vec3(0.0f), up), make_metal(alpha), view};
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const int rays = trial.times(100'000);
+            const Mean lamps = estimate(stage, surface, rays, by_lights(1), 5 + trial.seed);
+            const Mean lobes = estimate(stage, surface, rays, by_lobes(1), 6 + trial.seed);
+            const Mean both = estimate(stage, surface, rays / 32, by_direct_samples_and_lobes(16), trial.seed);
+            EXPECT_GT(both.mean(), 0.1);
+            trial.near(both, lamps);
+            trial.near(both, lobes);
+            EXPECT_LT(both.error(), 2.0 * std::min(lamps.error(), lobes.error()));
+        })) << alpha;
     }
 }
 

@@ -16,11 +16,9 @@ CameraView test_view() {
 Image<Hit> hits_at(const CameraView& view,
                    const std::function<double(const glm::dvec3& direction, int x, int y)>& distance) {
     Image<Hit> hits(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            hits(x, y).instance = hits(x, y).primitive = 0;
-            hits(x, y).distance = static_cast<float>(distance(make_camera_ray(view, x + 0.5, y + 0.5).direction, x, y));
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        hits(x, y).instance = hits(x, y).primitive = 0;
+        hits(x, y).distance = static_cast<float>(distance(make_camera_ray(view, x + 0.5, y + 0.5).direction, x, y));
     }
     return hits;
 }

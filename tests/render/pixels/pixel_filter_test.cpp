@@ -80,13 +80,11 @@ TEST(PixelFilterTest, APointIsTheFilter) {
         return share_left_of(place + half - (pixel + 0.5)) - share_left_of(place - half - (pixel + 0.5));
     };
     double sum = 0.0;
-    for (int y = 0; y < 12; ++y) {
-        for (int x = 0; x < 16; ++x) {
-            sum += picture(x, y).x;
-            // About n of 4096 samples are met: n is right within its square root.
-            const double expected = share(7.8, x) * share(5.3, 11 - y);
-            EXPECT_NEAR(picture(x, y).x, expected, 4.5 * std::sqrt(expected / 4096.0) + 1e-3) << x << ' ' << y;
-        }
+    for (const auto [x, y] : all_pixels(16, 12)) {
+        sum += picture(x, y).x;
+        // About n of 4096 samples are met: n is right within its square root.
+        const double expected = share(7.8, x) * share(5.3, 11 - y);
+        EXPECT_NEAR(picture(x, y).x, expected, 4.5 * std::sqrt(expected / 4096.0) + 1e-3) << x << ' ' << y;
     }
     EXPECT_NEAR(sum, 4.0 * half * half, 0.002);
 }

@@ -10,13 +10,6 @@
 namespace aleph {
 namespace {
 
-SampleLight one_sample(float value) {
-    SampleLight light;
-    light[LightPart::direct] = Rgb(value);
-    light.place.instance = 0;
-    return light;
-}
-
 TEST(PixelSamples, HalvesTellTheErrorOfTheMean) {
     // Independent samples: on average over many pixels, a quarter of the squared difference of halves is the variance.
     EXPECT_TRUE(holds([](Trial& trial) {
@@ -25,7 +18,7 @@ TEST(PixelSamples, HalvesTellTheErrorOfTheMean) {
         for (std::uint32_t pixel = 0; pixel < trial.times(4000u); ++pixel) {
             PixelSamples sum;
             for (std::uint32_t i = 0; i < samples; ++i)
-                sum.add(one_sample(RandomStream({1 + trial.seed, 2, pixel, i}).next()));
+                sum.add(grey_sample(RandomStream({1 + trial.seed, 2, pixel, i}).next()));
             EXPECT_EQ(sum.error().samples, samples);
             told.add(static_cast<double>(sum.error().total));
         }
@@ -51,7 +44,7 @@ TEST(PixelSamples, NoiseOfHueAloneIsAnError) {
 
 TEST(PixelSamples, IrradianceIsSharedOnOneFaceOnly) {
     PixelSamples sum;
-    SampleLight sample = one_sample(1.0f);
+    SampleLight sample = grey_sample(1.0f);
     sample.place.normal = sample.place.geometric = glm::vec3(0.0f, 0.0f, 1.0f);
     sample.place.footprint = 0.01f;
     for (int i = 0; i < 4; ++i) {
@@ -77,10 +70,10 @@ TEST(PixelSamples, IrradianceIsSharedOnOneFaceOnly) {
 
 TEST(PixelSamples, InvalidSamplesAreLeftOut) {
     PixelSamples sum;
-    sum.add(one_sample(1.0f));
+    sum.add(grey_sample(1.0f));
     sum.add_invalid();
-    sum.add(one_sample(3.0f));
-    sum.add(one_sample(3.0f));
+    sum.add(grey_sample(3.0f));
+    sum.add(grey_sample(3.0f));
     EXPECT_EQ(sum.taken(), 4);
     EXPECT_EQ(sum.valid(), 3);
     EXPECT_NEAR(sum.mean().x, 7.0f / 3.0f, 1e-6f);

@@ -74,12 +74,10 @@ double blurred_rms(const std::vector<double>& picture) {
     constexpr int size = 64, reach = 7;
     const auto blur = [](const std::vector<double>& from) {  // rows, and turns the picture over
         std::vector<double> to(from.size());
-        for (int y = 0; y < size; ++y) {
-            for (int x = 0; x < size; ++x) {
-                for (int i = -reach; i <= reach; ++i) {
-                    to[x * size + y] +=
-                        from[y * size + (x + i + size) % size] * std::exp(-i * i / 8.0) / std::sqrt(8.0 * M_PI);
-                }
+        for (const auto [x, y] : all_pixels(size, size)) {
+            for (int i = -reach; i <= reach; ++i) {
+                to[x * size + y] +=
+                    from[y * size + (x + i + size) % size] * std::exp(-i * i / 8.0) / std::sqrt(8.0 * M_PI);
             }
         }
         return to;
@@ -94,20 +92,18 @@ double blurred_against_white(const Function& f, double expected, int samples) {
     double ours = 0.0, white = 0.0;
     for (std::uint32_t seed = 0; seed < 4; ++seed) {
         std::vector<double> errors, white_errors;
-        for (int y = 0; y < 64; ++y) {
-            for (int x = 0; x < 64; ++x) {
-                const PixelSequence sequence(seed, 0, x, y), origin(seed, 0, 0, 0);
-                RandomStream random({seed, 0, static_cast<std::uint32_t>(64 * y + x), 0});
-                const glm::vec2 shift = random.next_2d();
-                double sum = 0.0, white_sum = 0.0;
-                for (int i = 0; i < samples; ++i) {
-                    sum += f(sequence.at_2d(SampleUse::light_point, i));
-                    const glm::vec2 p = origin.at_2d(SampleUse::light_point, i) + shift;
-                    white_sum += f({p.x - std::floor(p.x), p.y - std::floor(p.y)});
-                }
-                errors.push_back(sum / samples - expected);
-                white_errors.push_back(white_sum / samples - expected);
+        for (const auto [x, y] : all_pixels(64, 64)) {
+            const PixelSequence sequence(seed, 0, x, y), origin(seed, 0, 0, 0);
+            RandomStream random({seed, 0, static_cast<std::uint32_t>(64 * y + x), 0});
+            const glm::vec2 shift = random.next_2d();
+            double sum = 0.0, white_sum = 0.0;
+            for (int i = 0; i < samples; ++i) {
+                sum += f(sequence.at_2d(SampleUse::light_point, i));
+                const glm::vec2 p = origin.at_2d(SampleUse::light_point, i) + shift;
+                white_sum += f({p.x - std::floor(p.x), p.y - std::floor(p.y)});
             }
+            errors.push_back(sum / samples - expected);
+            white_errors.push_back(white_sum / samples - expected);
         }
         ours += std::pow(blurred_rms(errors), 2.0);
         white += std::pow(blurred_rms(white_errors), 2.0);
@@ -152,10 +148,8 @@ double correlation(const std::function<float(int x, int y, int i)>& a,
                    const std::function<float(int x, int y, int i)>& b) {
     double sum = 0.0;
     int count = 0;
-    for (int y = 0; y < 32; ++y) {
-        for (int x = 0; x < 32; ++x) {
-            for (int i = 0; i < 4; ++i, ++count) sum += (a(x, y, i) - 0.5) * (b(x, y, i) - 0.5);
-        }
+    for (const auto [x, y] : all_pixels(32, 32)) {
+        for (int i = 0; i < 4; ++i, ++count) sum += (a(x, y, i) - 0.5) * (b(x, y, i) - 0.5);
     }
     return 12.0 * sum / count;
 }

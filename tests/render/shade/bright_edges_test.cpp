@@ -83,11 +83,9 @@ TEST(BrightEdges, AreWhereALampLiesThatNoCentreMeets) {
     const Stage stage(scene, edges_width, edges_height);
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
     const Image<std::uint8_t> edges = find_bright_edges(stage.lighting(), stage.view, centers, 1.0);
-    for (int y = 0; y < edges_height; ++y) {
-        for (int x = 0; x < edges_width; ++x) {
-            const bool near = std::abs(x - edges_width / 2) <= 2 && std::abs(y - (edges_height / 2 - 1)) <= 2;
-            EXPECT_EQ(edges(x, y), near ? 1 : 0) << x << ' ' << y;
-        }
+    for (const auto [x, y] : all_pixels(edges_width, edges_height)) {
+        const bool near = std::abs(x - edges_width / 2) <= 2 && std::abs(y - (edges_height / 2 - 1)) <= 2;
+        EXPECT_EQ(edges(x, y), near ? 1 : 0) << x << ' ' << y;
     }
     EXPECT_EQ(find_bright_edges(stage.lighting(), stage.view, centers, 1e-3).pixels,
               Image<std::uint8_t>(edges_width, edges_height).pixels)
@@ -102,18 +100,16 @@ TEST(BrightEdges, AreWhereSomeOfTheNeighboursAreBright) {
     };
     const Image<std::uint8_t> edges = find(1.0);
     int found = 0;
-    for (int y = 0; y < edges_height; ++y) {
-        for (int x = 0; x < edges_width; ++x) {
-            int bright = 0, all = 0;
-            for (int ny = std::max(0, y - 2); ny <= std::min(edges_height - 1, y + 2); ++ny) {
-                for (int nx = std::max(0, x - 2); nx <= std::min(edges_width - 1, x + 2); ++nx) {
-                    ++all;
-                    bright += centers.hits(nx, ny).instance != no_index ? 1 : 0;
-                }
+    for (const auto [x, y] : all_pixels(edges_width, edges_height)) {
+        int bright = 0, all = 0;
+        for (int ny = std::max(0, y - 2); ny <= std::min(edges_height - 1, y + 2); ++ny) {
+            for (int nx = std::max(0, x - 2); nx <= std::min(edges_width - 1, x + 2); ++nx) {
+                ++all;
+                bright += centers.hits(nx, ny).instance != no_index ? 1 : 0;
             }
-            EXPECT_EQ(edges(x, y) != 0, bright > 0 && bright < all) << x << " " << y;
-            found += edges(x, y);
         }
+        EXPECT_EQ(edges(x, y) != 0, bright > 0 && bright < all) << x << " " << y;
+        found += edges(x, y);
     }
     EXPECT_GT(found, 30);
     EXPECT_LT(found, edges_width * edges_height / 2);
@@ -124,14 +120,8 @@ TEST(NoiseThreshold, AdaptationIsToWhatTheDisplayShows) {
     // A grey of half of white, with a quad of as much and with a lamp of ten thousand times as much in it.
     const auto threshold_beside = [](double lamp) {
         Scene scene = make_quad_before(glm::dvec3(lamp), glm::dvec3(0.5));
-        RenderSettings settings;
-        settings.error = 1.0;
-        settings.picture.width = 64;
-        settings.picture.height = 48;
-        FrameRequest request;
-        request.frame = false;
-        request.maps = true;
-        const FrameOutput output = Sequence(scene, settings).render(0, request);
+        const RenderSettings settings{.error = 1.0, .picture = {.width = 64, .height = 48}};
+        const FrameOutput output = Sequence(scene, settings).render(0, {.frame = false, .maps = true, .progress = {}});
         return output.limits.threshold_noise(32, 40);  // below the quad, within the reach of adaptation
     };
     const float without = threshold_beside(0.5), with = threshold_beside(5000.0);

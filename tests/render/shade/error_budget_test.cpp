@@ -57,23 +57,18 @@ TEST(AskedError, FaintLampsCountAtAnyError) {
     std::vector<std::pair<glm::dvec3, double>> lamps{{{0.0, 0.0, 4.0}, 20.0}};
     for (int i = 0; i < 8; ++i) lamps.push_back({{0.5 * (i % 4) - 0.75, 0.5 * (i / 4) - 0.25, 4.0}, 0.14});
     for (const auto& [place, intensity] : lamps) add_light(scene, Light::Kind::point, glm::dvec3(intensity), place);
-    RenderSettings settings;
-    settings.picture.width = 16;
-    settings.picture.height = 12;
-    settings.picture.filter = PixelFilter::box;
+    RenderSettings settings{.picture = {.width = 16, .height = 12, .filter = PixelFilter::box}};
     follow_error(settings, 8.0);
     settings.effects.plan = EffectsPlanning::off;  // it leaves lights out, within a share of the threshold (FX-14)
     settings.light.bounces = 0;
     const ShadedFrame out = Sequence(scene, settings).render(0).shaded;
     double found = 0.0, expected = 0.0;
-    for (int y = 0; y < 12; ++y) {
-        for (int x = 0; x < 16; ++x) {
-            found += luminance(out.color(x, y));
-            const glm::dvec3 point((x + 0.5) / 6.0 - 16.0 / 12.0, 1.0 - (y + 0.5) / 6.0, 0.0);
-            for (const auto& [place, intensity] : lamps) {
-                const glm::dvec3 away = place - point;
-                expected += 0.5 / std::numbers::pi * intensity * away.z / std::pow(glm::length(away), 3.0);
-            }
+    for (const auto [x, y] : all_pixels(16, 12)) {
+        found += luminance(out.color(x, y));
+        const glm::dvec3 point((x + 0.5) / 6.0 - 16.0 / 12.0, 1.0 - (y + 0.5) / 6.0, 0.0);
+        for (const auto& [place, intensity] : lamps) {
+            const glm::dvec3 away = place - point;
+            expected += 0.5 / std::numbers::pi * intensity * away.z / std::pow(glm::length(away), 3.0);
         }
     }
     EXPECT_NEAR(found / expected, 1.0, 0.01);

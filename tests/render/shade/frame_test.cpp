@@ -3,7 +3,8 @@
 
 #include "render/shade/frame.h"
 #include "render/frame/sequence.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/indirect_pictures.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
 
@@ -23,8 +24,7 @@ Scene make_everything(bool mirrored = false) {
     Shape ball{.kind = Shape::Kind::sphere, .radius = 0.6, .segments = 32};
     add_mesh(scene, make_quad(6.0, 6.0, white), glm::dvec3(0.0), z_to_up, root);
     add_mesh(scene, make_shape_mesh(ball, 2), {0.7, 0.6, 0.2}, no_turn, root);
-    add_mesh(scene, make_box({0.8, 1.4, 0.8}, white), {-0.8, 0.7, -0.6}, glm::angleAxis(0.5, glm::dvec3(0.0, 1.0, 0.0)),
-             root);
+    add_mesh(scene, make_box({0.8, 1.4, 0.8}, white), {-0.8, 0.7, -0.6}, turn_about_y(0.5), root);
     add_mesh(scene, make_quad(1.0, 0.7, lamp), {-0.4, 2.5, 0.5}, z_to_down, root);
     add_light(scene, Light::Kind::point, glm::dvec3(2.0), {1.5, 1.5, 1.0}, no_turn, root);
     add_camera(scene, {0.0, 1.6, 4.0}, {0.0, 0.5, 0.0}, 0.9);
@@ -37,16 +37,12 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
         for (const double accuracy : {0.0, 0.3}) {
             for (const Guide guide : {Guide::none, Guide::saliency}) {
                 RenderSettings settings = plain_settings(accuracy, 16);
-                settings.picture.width = 40;
-                settings.picture.height = 30;
+                settings.picture = {.width = 40, .height = 30, .filter = PixelFilter::box};
                 settings.sampling.spp = spp;
                 settings.light.light_samples = 4;
-                settings.cache.light_step = 0;
                 settings.perception.guide = guide;
-                Sequence sequence(scene, settings);
-                FrameRequest request;
-                request.maps = guide == Guide::saliency;
-                const FrameStatistics s = sequence.render(0, request).statistics;
+                const FrameRequest request{.maps = guide == Guide::saliency, .progress = {}};
+                const FrameStatistics s = Sequence(scene, settings).render(0, request).statistics;
                 EXPECT_EQ(s.counts.rays.total(), s.traced.all + s.traced.invalid);
                 EXPECT_EQ(s.traced.invalid, 0u);
                 EXPECT_GT(s.counts.rays.shadow, 0u);
@@ -94,15 +90,11 @@ TEST(Frame, EmissionCoverageAndBackground) {
     scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.5, 0.25, 0.125));
     add_mesh(scene, make_quad(1.0, 20.0, add_lambert(scene, glm::dvec3(0.0), {2.0, 4.0, 8.0})), {0.5, 0.0, -2.0});
     add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
-    const Stage stage(std::move(scene), 16, 12);
-    RenderSettings settings = plain_settings(0.15, 16);
+    IndirectStage room(std::move(scene), 16, 12, 0.15, 16);
+    room.settings.light.bounces = 0;
     for (const int spp : {1, 16}) {
-        settings.sampling.spp = spp;
-        settings.light.bounces = 0;
-        const Image<float> accuracy(16, 12, 0.15f);
-        const LightingContext lighting = stage.lighting();
-        const IndirectContext context{lighting, stage.view, settings, accuracy, 0, 1.0f, {}};
-        const ShadedFrame out = shade_frame(context, cast_centers(stage.rays, stage.view, nullptr), 3.0);
+        room.settings.sampling.spp = spp;
+        const ShadedFrame out = shade_frame(room.context, room.centers, 3.0);
         // The lamp covers columns 8 (its edge lies on the pixels' border) to 8 + half the frame's height in m.
         EXPECT_EQ(out.color(9, 6), Rgb(6.0f, 12.0f, 24.0f));
         EXPECT_EQ(out.coverage(9, 6), 1.0f);
@@ -146,17 +138,6 @@ TEST(Frame, MC03_SamplesThatAreNotFiniteAreThrownAwayAndCounted) {
     EXPECT_GT(invalid, 10.0);
 }
 
-TEST(Frame, ManySamplesOfOneValueKeepThatValue) {
-    // A float sum of 65,536 samples of .1 is off by 0.06 %.
-    Scene scene;
-    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.1, 0.7, 1.0 / 3.0));
-    const Stage stage(std::move(scene), 2, 2);
-    RenderSettings settings = plain_settings(0.15, 16);
-    settings.sampling.spp = 65'536;
-    settings.light.bounces = 0;
-    for (const Rgb& pixel : shade(stage, settings).color.pixels) EXPECT_EQ(pixel, Rgb(0.1f, 0.7f, 1.0f / 3.0f));
-}
-
 TEST(Frame, TheSeedChangesNoiseOnly) {
     const Stage stage(make_everything(), 40, 30);
     RenderSettings settings = plain_settings(0.2, 64);
@@ -190,17 +171,15 @@ TEST(Frame, KF17_MirroredSceneIsTheMirroredPicture) {
     const Image<Rgb> one = shade(plain, settings).color, other = shade(mirrored, settings).color;
     const SampleHits hits = cast_centers(mirrored.rays, mirrored.view, nullptr);
     int differing = 0, lit = 0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const float a = one(x, y).x, b = other(width - 1 - x, y).x;
-            if (std::abs(a - b) > 1e-4f + 1e-3f * a) ++differing;
-            if (a > 0.01f) ++lit;
-            if (hits.hits(x, y).instance == no_index) continue;
-            const PixelSurface s = make_pixel_surface(mirrored.shading, mirrored.view, hits, x, y);
-            EXPECT_GT(glm::dot(s.point.normal, s.view), -0.2f);  // shading normals may lean away at silhouettes
-            EXPECT_GT(glm::dot(s.point.geometric, s.view), 0.0f);
-            EXPECT_TRUE(s.point.front) << "a mirrored outside is still an outside";
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const float a = one(x, y).x, b = other(width - 1 - x, y).x;
+        if (std::abs(a - b) > 1e-4f + 1e-3f * a) ++differing;
+        if (a > 0.01f) ++lit;
+        if (hits.hits(x, y).instance == no_index) continue;
+        const PixelSurface s = make_pixel_surface(mirrored.shading, mirrored.view, hits, x, y);
+        EXPECT_GT(glm::dot(s.point.normal, s.view), -0.2f);  // shading normals may lean away at silhouettes
+        EXPECT_GT(glm::dot(s.point.geometric, s.view), 0.0f);
+        EXPECT_TRUE(s.point.front) << "a mirrored outside is still an outside";
     }
     EXPECT_GT(lit, width * height / 3);
     EXPECT_LE(differing, width * height / 100);  // rays along edges and shadow borders
@@ -215,11 +194,9 @@ TEST(Frame, KF17_MirroredWithLampAndBounce) {
             settings.seed = run + trial.seed;
             const Image<Rgb> a = shade(plain, settings).color, b = shade(mirrored, settings).color;
             double sum_a = 0.0, sum_b = 0.0;  // of the left half and of its mirror image
-            for (int y = 0; y < 24; ++y) {
-                for (int x = 0; x < 16; ++x) {
-                    sum_a += a(x, y).x;
-                    sum_b += b(31 - x, y).x;
-                }
+            for (const auto [x, y] : all_pixels(16, 24)) {
+                sum_a += a(x, y).x;
+                sum_b += b(31 - x, y).x;
             }
             one.add(sum_a);
             other.add(sum_b);
@@ -245,20 +222,14 @@ TEST(Frame, KF18_FlattenedObjectsLeaveAPictureWithoutHoles) {
 
 TEST(Frame, KF20_ScaleThroughZero) {
     Scene scene = make_everything();
-    Track<glm::dvec3> scale;
-    scale.sampling.kind = TimeSampling::Kind::acyclic;
-    scale.sampling.times = {0.0, 2.0 / 30.0};
-    scale.values = {glm::dvec3(1.0), glm::dvec3(1.0, -1.0, 1.0)};
-    scene.nodes[3].transform.scale = scale;
+    scene.nodes[3].transform.scale =
+        keyed<glm::dvec3>({0.0, 2.0 / 30.0}, {glm::dvec3(1.0), glm::dvec3(1.0, -1.0, 1.0)});
     RenderSettings settings = plain_settings(0.3, 16);
-    settings.picture.width = 40;
-    settings.picture.height = 30;
+    settings.picture = {.width = 40, .height = 30, .filter = PixelFilter::box};
     settings.perception.guide = Guide::saliency;
     Sequence sequence(scene, settings);
     for (const int frame : {0, 1, 2}) {
-        FrameRequest request;
-        request.maps = true;
-        const FrameOutput out = sequence.render(frame, request);
+        const FrameOutput out = sequence.render(frame, {.maps = true, .progress = {}});
         EXPECT_EQ(out.statistics.counts.invalid_samples, 0u);
         bool box_seen = false;
         for (std::size_t i = 0; i < out.hits.size(); ++i) {

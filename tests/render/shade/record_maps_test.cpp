@@ -10,27 +10,6 @@ namespace {
 
 const FrameRequest everything{.frame = true, .maps = true, .progress = {}};
 
-IrradianceRecord make_flat_record(float x, float radius) {
-    return {.position = {x, 0.0f, 0.0f},
-            .radius = radius,
-            .normal = {0.0f, 1.0f, 0.0f},
-            .irradiance = Rgb(1.0f),
-            .accuracy = 0.5f};
-}
-
-TEST(RecordMaps, LookUpsCountTheRecordsTheyUse) {
-    IrradianceCache cache(glm::vec3(-10.0f), glm::vec3(10.0f));
-    cache.restore({make_flat_record(0.0f, 2.0f), make_flat_record(0.5f, 4.0f), make_flat_record(5.0f, 2.0f)});
-    RecordUse used;
-    CacheQuery query{{0.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, 0.5f};
-    query.used = &used;
-    ASSERT_TRUE(cache.interpolate(query));
-    EXPECT_EQ(used.count, 2.0f) << "the third is too far away";
-    // Errors 0 and .5 / 4: weights 1 and .75. Reaches: .5 times the radii.
-    EXPECT_FLOAT_EQ(used.weights, 1.75f);
-    EXPECT_FLOAT_EQ(used.reaches, 1.0f * 1.0f + 0.75f * 2.0f);
-}
-
 TEST(RecordMaps, RecordsOfKeyMomentsCountToo) {
     RenderSettings settings = shot_settings(10);
     settings.sampling.spp = 2;

@@ -14,10 +14,7 @@ constexpr double frame_rate = 30.0;
 
 /// Settings of a picture of direct light and emission.
 RenderSettings make_settings(int width, int height) {
-    RenderSettings settings;
-    settings.picture.width = width;
-    settings.picture.height = height;
-    settings.picture.filter = PixelFilter::box;
+    RenderSettings settings{.picture = {.width = width, .height = height, .filter = PixelFilter::box}};
     settings.cache.light_step = 0;
     settings.light.bounces = 0;
     return settings;
@@ -44,38 +41,27 @@ using Truth = std::function<double(int x, int y)>;
 void expect_mean(const Scene& scene, RenderSettings settings, const Truth& truth, double darkest_error = 1e-5,
                  std::int64_t frame = 0) {
     constexpr std::uint32_t seeds = 12;
-    const std::size_t count =
-        static_cast<std::size_t>(settings.picture.width) * static_cast<std::size_t>(settings.picture.height);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        std::vector<Mean> pixels(count);
-        Mean picture;
+        PictureMeans means;
         for (settings.seed = trial.seed; settings.seed < trial.seed + trial.times(seeds); ++settings.seed) {
             Sequence sequence(scene, settings);
             ShadedFrame out = sequence.render(0).shaded;
             if (frame != 0) out = sequence.render(frame).shaded;
-            double sum = 0.0;
-            for (std::size_t i = 0; i < count; ++i) {
-                const double y = luminance(out.color.pixels[i]);
-                pixels[i].add(y);
-                sum += y;
-            }
-            picture.add(sum);
+            means.add(out.color);
         }
         double truth_sum = 0.0;
-        std::size_t beyond = 0;
-        for (int y = 0; y < settings.picture.height; ++y) {
-            for (int x = 0; x < settings.picture.width; ++x) {
-                const double expected = truth(x, y);
-                truth_sum += expected;
-                const Mean& found = pixels[static_cast<std::size_t>(y) * settings.picture.width + x];
-                // Where few samples met anything, their spread says little.
-                const double error = std::max(found.error(), darkest_error * std::sqrt(expected * (1.0 - expected)));
-                if (std::abs(found.mean() - expected) > 3.0 * error + 1e-5) ++beyond;
-            }
+        int beyond = 0, pixel = 0;
+        for (const auto [x, y] : all_pixels(settings.picture)) {
+            const double expected = truth(x, y);
+            truth_sum += expected;
+            const Mean& found = means.pixels[pixel++];
+            // Where few samples met anything, their spread says little.
+            const double error = std::max(found.error(), darkest_error * std::sqrt(expected * (1.0 - expected)));
+            if (std::abs(found.mean() - expected) > 3.0 * error + 1e-5) ++beyond;
         }
-        const double chance = 0.012 * static_cast<double>(count);  // Student's t of 11 degrees of freedom
-        trial.at_most(static_cast<double>(beyond), std::sqrt(chance), chance);
-        trial.near(picture, truth_sum, 1e-4 * truth_sum);
+        const double chance = 0.012 * pixel;  // Student's t of 11 degrees of freedom
+        trial.at_most(beyond, std::sqrt(chance), chance);
+        trial.near(means.all, truth_sum, 1e-4 * truth_sum);
         EXPECT_GT(truth_sum, 1.0);
     }));
 }
@@ -85,11 +71,9 @@ int count_beyond_threshold(const Scene& scene, RenderSettings settings, const Tr
     follow_error(settings, 1.0);
     const FrameOutput out = Sequence(scene, settings).render(0);
     int beyond = 0;
-    for (int y = 0; y < settings.picture.height; ++y) {
-        for (int x = 0; x < settings.picture.width; ++x) {
-            const double error = std::abs(luminance(out.shaded.color(x, y)) - truth(x, y));
-            if (error * scene.film.viewing.display_white > out.limits.threshold(x, y)) ++beyond;
-        }
+    for (const auto [x, y] : all_pixels(settings.picture)) {
+        const double error = std::abs(luminance(out.shaded.color(x, y)) - truth(x, y));
+        if (error * scene.film.viewing.display_white > out.limits.threshold(x, y)) ++beyond;
     }
     return beyond;
 }
@@ -187,13 +171,10 @@ double sum_of_moved_lights(int x, int y, double moved) {
     return sum;
 }
 
-double sum_of_lights(int x, int y) {
-    return sum_of_moved_lights(x, y, 0.0);
-}
-
 /// Even lights go to the right by 0.8 m in ten frames, odd ones to the left.
 TEST_P(SamplingRules, MC23_AThousandMovingLights) {
-    if (GetParam() == Sampling::threshold) return;  // as below
+    // With an asked error, lights may be left out within its budget: AskedError tests that.
+    if (GetParam() == Sampling::threshold) return;
     Scene scene = make_many_lights();
     for (int i = 0; i < lit_points; ++i) {
         scene.nodes[scene.nodes.size() - lit_points + static_cast<std::size_t>(i)].transform.translation =
@@ -201,24 +182,15 @@ TEST_P(SamplingRules, MC23_AThousandMovingLights) {
     }
     RenderSettings settings = settings_of(GetParam(), lit_width, lit_height);
     settings.light.light_samples = 4;
-    settings.effects.plan = EffectsPlanning::off;
+    settings.effects.plan = EffectsPlanning::off;  // it leaves lights out, within a share of the threshold (FX-14)
     expect_mean(
         scene, settings, [](int x, int y) { return sum_of_moved_lights(x, y, 0.4); }, 1e-5, 5);
 }
 
-TEST_P(SamplingRules, MC23_AThousandLights) {
-    const Scene scene = make_many_lights();
-    // With an asked error, lights may be left out within its budget: AskedError tests that.
-    if (GetParam() == Sampling::threshold) return;
-    RenderSettings settings = settings_of(GetParam(), lit_width, lit_height);
-    settings.light.light_samples = 4;
-    settings.effects.plan = EffectsPlanning::off;  // it leaves lights out, within a share of the threshold (FX-14)
-    expect_mean(scene, settings, sum_of_lights);
-}
-
 TEST(AskedError, MC23_AThousandLightsAreWithinAThreshold) {
     const Scene scene = make_many_lights();
-    EXPECT_EQ(count_beyond_threshold(scene, make_settings(lit_width, lit_height), sum_of_lights), 0);
+    const auto truth = [](int x, int y) { return sum_of_moved_lights(x, y, 0.0); };
+    EXPECT_EQ(count_beyond_threshold(scene, make_settings(lit_width, lit_height), truth), 0);
 }
 
 constexpr int shape_width = 24, shape_height = 16;
@@ -296,9 +268,7 @@ TEST(SamplingRules, ARuleOfAProgramDecides) {
     settings.sampling.own_rule = &own;
     settings.sampling.spp = 256;
     const Image<float> samples = Sequence(scene, settings).render(0).shaded.samples;
-    for (int y = 0; y < 6; ++y) {
-        for (int x = 0; x < 8; ++x) EXPECT_EQ(samples(x, y), x < 4 ? samples(0, 0) : 64.0f);
-    }
+    for (const auto [x, y] : all_pixels(8, 6)) EXPECT_EQ(samples(x, y), x < 4 ? samples(0, 0) : 64.0f);
     EXPECT_LT(samples(0, 0), 64.0f);
     own.extra = 1;
     EXPECT_THROW(Sequence(scene, settings).render(0), InputError);

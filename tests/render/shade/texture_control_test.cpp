@@ -17,10 +17,8 @@ Scene make_checkered_floor(const glm::dvec3& at, bool orthographic) {
     scene.film.exposure = 1.0;
     const int material = add_lambert(scene, glm::dvec3(1.0));
     SceneImage image{.bytes = Image<glm::u8vec4>(64, 64)};
-    for (int y = 0; y < 64; ++y) {
-        for (int x = 0; x < 64; ++x)
-            image.bytes(x, y) = ((x / 8 + y / 8) % 2 == 0) ? glm::u8vec4(255) : glm::u8vec4(60, 80, 90, 255);
-    }
+    for (const auto [x, y] : all_pixels(64, 64))
+        image.bytes(x, y) = ((x / 8 + y / 8) % 2 == 0) ? glm::u8vec4(255) : glm::u8vec4(60, 80, 90, 255);
     scene.images.push_back(image);
     scene.materials[0].textures[TextureSlot::base_color] = {.image = 0};
     Mesh floor = make_quad(40.0, 60.0, material);
@@ -39,11 +37,9 @@ struct CheckeredFloor {
         : stage(make_checkered_floor(at, orthographic), 32, 24),
           centers(cast_centers(stage.rays, stage.view, nullptr)),
           estimate(stage.view.width, stage.view.height) {
-        for (int y = 0; y < estimate.height; ++y) {
-            for (int x = 0; x < estimate.width; ++x) {
-                if (centers.hits(x, y).instance != no_index)
-                    estimate(x, y) = make_pixel_surface(stage.shading, stage.view, centers, x, y).material.diffuse;
-            }
+        for (const auto [x, y] : all_pixels(estimate)) {
+            if (centers.hits(x, y).instance != no_index)
+                estimate(x, y) = make_pixel_surface(stage.shading, stage.view, centers, x, y).material.diffuse;
         }
     }
 

@@ -54,11 +54,10 @@ TEST(Bsdf, DensityIntegratesToWhatSamplesDo) {
             if (cosine < 0.1f) continue;  // the grid of half vectors is too coarse there; the chi-square test covers it
             const glm::vec3 view = direction_of(cosine);
             EXPECT_TRUE(holds([&](Trial& trial) {
-                std::mt19937 engine(2 + trial.seed);
-                std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+                RandomStream random({2 + trial.seed, 0, 0, 0});
                 Mean above, x, z;
                 for (int i = 0; i < trial.times(100'000); ++i) {
-                    const glm::vec3 light = sample_glossy(material, view, {unit(engine), unit(engine)});
+                    const glm::vec3 light = sample_glossy(material, view, random.next_2d());
                     ASSERT_NEAR(glm::dot(light, light), 1.0f, 1e-4f);
                     const bool up = light.z > 0.0f;
                     above.add(up ? 1.0 : 0.0);
@@ -85,11 +84,10 @@ TEST(Bsdf, SamplesFollowTheDensityChiSquare) {
             const glm::vec3 view = direction_of(cosine);
             EXPECT_TRUE(holds([&](Trial& trial) {
                 const int n = trial.times(200'000);
-                std::mt19937 engine(3 + trial.seed);
-                std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+                RandomStream random({3 + trial.seed, 0, 0, 0});
                 std::vector<double> seen(rows * columns + 1, 0.0), expected(rows * columns + 1, 0.0);
                 for (int i = 0; i < n; ++i) {
-                    const glm::vec3 l = sample_glossy(material, view, {unit(engine), unit(engine)});
+                    const glm::vec3 l = sample_glossy(material, view, random.next_2d());
                     if (l.z <= 0.0f) {
                         seen.back() += 1.0;
                         continue;
@@ -128,15 +126,14 @@ TEST(Bsdf, SamplesFollowTheDensityChiSquare) {
 }
 
 TEST(Bsdf, MC08_SampleWeightsDoNotExceedOne) {
-    std::mt19937 engine(4);
-    std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+    RandomStream random({4, 0, 0, 0});
     for (const float alpha : widths) {
         const SurfaceMaterial material = make_metal(alpha);
         for (const float cosine : {1.0f, 0.9f, 0.5f, 0.2f, 0.05f, 1e-2f, 1e-4f, 1e-6f}) {
             const glm::vec3 view = direction_of(cosine);
             int reflected = 0;
             for (int i = 0; i < 20'000; ++i) {
-                const glm::vec3 light = sample_glossy(material, view, {unit(engine), unit(engine)});
+                const glm::vec3 light = sample_glossy(material, view, random.next_2d());
                 if (light.z <= 0.0f) continue;
                 const float pdf = pdf_glossy(material, view, light);
                 if (pdf == 0.0f) continue;

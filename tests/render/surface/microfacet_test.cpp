@@ -75,10 +75,7 @@ TEST(Microfacets, MC08_GrazingWeightsOfEveryLobeStayAtMostOne) {
             const ViewedSurface surface = make_viewed(material, direction_of(cosine));
             const LitSurface lit(surface);
             for (int i = 0; i < 2000; ++i) {
-                const float pick = random.next();
-                const glm::vec2 u = random.next_2d();
-                const float weight =
-                    sample_scatter(lit, share_lobes(lit, LobeSet::all), pick, u, random.next()).weight.x;
+                const float weight = sample_scatter(lit, share_lobes(lit, LobeSet::all), random).weight.x;
                 ASSERT_TRUE(weight >= 0.0f && weight <= 1.0f + 1e-5f) << what << ' ' << cosine << ' ' << weight;
             }
         }

@@ -38,12 +38,10 @@ glm::dvec4 mean_of(const Image<glm::vec4>& image) {
 glm::dvec4 mean_of(const TextureSet& set) {
     const Texture& texture = set.textures[0];
     Image<glm::vec4> all(texture.width, texture.height);
-    for (int y = 0; y < all.height; ++y) {
-        for (int x = 0; x < all.width; ++x) {
-            const glm::vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(all.width),
-                               (static_cast<float>(y) + 0.5f) / static_cast<float>(all.height));
-            all(x, y) = sample_texture(set, make_use(Wrap::clamp, true), uv, {});
-        }
+    for (const auto [x, y] : all_pixels(all)) {
+        const glm::vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(all.width),
+                           (static_cast<float>(y) + 0.5f) / static_cast<float>(all.height));
+        all(x, y) = sample_texture(set, make_use(Wrap::clamp, true), uv, {});
     }
     return mean_of(all);
 }
@@ -136,9 +134,7 @@ TEST(TextureFilter, TheWholePictureIsItsMean) {
 /// A long footprint must not blur across its length: stripes along it are kept, stripes across it average out.
 TEST(TextureFilter, LongFootprintsBlurOnlyAlongThemselves) {
     SceneImage image{.bytes = Image<glm::u8vec4>(64, 64)};
-    for (int y = 0; y < 64; ++y) {
-        for (int x = 0; x < 64; ++x) image.bytes(x, y) = glm::u8vec4((y / 4) % 2 == 0 ? 255 : 0);
-    }
+    for (const auto [x, y] : all_pixels(64, 64)) image.bytes(x, y) = glm::u8vec4((y / 4) % 2 == 0 ? 255 : 0);
     const TextureSet set = make_set(image, TextureSpace::linear);
     const TextureUse use = make_use(Wrap::repeat);
     const float texel = 1.0f / 64.0f;
@@ -156,10 +152,8 @@ TEST(TextureFilter, LongFootprintsBlurOnlyAlongThemselves) {
 TEST(TextureFilter, DiagonalAxesAreFound) {
     // Stripes along the diagonal u + v: a footprint along u - v keeps them.
     SceneImage image{.bytes = Image<glm::u8vec4>(64, 64)};
-    for (int y = 0; y < 64; ++y) {
-        for (int x = 0; x < 64; ++x) {
-            image.bytes(x, y) = glm::u8vec4(static_cast<int>(127.5 + 127.0 * std::sin((x + y) * std::numbers::pi / 8)));
-        }
+    for (const auto [x, y] : all_pixels(64, 64)) {
+        image.bytes(x, y) = glm::u8vec4(static_cast<int>(127.5 + 127.0 * std::sin((x + y) * std::numbers::pi / 8)));
     }
     const TextureSet set = make_set(image, TextureSpace::linear);
     const TextureUse use = make_use(Wrap::repeat);

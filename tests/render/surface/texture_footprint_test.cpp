@@ -188,10 +188,8 @@ struct Checker {
         Scene scene;
         const int material = add_lambert(scene, glm::dvec3(1.0));
         SceneImage image{.bytes = Image<glm::u8vec4>(64, 64)};
-        for (int y = 0; y < 64; ++y) {
-            for (int x = 0; x < 64; ++x) {
-                image.bytes(x, y) = ((x / 8 + y / 8) % 2 == 0) ? glm::u8vec4(255) : glm::u8vec4(40, 10, 90, 255);
-            }
+        for (const auto [x, y] : all_pixels(64, 64)) {
+            image.bytes(x, y) = ((x / 8 + y / 8) % 2 == 0) ? glm::u8vec4(255) : glm::u8vec4(40, 10, 90, 255);
         }
         scene.images.push_back(image);
         scene.materials[0].textures[TextureSlot::base_color] = {.image = 0};
@@ -212,14 +210,12 @@ struct Checker {
             SamplePlace place;
             place.spacing = footprints ? 1.0f / static_cast<float>(n) : 0.0f;
             const Image<Hit> hits = cast_first_hits(stage.rays, stage.view, offset_x, offset_y);
-            for (int y = 0; y < sum.height; ++y) {
-                for (int x = 0; x < sum.width; ++x) {
-                    if (hits(x, y).instance == no_index) continue;
-                    const glm::vec3 direction(make_camera_ray(stage.view, x + offset_x, y + offset_y).direction);
-                    sum(x, y) += make_pixel_surface(stage.shading, stage.view, place, hits(x, y), direction, {x, y})
-                                     .material.diffuse /
-                                 static_cast<float>(n * n);
-                }
+            for (const auto [x, y] : all_pixels(sum)) {
+                if (hits(x, y).instance == no_index) continue;
+                const glm::vec3 direction(make_camera_ray(stage.view, x + offset_x, y + offset_y).direction);
+                sum(x, y) += make_pixel_surface(stage.shading, stage.view, place, hits(x, y), direction, {x, y})
+                                 .material.diffuse /
+                             static_cast<float>(n * n);
             }
         }
         return sum;
@@ -229,14 +225,12 @@ struct Checker {
     double rms(const Image<Rgb>& a, const Image<Rgb>& b) const {
         double sum = 0.0;
         int count = 0;
-        for (int y = 0; y < a.height; ++y) {
-            for (int x = 0; x < a.width; ++x) {
-                const int above = std::max(0, y - 2);
-                if (!(reached(x, above) && reached(x, y))) continue;
-                const float d = a(x, y).x - b(x, y).x;
-                sum += d * d;
-                ++count;
-            }
+        for (const auto [x, y] : all_pixels(a)) {
+            const int above = std::max(0, y - 2);
+            if (!(reached(x, above) && reached(x, y))) continue;
+            const float d = a(x, y).x - b(x, y).x;
+            sum += d * d;
+            ++count;
         }
         EXPECT_GT(count, 500);
         return std::sqrt(sum / count);

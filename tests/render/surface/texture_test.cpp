@@ -12,9 +12,7 @@ namespace {
 Scene make_ramp(int width, int height = 1) {
     Scene scene;
     SceneImage image{.floats = Image<glm::vec4>(width, height)};
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) image.floats(x, y) = glm::vec4(x, y, 0.0f, 1.0f);
-    }
+    for (const auto [x, y] : all_pixels(width, height)) image.floats(x, y) = glm::vec4(x, y, 0.0f, 1.0f);
     scene.images.push_back(image);
     return scene;
 }
@@ -35,12 +33,10 @@ float look_up(const Scene& scene, Wrap wrap, float u, bool nearest = false, floa
 TEST(Texture, CentresAndBetween) {
     const Scene scene = make_ramp(4, 2);
     const TextureRef texture{.image = 0, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp};
-    for (int y = 0; y < 2; ++y) {
-        for (int x = 0; x < 4; ++x) {
-            const glm::vec2 uv((static_cast<float>(x) + 0.5f) / 4.0f, (static_cast<float>(y) + 0.5f) / 2.0f);
-            // v grows downwards: row 0 of the image at v = 0.
-            EXPECT_EQ(sample(scene, texture, uv), glm::vec4(x, y, 0.0f, 1.0f));
-        }
+    for (const auto [x, y] : all_pixels(4, 2)) {
+        const glm::vec2 uv((static_cast<float>(x) + 0.5f) / 4.0f, (static_cast<float>(y) + 0.5f) / 2.0f);
+        // v grows downwards: row 0 of the image at v = 0.
+        EXPECT_EQ(sample(scene, texture, uv), glm::vec4(x, y, 0.0f, 1.0f));
     }
     EXPECT_FLOAT_EQ(sample(scene, texture, {0.5f, 0.5f}).x, 1.5f);
     EXPECT_FLOAT_EQ(sample(scene, texture, {0.5f, 0.5f}).y, 0.5f);

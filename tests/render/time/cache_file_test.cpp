@@ -25,11 +25,12 @@ RenderSettings file_settings() {
     return settings;
 }
 
-/// Renders frame 3 with the file. @return the frame's bytes
-std::string render_with(const std::filesystem::path& file, const Scene& scene, const RenderSettings& settings) {
+/// Renders a frame with the file. @return the frame's bytes
+std::string render_with(const std::filesystem::path& file, const Scene& scene, const RenderSettings& settings,
+                        std::int64_t frame = 3) {
     Sequence sequence(scene, settings);
     sequence.load_light(file);
-    const std::string bytes = frame_bytes(sequence, scene, settings, 3);
+    const std::string bytes = frame_bytes(sequence, scene, settings, frame);
     sequence.save_light();
     return bytes;
 }
@@ -41,10 +42,13 @@ std::string refusal(const std::filesystem::path& file, const Scene& scene, const
     return found.reason;
 }
 
-TEST(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
+struct CacheFile : testing::Test {
     const ScratchFolder folder;
     const Scene scene = make_shot_with_mover();
     const RenderSettings settings = file_settings();
+};
+
+TEST_F(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
     Sequence plain(scene, settings);
     const std::string expected = frame_bytes(plain, scene, settings, 3);
     EXPECT_TRUE(render_with(folder / "light", scene, settings) == expected) << "there was no file";
@@ -65,10 +69,7 @@ TEST(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
     EXPECT_THROW(Sequence(scene, exact).load_light(folder / "light"), InputError) << "its caustics are blurred";
 }
 
-TEST(CacheFile, IC22_AFolderKeepsAFileForEachKeyframe) {
-    const ScratchFolder folder;
-    const Scene scene = make_shot_with_mover();
-    const RenderSettings settings = file_settings();
+TEST_F(CacheFile, IC22_AFolderKeepsAFileForEachKeyframe) {
     Sequence plain(scene, settings);
     const std::string expected = frame_bytes(plain, scene, settings, 3);
     const std::filesystem::path light = folder / "some/light/";
@@ -93,23 +94,13 @@ TEST(CacheFile, IC22_AFolderKeepsAFileForEachKeyframe) {
     EXPECT_EQ(cut.file, file.path().string());
 }
 
-/// Renders a frame with the file.
-std::string render_with(const std::filesystem::path& file, std::int64_t frame) {
-    const Scene scene = make_shot_with_mover();
-    Sequence sequence(scene, file_settings());
-    sequence.load_light(file);
-    const std::string bytes = frame_bytes(sequence, scene, file_settings(), frame);
-    sequence.save_light();
-    return bytes;
-}
-
 /// Not a test: a process that renders a frame with the file again and again, and writes its letter to descriptor 3 each
 /// time, until nobody reads it.
-TEST(CacheFile, DISABLED_RenderForever) {
+TEST_F(CacheFile, DISABLED_RenderForever) {
     const char* job = std::getenv("ALEPH_TEST_JOB");  // letter, frame, path
     ASSERT_NE(job, nullptr);
     ::signal(SIGPIPE, SIG_IGN);
-    do render_with(job + 4, std::atoi(job + 1));
+    do render_with(job + 4, scene, settings, std::atoi(job + 1));
     while (::write(3, job, 1) == 1);
 }
 
@@ -127,10 +118,10 @@ pid_t start_rendering(const std::string& job, int pipe_end) {
 }
 
 /// Both add their own keyframes to one file. No process ever finds it damaged, and no frame changes.
-TEST(CacheFile, IC22_TwoProcessesWriteOneFile) {
-    const ScratchFolder folder;
+TEST_F(CacheFile, IC22_TwoProcessesWriteOneFile) {
     const std::filesystem::path file = folder / "light";
-    const std::string early = render_with(folder / "early", 3), late = render_with(folder / "late", 13);
+    const std::string early = render_with(folder / "early", scene, settings),
+                      late = render_with(folder / "late", scene, settings, 13);
     int ends[2];
     ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
     const pid_t writers[2] = {start_rendering("a 3 " + file.string(), ends[1]),
@@ -139,7 +130,7 @@ TEST(CacheFile, IC22_TwoProcessesWriteOneFile) {
     int rounds[2] = {0, 0};
     for (char letter = 0; (rounds[0] < 20 || rounds[1] < 20) && ::read(ends[0], &letter, 1) == 1;) {
         ++rounds[letter - 'a'];
-        EXPECT_NO_THROW(Sequence(make_shot_with_mover(), file_settings()).load_light(file));
+        EXPECT_NO_THROW(Sequence(scene, settings).load_light(file));
     }
     ::close(ends[0]);
     for (const pid_t writer : writers) {
@@ -148,16 +139,13 @@ TEST(CacheFile, IC22_TwoProcessesWriteOneFile) {
         EXPECT_EQ(status, 0);
     }
     EXPECT_GE(std::min(rounds[0], rounds[1]), 20);
-    EXPECT_TRUE(render_with(file, 3) == early);
-    EXPECT_TRUE(render_with(file, 13) == late);
+    EXPECT_TRUE(render_with(file, scene, settings) == early);
+    EXPECT_TRUE(render_with(file, scene, settings, 13) == late);
     const auto files = std::filesystem::directory_iterator(folder.path());
     EXPECT_EQ(std::distance(begin(files), end(files)), 3) << "temporary files are left";
 }
 
-TEST(CacheFile, IC22_OtherScenesSettingsAndBuildsAreRefused) {
-    const ScratchFolder folder;
-    const Scene scene = make_shot_with_mover();
-    const RenderSettings settings = file_settings();
+TEST_F(CacheFile, IC22_OtherScenesSettingsAndBuildsAreRefused) {
     render_with(folder / "light", scene, settings);
     RenderSettings other = settings;
     other.seed = 7;
@@ -178,10 +166,7 @@ TEST(CacheFile, IC22_OtherScenesSettingsAndBuildsAreRefused) {
     EXPECT_THAT(refusal(folder / "light", scene, settings), testing::HasSubstr("another build"));
 }
 
-TEST(CacheFile, IC22_DamagedFilesAreRefused) {
-    const ScratchFolder folder;
-    const Scene scene = make_shot_with_mover();
-    const RenderSettings settings = file_settings();
+TEST_F(CacheFile, IC22_DamagedFilesAreRefused) {
     render_with(folder / "light", scene, settings);
     const std::string good = read_bytes(folder / "light");
     for (const std::size_t size : {std::size_t{9}, std::size_t{60}, good.size() / 2, good.size() - 1}) {
@@ -201,8 +186,7 @@ TEST(CacheFile, IC22_DamagedFilesAreRefused) {
 }
 
 /// Sizes inside the file cannot ask for memory that its length does not back, even if its checksum is right.
-TEST(CacheFile, IC22_SizesAreCheckedBeforeMemoryIsTaken) {
-    const ScratchFolder folder;
+TEST_F(CacheFile, IC22_SizesAreCheckedBeforeMemoryIsTaken) {
     const Fingerprint fingerprint{"b", "s", {}};
     write_cache_file(folder / "light", fingerprint, {{5, {IrradianceRecord{}}}});
     EXPECT_EQ(read_cache_file(folder / "light", fingerprint).at(5).size(), 1u);
@@ -216,11 +200,11 @@ TEST(CacheFile, IC22_SizesAreCheckedBeforeMemoryIsTaken) {
     }
 }
 
-TEST(CacheFile, IC22_NeedsKeyMoments) {
-    RenderSettings settings = file_settings();
-    settings.cache.light_step = 0;
-    EXPECT_THAT(refusal("light", make_shot(), settings), testing::HasSubstr("needs lighting keyframes"));
-    EXPECT_THROW(Sequence(make_shot(), file_settings()).save_light(), std::logic_error);
+TEST_F(CacheFile, IC22_NeedsKeyMoments) {
+    RenderSettings without = settings;
+    without.cache.light_step = 0;
+    EXPECT_THAT(refusal("light", scene, without), testing::HasSubstr("needs lighting keyframes"));
+    EXPECT_THROW(Sequence(scene, settings).save_light(), std::logic_error);
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ std::optional<Rgb> find_middle(const Scene& scene, float accuracy, float reach =
     light.reach = reach;
     RayTask task(frame.rays);
     std::optional<Rgb> found =
-        ShutterLight(frame.shading, sample.shading, &light, nullptr, 1.0).find(surface, accuracy, task);
+        ShutterLight(frame.shading, sample.shading, &light, nullptr).find(surface, accuracy, task);
     if (found) *found += glm::vec3(frame.shading.anchor);
     return found;
 }

@@ -6,13 +6,11 @@
 
 namespace aleph {
 
-/// Conditions that an elevation depends on besides frequency.
+/// Conditions that an elevation depends on besides frequency, on a display that holds each of 30 frames a second.
 struct EyeMotion {
     double retinal = 0.15;     ///< v_R, deg/s
     double tracked = 0.0;      ///< what the eye follows, deg/s
     double luminance = 100.0;  ///< that the eye is adapted to, cd/m2
-    double persistence = 1.0;  ///< of the display
-    double frame_rate = 30.0;  ///< frames per second
 };
 
 /// (5.5): of image velocity `v`, deg/s, when the eye follows it with efficiency `s`.

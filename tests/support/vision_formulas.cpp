@@ -1,4 +1,4 @@
-#include "tests/perception/vision_formulas.h"
+#include "tests/support/vision_formulas.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,9 +63,8 @@ double blur_transfer(double rho, double width) {
 }
 
 double hold(double rho, const EyeMotion& motion) {
-    const auto eye = [&](double v) { return motion.persistence * (0.001648 * v + 0.079818); };
-    return blur_transfer(rho, motion.persistence * motion.tracked / motion.frame_rate) *
-           blur_transfer(rho, eye(motion.tracked)) / blur_transfer(rho, eye(0.0));
+    return blur_transfer(rho, motion.tracked / 30.0) * blur_transfer(rho, 0.001648 * motion.tracked + 0.079818) /
+           blur_transfer(rho, 0.079818);
 }
 
 }  // namespace
