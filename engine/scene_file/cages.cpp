@@ -30,7 +30,7 @@ void read_uv(const JsonRef& at, Cage& cage) {
     const auto uv = at.find("uv"), faces = at.find("face_uv");
     if (faces && !uv) faces->fail("\"face_uv\" numbers the entries of \"uv\", which is missing");
     if (!uv) return;
-    cage.uv = read_vec2s(*uv);
+    cage.uv = read_vectors<glm::vec2>(*uv);
     if (!faces) {
         const int max_point = *std::max_element(cage.faces.points.begin(), cage.faces.points.end());
         if (max_point >= std::ssize(cage.uv)) {
@@ -77,6 +77,8 @@ void read_sharp_parts(const JsonRef& at, std::size_t points, Cage& cage) {
     }
 }
 
+}  // namespace
+
 int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     if (reader.scene.cages.size() >= max_scene_cages) {
         at.fail(fmt::format("more than {} cages; join some and separate them by \"parts\"", max_scene_cages));
@@ -114,31 +116,6 @@ int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     }
     reader.cage_places.push_back(at.pointer());
     return SceneReader::add(std::move(cage), reader.scene.cages, reader.names.cages);
-}
-
-}  // namespace
-
-std::size_t count_parts(const Cage& cage) {
-    return cage.faces.parts.empty()
-               ? 1
-               : static_cast<std::size_t>(*std::max_element(cage.faces.parts.begin(), cage.faces.parts.end())) + 1;
-}
-
-std::size_t count_cage_triangles(const Cage& cage) {
-    // A face of n points becomes n quads at level 1, and four of each at the next.
-    const std::size_t loop = cage.scheme == Cage::Scheme::loop ? cage.faces.sizes.size() : 0;
-    const std::size_t quads = loop > 0 ? 0 : cage.faces.points.size();
-    const std::size_t at_level_1 = 4 * loop + 2 * quads;
-    return at_level_1 << (2 * std::max(cage.level - 1, 0));
-}
-
-void read_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    add_cage(reader, at, name);
-}
-
-int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    if (at.json().is_string()) return reader.names.cages.require(at);
-    return add_cage(reader, at, reader.names.cages.unused(name));
 }
 
 void make_cage_meshes(SceneReader& reader) {

@@ -33,7 +33,6 @@ glm::dvec2 read_dvec2(const JsonRef& at);
 
 // Conversions of the reader.
 double to_radians(double degrees);
-double seconds_per_frame(const FrameRate& rate);
 /// The shortest decimal of degrees that to_radians turns into exactly these radians; nothing if there is none.
 std::optional<double> exact_degrees(double radians);
 

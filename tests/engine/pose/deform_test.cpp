@@ -21,15 +21,6 @@ TEST(SamplePoints, AreLinearBetweenSamplesAndHoldOutside) {
     EXPECT_EQ(x(9.0), 5.0);
 }
 
-TEST(SamplePoints, CyclicSamplesRepeatTheirTimes) {
-    PointCache cache;
-    cache.sampling = {TimeSampling::Kind::cyclic, 0.0, 1.0, {0.0, 0.25}};
-    cache.positions = {{{0.0f, 0.0f, 0.0f}}, {{1.0f, 0.0f, 0.0f}}, {{2.0f, 0.0f, 0.0f}}, {{3.0f, 0.0f, 0.0f}}};
-    EXPECT_EQ(sample_points(cache, 1.0)[0].x, 2.0);
-    EXPECT_DOUBLE_EQ(sample_points(cache, 0.625)[0].x, 1.5);
-    EXPECT_EQ(sample_points(cache, 1.25)[0].x, 3.0);
-}
-
 TEST(Deform, PointsAreLinearBetweenSamplesAndExactOnThem) {
     Scene scene = make_sheet_scene();
     add_cache(scene, 0, {0.0, 2.0}, [](const glm::vec3& p, std::size_t sample) {

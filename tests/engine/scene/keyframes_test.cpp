@@ -3,13 +3,11 @@
 #include "engine/pose/pose.h"
 #include "engine/scene/track.h"
 #include "engine/scene/transforms.h"
+#include "tests/engine/scene/matrices.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-constexpr double double_unit = 1.2e-16;  // rounding unit
 
 /// The turn about (.48, -.6, .64) in long double, rounded once.
 glm::dquat exact_turn(long double angle) {

@@ -1,7 +1,5 @@
 // Subdivision surfaces as meshes: levels, holes and parts, places between the vertices (RP-16, RP-17).
-#include "engine/surface/limit_surface.h"
-#include "tests/engine/surface/limit_checks.h"
-#include "tests/support/subdivision_cages.h"
+#include "tests/engine/surface/cage_checks.h"
 #include "tests/support/subdivision_reference.h"
 #include "tests/support/test.h"
 

@@ -1,7 +1,5 @@
 // Subdivision surfaces against closed forms: B-splines, limit masks, explicit subdivision.
-#include "engine/surface/limit_surface.h"
-#include "tests/engine/surface/limit_checks.h"
-#include "tests/support/subdivision_cages.h"
+#include "tests/engine/surface/cage_checks.h"
 #include "tests/support/subdivision_reference.h"
 #include "tests/support/test.h"
 
@@ -135,10 +133,9 @@ TEST(LimitSurface, LoopAgreesWithExplicitSubdivision) {
             torus.points.emplace_back((3.0 + std::cos(b)) * std::cos(a), (3.0 + std::cos(b)) * std::sin(a),
                                       std::sin(b));
             const int right = (i + 1) % n, up = (j + 1) % m;
-            for (const auto& face : {std::array{j * n + i, j * n + right, up * n + right},
-                                     std::array{j * n + i, up * n + right, up * n + i}}) {
-                torus.cage.faces.sizes.push_back(3);
-                torus.cage.faces.points.insert(torus.cage.faces.points.end(), face.begin(), face.end());
+            for (const auto& face : {std::vector{j * n + i, j * n + right, up * n + right},
+                                     std::vector{j * n + i, up * n + right, up * n + i}}) {
+                add_face(torus.cage, face);
             }
         }
     }
