@@ -43,9 +43,8 @@ Shape read_shape(const JsonRef& at, Shape::Kind kind) {
     }
     if (const auto value = at.find("smooth")) shape.smooth = value->boolean();
     if (const auto value = at.find("uv_scale")) shape.uv_scale = read_dvec2(*value);
-    if (const auto value = at.find_integer("segments", min_shape_segments, max_shape_segments)) {
-        shape.segments = static_cast<int>(*value);
-    }
+    shape.segments =
+        static_cast<int>(at.find_integer("segments", min_shape_segments, max_shape_segments).value_or(shape.segments));
     validate(shape, at.file(), at.pointer());
     return shape;
 }
@@ -173,16 +172,6 @@ std::vector<glm::vec3> first_positions(const Mesh& mesh, const PointCache& cache
     positions.reserve(mesh.deformation.vertex_points.size());
     for (const std::uint32_t point : mesh.deformation.vertex_points) positions.push_back(points.at(point));
     return positions;
-}
-
-PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    const auto positions = at.find("positions"), points = at.find("points");
-    if (positions.has_value() == points.has_value()) {
-        at.fail("expected either \"positions\" or \"points\" with a name from the scene's points");
-    }
-    const int index = points ? reader.names.points.require(*points)
-                             : add_points(reader, *positions, reader.names.points.unused(name));
-    return {index, reader.scene.point_caches[index].point_count()};
 }
 
 int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRef>& material,

@@ -5,7 +5,6 @@
 #include <unordered_set>
 
 #include "engine/base/errors.h"
-#include "engine/scene_file/operations.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/tracks.h"
 

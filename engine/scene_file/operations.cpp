@@ -1,4 +1,4 @@
-#include "engine/scene_file/operations.h"
+#include "engine/scene/operations.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/scene/components.h"
-#include "engine/scene/operations.h"
 #include "engine/scene_file/tracks.h"
 
 namespace aleph {

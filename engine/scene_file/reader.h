@@ -95,13 +95,6 @@ Enum read_word(const JsonRef& at, const Words& words) {
     at.fail("unknown word");  // the schema has the same words
 }
 
-/// Points that an element names under "points" or holds under "positions".
-struct PointsUse {
-    int index = no_index;
-    std::size_t count = 0;
-};
-PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::string& name);
-
 /// Adds a mesh. Triangles of shapes and cages are made at the end, by make_meshes.
 /// @param material  absent: Material{}
 int read_mesh(SceneReader& reader, const JsonRef& shape, const std::optional<JsonRef>& material,

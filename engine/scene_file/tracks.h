@@ -52,4 +52,14 @@ nlohmann::ordered_json write_samples(const TimeSampling& sampling, const FrameRa
 
 nlohmann::ordered_json write_dvec3(const glm::dvec3& value);
 
+// The list of transform operations of a node (operations.cpp).
+
+/// Every operation is an object with one key. Keyed operations have the same times.
+/// @throws InputError with the pointer of the faulty operation
+OperationStack read_operations(const JsonRef& at, const FrameRate& rate);
+
+/// @throws InputError if channels and operations do not match
+nlohmann::ordered_json write_operations(const OperationStack& stack, const FrameRate& rate, const std::string& file,
+                                        const std::string& place);
+
 }  // namespace aleph

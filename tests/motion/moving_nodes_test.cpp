@@ -67,23 +67,6 @@ TEST(MovingNodes, MotionHasTheBitsOfAPlanOfAllNodes) {
     }
 }
 
-TEST(MovingNodes, TurnsAreThoseOfAPlanOfAllNodes) {
-    const Scene scene = make_scene(300.0, 70.0);
-    const PosePlan plan = make_pose_plan(scene), everything = make_pose_plan(scene, true);
-    TurnFinder some(scene, plan), all(scene, everything);
-    const int camera = static_cast<int>(scene.nodes.size()) - 1;
-    for (const int camera_node : {camera, 4, no_index}) {
-        for (const double end : {0.9, 0.4}) {
-            some.find(camera_node, 0.1, end);
-            all.find(camera_node, 0.1, end);
-            EXPECT_EQ(some.background(), all.background());
-            for (int node = 0; node < std::ssize(scene.nodes); ++node)
-                EXPECT_EQ(some.of_node(node), all.of_node(node)) << node;
-            EXPECT_EQ(some.subdivide(camera_node, 0.1, end, 0.3), all.subdivide(camera_node, 0.1, end, 0.3));
-        }
-    }
-}
-
 TEST(StillMotion, SurfacesBeforeTheNearPlaneAreBehindTheCamera) {
     for (const bool orthographic : {false, true}) {
         for (const double depth : {1.99, 2.01}) {

@@ -1,7 +1,6 @@
-// Pixels per frame to degrees per second, (5.1), and which frame motion is found against.
+// Pixels per frame to degrees per second, (5.1).
 
 #include "motion/velocity.h"
-#include "motion/other_frame.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -51,15 +50,6 @@ TEST(Velocity, RP21_RatesThatAreNotPositiveAndFiniteAreRefused) {
     for (const FrameRate& bad : {FrameRate{0, 1}, {0, -1}, {-1, 1}, {1, 0}, {-1, 0}, {0, 0}}) {
         EXPECT_EQ(find_refusal([&] { velocity_of(1.0, {}, bad); }).place, "frames per second") << bad.per_second();
     }
-}
-
-TEST(OtherFrame, NumbersAndSigns) {
-    EXPECT_EQ(other_frame_number(7, OtherFrame::next), 8);
-    EXPECT_EQ(other_frame_number(7, OtherFrame::previous), 6);
-    EXPECT_EQ(other_frame_number(7, OtherFrame::none), 7);
-    EXPECT_EQ(displacement_sign(OtherFrame::next), 1.0);
-    EXPECT_EQ(displacement_sign(OtherFrame::previous), -1.0);
-    EXPECT_EQ(displacement_sign(OtherFrame::none), 1.0);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ TEST(FrameKeys, TransformsAtFramesStay) {
     key_frames(framed);
     EXPECT_FALSE(framed.nodes[1].transform.axis_rotation.has_value());
     EXPECT_EQ(framed.nodes[0].transform.rotation.key_count(), 33u);
-    EXPECT_EQ(framed.nodes[0].transform.translation.interpolation);
+    EXPECT_EQ(framed.nodes[0].transform.translation.interpolation, Interpolation::linear);
     EXPECT_EQ(framed.nodes[1].transform.translation, given.nodes[1].transform.translation);
     EXPECT_EQ(framed.nodes[1].transform.scale, given.nodes[1].transform.scale);
     for (std::int64_t frame = -2; frame <= 30; ++frame) {

@@ -55,29 +55,29 @@ class Damage {
             text[digit] = static_cast<char>('0' + below(10));
             return text;
         }
-        const std::size_t times = 1 + below(3);
-        for (std::size_t i = 0; i < times; ++i) {
-            const std::size_t at = below(text.size()), length = 1 + below(12);
+        for (std::size_t times = 1 + below(3); times > 0; --times) {
+            std::size_t at = below(text.size()), removed = 1 + below(12);
+            std::string added;
             switch (below(5)) {
                 case 0:
-                    text[at] = static_cast<char>(below(256));
+                    added = static_cast<char>(below(256));
+                    removed = 1;
                     break;
                 case 1:
-                    text.erase(at, length);
                     break;
                 case 2:
-                    text.insert(at, text.substr(below(text.size()), length));
+                    added = text.substr(below(text.size()), std::exchange(removed, 0));
                     break;
                 case 3:
-                    text.insert(at, pieces_[below(pieces_.size())]);
+                    added = pieces_[below(pieces_.size())];
+                    removed = 0;
                     break;
-                default: {  // a number becomes another
-                    const std::size_t digit = text.find_first_of("0123456789", at);
-                    if (digit != std::string::npos) {
-                        text.replace(digit, 1, pieces_[below(pieces_.size())]);
-                    }
-                }
+                default:  // a number becomes another
+                    added = pieces_[below(pieces_.size())];
+                    at = text.find_first_of("0123456789", at);
+                    removed = 1;
             }
+            if (at < text.size()) text.replace(at, removed, added);
         }
         return text;
     }

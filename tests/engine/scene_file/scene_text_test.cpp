@@ -147,8 +147,12 @@ TEST(SceneJson, CamerasTakeTurns) {
     EXPECT_EQ(read_keys(R"([[-2, "wide"], [40, "close"]])").film.camera_keys,
               (std::vector<CameraKey>{{-2, "wide"}, {40, "close"}}));
     EXPECT_EQ(frame_range(read_keys(R"([[-2, "wide"], [40, "close"]])")), (FrameRange{-2, 40}));
-    for (const char* keys : {R"([[0, "a"], [0, "b"]])", R"([[0.5, "a"]])", "[]", R"([[0, "a", 1]])"})
-        EXPECT_TRUE(find_refusal([&] { read_keys(keys); }).place.starts_with("/camera/keys")) << keys;
+    expect_all_refused({
+        scene(R"("camera": {"keys": [[0, "a"], [0, "b"]]})", "/camera/keys/1", "key times have to ascend"),
+        scene(R"("camera": {"keys": [[0.5, "a"]]})", "/camera", "a name"),
+        scene(R"("camera": {"keys": []})", "/camera", "a name"),
+        scene(R"("camera": {"keys": [[0, "a", 1]]})", "/camera", "a name"),
+    });
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ inline void expect_sound(const LimitSurface& surface, const std::vector<glm::dve
         for (const glm::uvec3& t : surface.make_mesh(part, control).triangles) {
             ASSERT_LT(std::max({t.x, t.y, t.z}), positions.size());
         }
-        const auto count = static_cast<int>(surface.triangle_count(part));
+        const auto count = static_cast<int>(surface.triangles(part).size());
         for (int i = 0; i < count; i += std::max(1, count / 50)) {
             const glm::dvec3 p = surface.evaluate(part, control, i, 0.2, 0.3);
             ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));

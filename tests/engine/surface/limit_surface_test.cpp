@@ -62,7 +62,7 @@ TestCage make_bspline_cage() {
 TEST(LimitSurface, RegularFaceIsABicubicBSpline) {
     const TestCage test = make_bspline_cage();
     const LimitSurface surface(test.cage, test.points.size(), 0);
-    ASSERT_EQ(surface.triangle_count(0), 2u);  // without boundary rule the outer faces have no surface
+    ASSERT_EQ(surface.triangles(0).size(), 2u);  // without boundary rule the outer faces have no surface
     const auto control = surface.make_control_points(test.points);
     for (int i = 0; i <= 20; ++i) {
         for (int j = 0; j <= 20; ++j) {
@@ -202,7 +202,8 @@ TEST(LimitSurface, SharpEdgesHaveANormalPerSide) {
         }
     }
     EXPECT_EQ(pairs, 4 * 8);  // the loop's vertices, once each
-    const std::size_t smooth = LimitSurface(make_cube_cage().cage, 8, 3).vertex_count(0);
+    const TestCage cube = make_cube_cage();
+    const std::size_t smooth = vertices_of(LimitSurface(cube.cage, 8, 3), cube.points).positions.size();
     EXPECT_EQ(smooth, 6u * 64u + 2u);  // V = F + 2: every vertex once
 }
 

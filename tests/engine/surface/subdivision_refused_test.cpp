@@ -6,7 +6,7 @@
 namespace aleph {
 namespace {
 
-constexpr int most = std::numeric_limits<int>::max(), least = std::numeric_limits<int>::min();
+constexpr int largest_int = std::numeric_limits<int>::max(), smallest_int = std::numeric_limits<int>::min();
 
 TEST(SubdivisionHard, DamagedCagesAreRefused) {
     const auto size = [](int points) { return [=](Cage& c) { c.faces.sizes[3] = points; }; };
@@ -32,27 +32,27 @@ TEST(SubdivisionHard, DamagedCagesAreRefused) {
         {size(2), "at least 3"},
         {size(0), "at least 3"},
         {size(-1), "at least 3"},
-        {size(least), "at least 3"},
+        {size(smallest_int), "at least 3"},
         {point(8), "names point"},
         {point(-1), "names point"},
-        {point(most), "names point"},
-        {point(least), "names point"},
+        {point(largest_int), "names point"},
+        {point(smallest_int), "names point"},
         {[](Cage& c) { c.faces.points[5] = c.faces.points[7]; }, "twice"},
         {[](Cage& c) { c.faces.points.pop_back(); }, "corners"},
-        {more(most), "corners"},
+        {more(largest_int), "corners"},
         {more(60000), "corners"},
         {[](Cage& c) { c.scheme = Cage::Scheme::loop; }, "triangles only"},
         {holes(6), "hole 6"},
         {holes(-1), "hole -1"},
         {parts({0, 1}), "parts for 2"},
-        {parts({0, 0, 0, 0, 0, most}), "part 2147483647"},
+        {parts({0, 0, 0, 0, 0, largest_int}), "part 2147483647"},
         {parts({0, 0, 0, 0, 0, -1}), "part -1"},
         {creases({2}, {0, 8}, {1.0f}), "names point 8"},
         {creases({2}, {0, -1}, {1.0f}), "names point -1"},
         {creases({1}, {0}, {1.0f}), "at least 2"},
         {creases({-2}, {0, 1}, {1.0f}), "at least 2"},
         {creases({3}, {0, 1}, {1.0f}), "3 points"},
-        {creases({most, most, 2}, {0, 1}, {1.0f, 1.0f, 1.0f}), "points, but 2"},
+        {creases({largest_int, largest_int, 2}, {0, 1}, {1.0f, 1.0f, 1.0f}), "points, but 2"},
         {creases({2}, {0, 1}, {}), "0 sharpnesses"},
         {creases({2}, {0, 1}, {float_nan}), "not a finite"},
         {creases({2}, {0, 1}, {float_infinity}), "not a finite"},
