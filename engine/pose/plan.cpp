@@ -19,8 +19,8 @@ void plan_nodes(const Scene& scene, bool all, PosePlan& plan) {
     int camera = 0;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
-        const bool carried = node.parent != no_index && plan.moving[node.parent] != 0;
-        const bool moves = all || carried || has_animated_tracks(node);
+        const bool moves =
+            all || (node.parent != no_index && plan.moving[node.parent] != 0) || has_animated_tracks(node);
         plan.moving[n] = moves;
         if (moves) plan.nodes.push_back(static_cast<int>(n));
         if (node.light != no_index) {

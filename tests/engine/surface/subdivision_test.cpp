@@ -87,15 +87,11 @@ TEST(SubdivisionHard, DegenerateCagesHaveUnitNormals) {
         for (std::size_t i = 0; i < test.points.size(); ++i) test.points[i].x = static_cast<double>(i);
         expect_sound(test);  // a line
     }
-    TestCage flat = make_cube_cage();
-    for (glm::dvec3& p : flat.points) p.z = 0.0;
-    expect_sound(flat);
-    TestCage tiny = make_cube_cage();
-    for (glm::dvec3& p : tiny.points) p *= 1e-30;
-    expect_sound(tiny);
-    TestCage huge = make_cube_cage();
-    for (glm::dvec3& p : huge.points) p *= 1e18;
-    expect_sound(huge);
+    for (const glm::dvec3& scale : {glm::dvec3(1.0, 1.0, 0.0), glm::dvec3(1e-30), glm::dvec3(1e18)}) {
+        TestCage test = make_cube_cage();
+        for (glm::dvec3& p : test.points) p *= scale;
+        expect_sound(test);
+    }
 }
 
 TEST(SubdivisionHard, FacesAndPointsOfManyNeighbours) {
