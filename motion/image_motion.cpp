@@ -222,36 +222,27 @@ CensusPyramid make_census_pyramid(const Image<Rgb>& frame) {
     return pyramid;
 }
 
-MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other, OtherFrame which) {
-    if (now.empty()) throw InputError("", "image-based motion", "the frame has no pixels");
-    const int width = now.front().width, height = now.front().height;
-    MotionField field;
-    field.displacement = Image<glm::dvec2>(width, height, glm::dvec2(0.0));
-    field.path_length = Image<double>(width, height);
-    field.validity = Image<MotionValidity>(
-        width, height, which == OtherFrame::none ? MotionValidity::no_counterpart : MotionValidity::valid);
-    if (which == OtherFrame::none) return field;
-    if (other.empty() || other.front().width != width || other.front().height != height) {
-        throw InputError("", "image-based motion",
-                         other.empty() ? std::string("the other frame has no pixels")
-                                       : fmt::format("frames of {}x{} and {}x{} pixels", width, height,
-                                                     other.front().width, other.front().height));
+MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other) {
+    if (now.empty() || other.empty()) throw InputError("", "image-based motion", "a frame has no pixels");
+    const CensusLevel &finest = now.front(), &target = other.front();
+    if (finest.width != target.width || finest.height != target.height) {
+        throw InputError(
+            "", "image-based motion",
+            fmt::format("frames of {}x{} and {}x{} pixels", finest.width, finest.height, target.width, target.height));
     }
+    MotionField field = make_motion_field(finest.width, finest.height, MotionValidity::valid);
     Image<Offset> offsets = search_exhaustively(now.back(), other.back());
     for (std::size_t level = now.size() - 1; level-- > 0;) offsets = refine(now[level], other[level], offsets);
-    const double sign = displacement_sign(which);
     for (std::size_t i = 0; i < offsets.size(); ++i) {
         const Offset& offset = offsets.pixels[i];
-        if (offset.x == 0 && offset.y == 0) continue;  // +0, whatever the sign
-        field.displacement.pixels[i] = sign * glm::dvec2(offset.x, offset.y);
+        field.displacement.pixels[i] = glm::dvec2(offset.x, offset.y);
         field.path_length.pixels[i] = std::hypot(offset.x, offset.y);
     }
     return field;
 }
 
-MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other, OtherFrame which) {
-    return compute_image_motion(make_census_pyramid(now),
-                                which == OtherFrame::none ? CensusPyramid() : make_census_pyramid(other), which);
+MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other) {
+    return compute_image_motion(make_census_pyramid(now), make_census_pyramid(other));
 }
 
 }  // namespace aleph

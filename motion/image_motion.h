@@ -10,7 +10,6 @@
 #include "engine/base/color.h"
 #include "engine/base/image.h"
 #include "motion/motion_field.h"
-#include "motion/other_frame.h"
 
 namespace aleph {
 
@@ -41,10 +40,8 @@ CensusLevel make_census_level(const Image<float>& level);
 /// pixel out). Ties go to the smaller |offset|^2, then dy, then dx, of the whole offset from the pixel, so that
 /// areas without texture stand still. Reach: 53 pixels with three levels, 23 with two, 8 with one. Every pixel has a
 /// target, so that all are `valid`. The same bits for any number of threads.
-/// @param other  may be empty where `which` is none
 /// @throws InputError if the sizes differ or are empty
-MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other,
-                                 OtherFrame which = OtherFrame::next);
-MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other, OtherFrame which = OtherFrame::next);
+MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other);
+MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other);
 
 }  // namespace aleph

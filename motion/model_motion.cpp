@@ -186,15 +186,10 @@ MotionField ModelMotion::compute(const PosedView& now, const PosedView& other, c
                                  OtherFrame which) {
     ALEPH_CHECK(hits.width == now.view.width && hits.height == now.view.height,
                 fmt::format("{}x{} hits, {}x{} view", hits.width, hits.height, now.view.width, now.view.height));
-    MotionField field;
-    field.displacement = Image<glm::dvec2>(hits.width, hits.height);
-    field.path_length = Image<double>(hits.width, hits.height);
-    field.validity = Image<MotionValidity>(hits.width, hits.height);
-
+    MotionField field = make_motion_field(hits.width, hits.height, MotionValidity::background);
     if (which == OtherFrame::none) {
         for (std::size_t i = 0; i < hits.size(); ++i) {
-            field.validity.pixels[i] =
-                hits.pixels[i].instance == no_index ? MotionValidity::background : MotionValidity::no_counterpart;
+            if (hits.pixels[i].instance != no_index) field.validity.pixels[i] = MotionValidity::no_counterpart;
         }
         return field;
     }
@@ -222,6 +217,22 @@ MotionField compute_model_motion(const Scene& scene, const PosedView& now, const
                                  const Image<Hit>& hits, OtherFrame which) {
     const PosePlan plan = make_pose_plan(scene);
     return ModelMotion(scene, plan).compute(now, other, hits, which);
+}
+
+MotionField make_still_motion(const CameraView& view, const Image<Hit>& hits) {
+    MotionField field = make_motion_field(hits.width, hits.height, MotionValidity::background);
+    parallel_rows(hits.height, 16, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < hits.width; ++x) {
+                const Hit& hit = hits(x, y);
+                if (hit.instance == no_index) continue;
+                const CameraRay ray = make_camera_ray(view, x + 0.5, y + 0.5);
+                const double depth = -(ray.direction * view.axes).z * hit.distance;
+                field.validity(x, y) = depth > view.near_plane ? MotionValidity::valid : MotionValidity::behind_camera;
+            }
+        }
+    });
+    return field;
 }
 
 }  // namespace aleph

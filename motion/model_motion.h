@@ -43,6 +43,11 @@ class ModelMotion {
 MotionField compute_model_motion(const Scene& scene, const PosedView& now, const PosedView& other,
                                  const Image<Hit>& hits, OtherFrame which = OtherFrame::next);
 
+/// The field of a frame in which neither world nor camera move: displacement 0, and what lies before the near plane has
+/// no valid motion.
+/// @param hits  first hits through the pixel centres of the view
+MotionField make_still_motion(const CameraView& view, const Image<Hit>& hits);
+
 /// Marks valid pixels whose point is hidden in the other frame as `hidden`. Casts one ray for each.
 /// @param other_rays  updated to the other frame
 /// @return number of rays cast

@@ -28,4 +28,10 @@ struct MotionField {
     Image<MotionValidity> validity;
 };
 
+/// A field in which nothing moves.
+inline MotionField make_motion_field(int width, int height, MotionValidity all) {
+    return {Image<glm::dvec2>(width, height, glm::dvec2(0.0)), Image<double>(width, height, 0.0),
+            Image<MotionValidity>(width, height, all)};
+}
+
 }  // namespace aleph

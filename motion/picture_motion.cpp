@@ -29,7 +29,7 @@ MotionValidity check(int x, int y, const glm::dvec2& way, const Image<glm::dvec2
 }
 
 MotionField make_checked(const Image<glm::dvec2>& ways, const Image<glm::dvec2>& back) {
-    MotionField field = make_unknown_motion(ways.width, ways.height);
+    MotionField field = make_motion_field(ways.width, ways.height, MotionValidity::no_counterpart);
     const double longest = std::hypot(ways.width, ways.height);
     parallel_rows(ways.height, 8, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {
@@ -46,12 +46,6 @@ MotionField make_checked(const Image<glm::dvec2>& ways, const Image<glm::dvec2>&
     return field;
 }
 
-FlowPair search_both_ways(const SearchedPicture& first, const SearchedPicture& second, PictureSearch search) {
-    if (search == PictureSearch::flow) return compute_flow(first.grey, second.grey);
-    return {compute_image_motion(first.census, second.census).displacement,
-            compute_image_motion(second.census, first.census).displacement};
-}
-
 }  // namespace
 
 SearchedPicture prepare_picture(const Image<Rgb>& picture, PictureSearch search) {
@@ -66,21 +60,20 @@ SearchedPicture prepare_picture(const Image<Rgb>& picture, PictureSearch search)
 
 MotionField compute_picture_motion(const SearchedPicture& first, const SearchedPicture& second, PictureSearch search) {
     if (search == PictureSearch::census) return compute_image_motion(first.census, second.census);
-    const FlowPair ways = search_both_ways(first, second, search);
-    return make_checked(ways.there, ways.back);
+    return compute_picture_motions(first, second, search).there;
 }
 
 PictureMotions compute_picture_motions(const SearchedPicture& first, const SearchedPicture& second,
                                        PictureSearch search) {
-    if (search == PictureSearch::census)
-        return {compute_image_motion(first.census, second.census), compute_image_motion(second.census, first.census)};
-    const FlowPair ways = search_both_ways(first, second, search);
-    return {make_checked(ways.there, ways.back), make_checked(ways.back, ways.there)};
-}
-
-MotionField make_unknown_motion(int width, int height) {
-    return {Image<glm::dvec2>(width, height, glm::dvec2(0.0)), Image<double>(width, height),
-            Image<MotionValidity>(width, height, MotionValidity::no_counterpart)};
+    if (search == PictureSearch::flow) {
+        const FlowPair ways = compute_flow(first.grey, second.grey);
+        return {make_checked(ways.there, ways.back), make_checked(ways.back, ways.there)};
+    }
+    PictureMotions found{compute_image_motion(first.census, second.census),
+                         compute_image_motion(second.census, first.census)};
+    if (search == PictureSearch::census) return found;
+    return {make_checked(found.there.displacement, found.back.displacement),
+            make_checked(found.back.displacement, found.there.displacement)};
 }
 
 void turn_round(MotionField& field) {

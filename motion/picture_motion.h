@@ -39,9 +39,6 @@ struct PictureMotions {
 PictureMotions compute_picture_motions(const SearchedPicture& first, const SearchedPicture& second,
                                        PictureSearch search);
 
-/// The motion of a picture that is compared with no other.
-MotionField make_unknown_motion(int width, int height);
-
 /// A motion to the frame before as one from there, and the reverse.
 void turn_round(MotionField& field);
 

@@ -1,10 +1,8 @@
 #pragma once
 // A rasterizer: which triangle each pixel shows, and where on it to 8 bits for each coordinate, as the ID map and the
-// UV map of Yee 2000, 5.1.2, tell it.
+// UV map of Yee 2000, 5.1.2, tell it; and motion from these maps, which the thesis describes beside ray casting.
 
-#include "engine/base/image.h"
-#include "engine/pose/posed_view.h"
-#include "engine/rays/hit.h"
+#include "motion/model_motion.h"
 
 namespace aleph {
 
@@ -16,5 +14,12 @@ namespace aleph {
 /// that there are neither cracks nor pixels drawn twice. Triangles are cut off where the camera is, and not at its near
 /// plane, as rays are. Alpha is not read: a cut-out hides what is behind it.
 Image<Hit> rasterize(const Scene& scene, const PosedView& posed);
+
+/// As ModelMotion::compute, but from each pixel's centre to where the place that the item names lies in the other
+/// frame: off by up to half a 255th of a triangle, in a frame without motion too. The path length is that of the
+/// displacement.
+/// @param items  rasterize(scene, now)
+MotionField compute_raster_motion(ModelMotion& model, const Scene& scene, const PosedView& now, const PosedView& other,
+                                  const Image<Hit>& items, OtherFrame which = OtherFrame::next);
 
 }  // namespace aleph

@@ -9,7 +9,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/load/source_file.h"
-#include "engine/scene/texture_limits.h"
 
 namespace aleph {
 

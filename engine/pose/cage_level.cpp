@@ -18,6 +18,11 @@ namespace aleph {
 
 namespace {
 
+// A triangle is fine enough where one of the two holds: none of its edges is longer, or the limit surface is no farther
+// from its edges.
+constexpr double edge_pixels = 4.0, bend_pixels = 0.1;
+constexpr int examined_frames = 33;  // spread evenly over the range with both its ends
+
 int highest_level(const Cage& cage) {
     return std::clamp(cage.max_level, 0, max_subdivision_level);
 }
@@ -98,8 +103,7 @@ void place_shape(SurfaceShape& shape, const Scene& scene, const Mesh& mesh, doub
 }
 
 /// The level that a shape needs, a fraction; -infinity where nothing of it is in view.
-double find_level_needed(const SurfaceShape& shape, const glm::dmat4& world, const CameraView& view,
-                         const CageLevelSettings& settings) {
+double find_level_needed(const SurfaceShape& shape, const glm::dmat4& world, const CameraView& view) {
     std::vector<glm::dvec3> points;
     points.reserve(shape.positions.size());
     for (const glm::dvec3& p : shape.positions) {
@@ -116,8 +120,8 @@ double find_level_needed(const SurfaceShape& shape, const glm::dmat4& world, con
         const double distance = view.orthographic ? 1.0 : std::max(distance_to_triangle(a, b, c), view.near_plane);
         const double pixels = view.pixels_per_unit / distance;
         // Each level halves edges and quarters bends.
-        const double by_edge = std::log2(std::max(edge * pixels / settings.edge_pixels, 1e-9));
-        const double by_bend = 0.5 * std::log2(std::max(shape.bends[i] * scale * pixels / settings.bend_pixels, 1e-18));
+        const double by_edge = std::log2(std::max(edge * pixels / edge_pixels, 1e-9));
+        const double by_bend = 0.5 * std::log2(std::max(shape.bends[i] * scale * pixels / bend_pixels, 1e-18));
         most = std::max(most, std::min(by_edge, by_bend));
     }
     return shape.surface->level() + most;
@@ -169,8 +173,8 @@ class Shapes {
 };
 
 /// Evenly over the range, first and last included.
-std::vector<std::int64_t> sample_frames(const FrameRange& range, int samples) {
-    const std::int64_t steps = std::min<std::int64_t>(samples - 1, range.last - range.first);
+std::vector<std::int64_t> sample_frames(const FrameRange& range) {
+    const std::int64_t steps = std::min<std::int64_t>(examined_frames - 1, range.last - range.first);
     std::vector<std::int64_t> frames{range.first};
     for (std::int64_t step = 1; step <= steps; ++step) {
         const double share = static_cast<double>(step) / static_cast<double>(steps);
@@ -180,8 +184,7 @@ std::vector<std::int64_t> sample_frames(const FrameRange& range, int samples) {
 }
 
 /// By cage: the level that its triangles need over the sampled frames; -infinity where it is never in view.
-std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int width, int height,
-                                       const CageLevelSettings& settings) {
+std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int width, int height) {
     std::vector<Instance> instances = list_instances(scene);
     std::erase_if(instances, [&](const Instance& instance) {
         const Mesh& mesh = scene.meshes[instance.mesh];
@@ -189,7 +192,7 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
     });
     std::vector<double> most(scene.cages.size(), -std::numeric_limits<double>::infinity());
     Shapes shapes(scene);
-    for (const std::int64_t number : sample_frames(frame_range(scene), settings.samples)) {
+    for (const std::int64_t number : sample_frames(frame_range(scene))) {
         const double seconds = scene.film.frame_rate.seconds_of(number);
         ScenePose posed = place_nodes(scene, seconds);
         posed.instances = instances;
@@ -199,31 +202,22 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
             if (!is_shown(scene, posed, i)) continue;
             const Mesh& mesh = scene.meshes[instances[i].mesh];
             double& needed = most[mesh.subdivision.cage];
-            needed = std::max(needed, find_level_needed(shapes.at(instances[i].mesh, seconds),
-                                                        posed.world[instances[i].node], view, settings));
+            needed = std::max(
+                needed, find_level_needed(shapes.at(instances[i].mesh, seconds), posed.world[instances[i].node], view));
         }
     }
     return most;
 }
 
-std::size_t count_triangles(const Cage& cage, int level) {
-    std::size_t pieces = 0;  // triangles at level 0 were every face a quad or a Loop triangle
-    for (const int size : cage.faces.sizes) {
-        pieces += cage.scheme == Cage::Scheme::loop ? 2u : size == 4 ? 4u : static_cast<std::size_t>(size);
-    }
-    return pieces * (std::size_t{1} << (2 * level)) / 2;
-}
-
 }  // namespace
 
-std::vector<int> choose_cage_levels(const Scene& scene, int camera, int width, int height,
-                                    const CageLevelSettings& settings) {
+std::vector<int> choose_cage_levels(const Scene& scene, int camera, int width, int height, std::size_t max_triangles) {
     std::vector<int> levels;
     for (const Cage& cage : scene.cages) levels.push_back(std::min(cage.level, highest_level(cage)));
     const int camera_node = find_camera_node(scene, camera);
     if (levels.empty() || camera_node == no_index) return levels;
 
-    const std::vector<double> needed = find_levels_needed(scene, camera_node, width, height, settings);
+    const std::vector<double> needed = find_levels_needed(scene, camera_node, width, height);
     for (std::size_t c = 0; c < levels.size(); ++c) {
         const auto highest = static_cast<double>(highest_level(scene.cages[c]));
         levels[c] = static_cast<int>(std::clamp(std::ceil(needed[c]), static_cast<double>(levels[c]), highest));
@@ -238,7 +232,7 @@ std::vector<int> choose_cage_levels(const Scene& scene, int camera, int width, i
                 largest = c;
             }
         }
-        if (total <= settings.max_triangles || largest == levels.size()) return levels;
+        if (total <= max_triangles || largest == levels.size()) return levels;
         --levels[largest];
     }
 }

@@ -10,23 +10,17 @@
 
 namespace aleph {
 
-/// A triangle is fine enough where one of the two holds.
-struct CageLevelSettings {
-    double edge_pixels = 4.0;  ///< none of its edges is longer
-    double bend_pixels = 0.1;  ///< the limit surface is no farther from its edges: flat faces stay whole
-    std::size_t max_triangles =
-        4'000'000;     ///< of all cages together; of those above their own level the largest give way
-    int samples = 33;  ///< frames examined, spread evenly over the range with both its ends
-};
-
 /// The level of every cage, from Cage::level to Cage::max_level, at which its triangles in view are fine enough over
-/// the scene's range of frames. It depends on scene, camera and size of the picture, not on the frames that are
-/// rendered. Lengths are measured at the triangle's nearest point, without foreshortening; hidden triangles count too.
+/// the scene's range of frames: their edges are no longer than 4 pixels, or the limit surface lies within a tenth of a
+/// pixel of them, so that flat faces stay whole. It depends on scene, camera and size of the picture, not on the frames
+/// that are rendered. Lengths are measured at the triangle's nearest point, without foreshortening; hidden triangles
+/// count too.
 /// @param scene  with tessellated cages: their triangles tell how edges and bends shrink with the level
 /// @param camera  index into ScenePose::cameras
 /// @param width,height  pixels
+/// @param max_triangles  of all cages together; of those above their own level the largest give way
 std::vector<int> choose_cage_levels(const Scene& scene, int camera, int width, int height,
-                                    const CageLevelSettings& settings = {});
+                                    std::size_t max_triangles = 4'000'000);
 
 /// The scene with its cages at these levels (at most Cage::max_level) and their meshes made again; null where the cages
 /// already have these levels.

@@ -34,8 +34,8 @@ bool are_weights_on(const Deformation& deformation) {
     });
 }
 
-bool has_moving_normals(const std::vector<std::vector<glm::vec3>>& samples) {
-    return std::ranges::any_of(samples, [&](const auto& sample) { return sample != samples.front(); });
+bool are_weights_animated(const Deformation& deformation) {
+    return std::ranges::any_of(deformation.target_weights, [](const auto& weight) { return is_animated(weight); });
 }
 
 /// Vertices of one point and one rest normal get one number.
@@ -185,17 +185,16 @@ std::vector<Deformer> find_deformers(const Scene& scene, std::span<const std::ui
         Deformer deformer{static_cast<int>(m), node_of[m], false, {}};
         if (is_skinned(mesh)) {
             const auto moves = [&](int node) { return moving_nodes[node] != 0; };
-            deformer.changes =
-                moves(deformer.node) || std::ranges::any_of(scene.skins[mesh.deformation.skin].joints, moves) ||
-                std::ranges::any_of(mesh.deformation.target_weights, [](const auto& w) { return is_animated(w); });
+            deformer.changes = moves(deformer.node) ||
+                               std::ranges::any_of(scene.skins[mesh.deformation.skin].joints, moves) ||
+                               are_weights_animated(mesh.deformation);
         } else if (mesh.deformation.points != no_index &&
-                   (is_animated(cache_of(scene, mesh)) || has_moving_normals(mesh.deformation.normal_samples))) {
+                   (is_animated(cache_of(scene, mesh)) || do_samples_differ(mesh.deformation.normal_samples))) {
             deformer.changes = true;
             if (mesh.deformation.normal_samples.empty() && !mesh.normals.empty())
                 deformer.normal_groups = group_normals(mesh);
         } else if (are_weights_on(mesh.deformation)) {
-            deformer.changes =
-                std::ranges::any_of(mesh.deformation.target_weights, [](const auto& w) { return is_animated(w); });
+            deformer.changes = are_weights_animated(mesh.deformation);
         } else if (is_cage_animated(scene, mesh)) {
             deformer.changes = true;
         } else {

@@ -20,30 +20,26 @@ class FrameKeys {
         for (Node& node : scene_.nodes) {
             LocalTransform& local = node.transform;
             if (local.operations || local.matrix) continue;
-            if (is_cubic(local.translation)) sample(local.translation);
-            if (is_cubic(local.scale)) sample(local.scale);
+            if (needs_keys(local.translation, false)) sample(local.translation);
+            if (needs_keys(local.scale, false)) sample(local.scale);
             if (local.axis_rotation) {
-                sample_turns(local);
-            } else if (interpolates(local.rotation)) {
+                if (needs_keys(local.axis_rotation->angle, true)) sample_turns(local);
+            } else if (needs_keys(local.rotation, true)) {
                 sample(local.rotation);
             }
         }
     }
 
   private:
+    /// @param linear  linear keys need them too, not only cubic ones
     template <class T>
-    static bool interpolates(const Track<T>& track) {
-        return is_animated(track) &&
-               (track.interpolation == Interpolation::linear || track.interpolation == Interpolation::cubic);
-    }
-    template <class T>
-    static bool is_cubic(const Track<T>& track) {
-        return is_animated(track) && track.interpolation == Interpolation::cubic;
+    static bool needs_keys(const Track<T>& track, bool linear) {
+        const bool is_linear = track.interpolation == Interpolation::linear;
+        return is_animated(track) && (track.interpolation == Interpolation::cubic || (linear && is_linear));
     }
 
     void sample_turns(LocalTransform& local) {
         const AxisRotation turn = *local.axis_rotation;
-        if (!interpolates(turn.angle)) return;
         const glm::dvec3 axis = safe_normalize(turn.axis);
         local.rotation = make([&](double seconds) {
             const double half = 0.5 * evaluate(turn.angle, seconds);

@@ -14,13 +14,13 @@ bool has_animated_tracks(const Element& element) {
     return animated;
 }
 
-void plan_nodes(const Scene& scene, PosePlan& plan) {
+void plan_nodes(const Scene& scene, bool all, PosePlan& plan) {
     plan.moving.resize(scene.nodes.size(), 0);
     int camera = 0;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
-        const bool carried = node.parent != no_index && plan.moving[node.parent] != 0;
-        const bool moves = carried || has_animated_tracks(node);
+        const bool moves =
+            all || (node.parent != no_index && plan.moving[node.parent] != 0) || has_animated_tracks(node);
         plan.moving[n] = moves;
         if (moves) plan.nodes.push_back(static_cast<int>(n));
         if (node.light != no_index) {
@@ -55,15 +55,14 @@ void plan_instances(const Scene& scene, PosePlan& plan) {
 
 }  // namespace
 
-PosePlan make_pose_plan(const Scene& scene) {
+PosePlan make_pose_plan(const Scene& scene, bool all) {
     PosePlan plan;
-    plan_nodes(scene, plan);
+    plan_nodes(scene, all, plan);
     plan.deformers = find_deformers(scene, plan.moving);
     plan_instances(scene, plan);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        if (has_animated_tracks(scene.materials[i])) plan.materials.push_back(static_cast<int>(i));
-    visit_tracks(scene.environment,
-                 [&](const auto& track) { plan.environment = plan.environment || is_animated(track); });
+        if (all || has_animated_tracks(scene.materials[i])) plan.materials.push_back(static_cast<int>(i));
+    plan.environment = all || has_animated_tracks(scene.environment);
     return plan;
 }
 

@@ -22,7 +22,8 @@ struct PosePlan {
     bool environment = false;
 };
 
-PosePlan make_pose_plan(const Scene& scene);
+/// @param all  lists every part, as if each could change
+PosePlan make_pose_plan(const Scene& scene, bool all = false);
 
 /// Takes a pose of the same scene to another time. The result has the bits of pose(scene, seconds), but only what can
 /// change is computed.

@@ -158,9 +158,7 @@ bool is_world_animated(const Scene& scene) {
         if (content[i]) visit_tracks(scene.nodes[i], look);
     for (const Mesh& mesh : scene.meshes) {
         visit_tracks(mesh, look);
-        animated = animated || std::ranges::any_of(mesh.deformation.normal_samples, [&](const auto& sample) {
-                       return sample != mesh.deformation.normal_samples.front();
-                   });
+        animated = animated || do_samples_differ(mesh.deformation.normal_samples);
     }
     for (const PointCache& cache : scene.point_caches) look(cache);
     for (const Material& material : scene.materials) visit_tracks(material, look);

@@ -43,6 +43,9 @@ struct TextureRef {
     bool operator==(const TextureRef&) const = default;
 };
 
+/// Texture coordinates of this size or more count as 0: beyond it, a float cannot hold fractions of a texel.
+inline constexpr float max_texture_coordinate = 1e6f;
+
 /// Textures of a material. Colours are sRGB, all else linear.
 enum class TextureSlot : std::uint8_t {
     base_color,           ///< with alpha

@@ -1,9 +1,9 @@
 // Keyed matrices: Shoemake and Duff 1992, "Matrix animation and polar decomposition".
 
 #include <algorithm>
-#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/scene/components.h"
 #include "engine/scene/track.h"
 #include "engine/scene/transforms.h"
 
@@ -32,28 +32,19 @@ Polar decompose_polar(const glm::dmat3& m) {
     return {safe_normalize(glm::quat_cast(orthogonal * sign)), scaled * glm::transpose(svd.v), sign, false};
 }
 
-template <class Matrix>
-Matrix lerp_elements(const Matrix& a, const Matrix& b, double fraction) {
-    Matrix result = a;
-    for (int column = 0; column < Matrix::length(); ++column)
-        for (int row = 0; row < Matrix::col_type::length(); ++row)
-            result[column][row] = std::lerp(a[column][row], b[column][row], fraction);
-    return result;
-}
-
 }  // namespace
 
 glm::dmat4 interpolate_matrix(const glm::dmat4& a, const glm::dmat4& b, double fraction) {
     if (fraction <= 0.0 || a == b) return a;
     if (fraction >= 1.0) return b;
-    glm::dmat4 result = lerp_elements(a, b, fraction);
+    glm::dmat4 result = lerp_components(a, b, fraction);
     if (glm::dmat3(a) == glm::dmat3(b)) return result;  // a pure move, exactly
 
     const Polar from = decompose_polar(glm::dmat3(a)), to = decompose_polar(glm::dmat3(b));
     // On the way into or out of a mirror the object has to pass through flat: it does so without a turn.
     if (from.singular || to.singular || from.sign != to.sign) return result;
     const glm::dmat3 rotation = glm::mat3_cast(slerp_short(from.rotation, to.rotation, fraction));
-    const glm::dmat3 linear = rotation * lerp_elements(from.stretch, to.stretch, fraction) * from.sign;
+    const glm::dmat3 linear = rotation * lerp_components(from.stretch, to.stretch, fraction) * from.sign;
     for (int column = 0; column < 3; ++column) result[column] = glm::dvec4(linear[column], 0.0);
     return result;
 }

@@ -37,14 +37,10 @@ glm::dmat4 make_matrix(Kind kind, const double* channels) {
             const glm::dvec3 axis = safe_normalize(glm::dvec3(channels[0], channels[1], channels[2]));
             return axis == glm::dvec3(0.0) ? m : rotate_about(axis, channels[3]);
         }
-        case Kind::rotate_x:
-            return rotate_about({1.0, 0.0, 0.0}, channels[0]);
-        case Kind::rotate_y:
-            return rotate_about({0.0, 1.0, 0.0}, channels[0]);
-        case Kind::rotate_z:
-            return rotate_about({0.0, 0.0, 1.0}, channels[0]);
+        default:
+            return rotate_about(glm::dvec3(kind == Kind::rotate_x, kind == Kind::rotate_y, kind == Kind::rotate_z),
+                                channels[0]);
     }
-    return m;
 }
 
 }  // namespace

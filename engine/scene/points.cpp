@@ -1,7 +1,5 @@
 #include "engine/scene/points.h"
 
-#include <algorithm>
-
 namespace aleph {
 
 std::vector<glm::dvec3> sample_points(const PointCache& cache, double seconds) {
@@ -14,10 +12,6 @@ std::vector<glm::dvec3> sample_points(const PointCache& cache, double seconds) {
     // Written so that equal samples give exactly their value.
     for (std::size_t i = 0; i < points.size(); ++i) points[i] += (glm::dvec3(b[i]) - points[i]) * span.fraction;
     return points;
-}
-
-bool is_animated(const PointCache& cache) {
-    return std::ranges::any_of(cache.positions, [&](const auto& sample) { return sample != cache.positions.front(); });
 }
 
 }  // namespace aleph

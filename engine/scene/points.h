@@ -1,6 +1,7 @@
 #pragma once
 // The points of a point cache at a time.
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -11,7 +12,14 @@ namespace aleph {
 /// exactly theirs.
 std::vector<glm::dvec3> sample_points(const PointCache& cache, double seconds);
 
+/// Samples of points or normals: some differ from the first.
+inline bool do_samples_differ(const std::vector<std::vector<glm::vec3>>& samples) {
+    return std::ranges::any_of(samples, [&](const auto& sample) { return sample != samples.front(); });
+}
+
 /// False only where sample_points gives the same points at every time.
-bool is_animated(const PointCache& cache);
+inline bool is_animated(const PointCache& cache) {
+    return do_samples_differ(cache.positions);
+}
 
 }  // namespace aleph

@@ -4,49 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <numbers>
-#include <span>
+#include <type_traits>
 
 #include "engine/base/errors.h"
+#include "engine/scene/components.h"
 #include "engine/scene/transforms.h"
 
 namespace aleph {
 namespace {
 
-std::span<const double> components(const double& value) {
-    return {&value, 1};
-}
-std::span<const double> components(const glm::dvec3& value) {
-    return {glm::value_ptr(value), 3};
-}
-std::span<const double> components(const glm::dquat& value) {
-    return {glm::value_ptr(value), 4};
-}
-std::span<const double> components(const glm::dmat4& value) {
-    return {glm::value_ptr(value), 16};
-}
-
-double* data(double& value) {
-    return &value;
-}
 template <class T>
-double* data(T& value) {
-    return glm::value_ptr(value);
-}
-
-double interpolate(double a, double b, double fraction) {
-    return std::lerp(a, b, fraction);
-}
-glm::dvec3 interpolate(const glm::dvec3& a, const glm::dvec3& b, double fraction) {
-    return {std::lerp(a.x, b.x, fraction), std::lerp(a.y, b.y, fraction), std::lerp(a.z, b.z, fraction)};
-}
-glm::dquat interpolate(const glm::dquat& a, const glm::dquat& b, double fraction) {
-    return slerp_short(a, b, fraction);
-}
-glm::dmat4 interpolate(const glm::dmat4& a, const glm::dmat4& b, double fraction) {
-    return interpolate_matrix(a, b, fraction);
+T interpolate(const T& a, const T& b, double fraction) {
+    if constexpr (std::is_same_v<T, glm::dquat>) {
+        return slerp_short(a, b, fraction);
+    } else if constexpr (std::is_same_v<T, glm::dmat4>) {
+        return interpolate_matrix(a, b, fraction);
+    } else {
+        return lerp_components(a, b, fraction);
+    }
 }
 
 /// glTF 2.0, appendix C.5: tangents are per second, so they count times the interval. Written around the first value,
@@ -59,8 +36,8 @@ T hermite(const T& a, const T& out_tangent, const T& in_tangent, const T& b, dou
     T result = a;
     for (std::size_t i = 0; i < components(a).size(); ++i) {
         const double from = components(a)[i];
-        data(result)[i] = from + (components(b)[i] - from) * to_b + components(out_tangent)[i] * leaving +
-                          components(in_tangent)[i] * arriving;
+        components(result)[i] = from + (components(b)[i] - from) * to_b + components(out_tangent)[i] * leaving +
+                                components(in_tangent)[i] * arriving;
     }
     return result;
 }
@@ -90,17 +67,13 @@ glm::dquat as_valid(const glm::dquat& value) {
     return safe_normalize(value);
 }
 
-bool is_zero(const glm::dquat& q) {
-    return std::ranges::all_of(components(q),
-                               [](double c) { return std::abs(c) < std::numeric_limits<double>::min(); });
-}
-
 template <class T>
 const char* fault_of_key(const T&) {
     return nullptr;
 }
 const char* fault_of_key(const glm::dquat& value) {
-    return is_zero(value) ? "its rotation is zero" : nullptr;
+    const auto is_nothing = [](double c) { return std::abs(c) < std::numeric_limits<double>::min(); };
+    return std::ranges::all_of(components(value), is_nothing) ? "its rotation is zero" : nullptr;
 }
 const char* fault_of_key(const glm::dmat4& m) {
     const bool affine = m[0].w == 0.0 && m[1].w == 0.0 && m[2].w == 0.0 && m[3].w == 1.0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/errors.h"
 
@@ -14,76 +15,56 @@ namespace {
 using nlohmann::json;
 
 struct Advice {
-    std::string_view list;  ///< first key of the place; empty: any
-    std::string_view word;  ///< the unknown key, or the text that was found
+    std::vector<std::string_view> words;  ///< unknown keys, or texts that were found
     std::string_view text;
+    std::string_view list{};  ///< first key of the place; empty: any
 };
 
-constexpr std::string_view about_transform = "a node's place is \"translation\": [x, y, z]";
 constexpr std::string_view about_rotation =
     "a rotation is {\"axis\": [0, 1, 0], \"degrees\": 90} or a quaternion x, y, z, w; for angles about x, y and z "
     "write "
     "\"operations\": [{\"rotate_z\": 0}, {\"rotate_y\": 90}, {\"rotate_x\": 0}]";
-constexpr std::string_view about_view =
-    "a camera looks along -z of its node; \"look_at\" of the node, beside \"camera\", turns it";
-constexpr std::string_view about_path = "a node moves along \"follow_path\": {\"points\": [...], \"at\": ...}";
-constexpr std::string_view about_easing = "between keys, easing is \"interpolation\": \"ease\" or \"smooth\"";
-constexpr std::string_view about_color = "the colour of a material is \"base_color\"";
-constexpr std::string_view about_emission = "a material gives light with \"emission\": [r, g, b], in cd/m2";
-constexpr std::string_view about_angle =
-    "the angle of a rotation is \"degrees\", that of a camera \"fov\", that of a spot \"outer_cone\"";
-constexpr std::string_view about_intensity = "the strength of a light is \"intensity\"";
 constexpr std::string_view about_keys = "keys are written as {\"keys\": [[0, ...], [10, ...]]}";
 constexpr std::string_view about_lengths =
     "a sphere, cylinder or torus has a \"radius\", a quad [x, y], a box [x, y, z]";
-constexpr std::string_view about_size = "the size of the picture is \"settings\": {\"size\": \"640x480\"}";
 
-constexpr Advice unknown_keys[] = {
-    {"", "position", about_transform},
-    {"", "location", about_transform},
+const std::vector<Advice>& unknown_keys() {
+    static const std::vector<Advice> table{
+        {{"position", "location"}, "a node's place is \"translation\": [x, y, z]"},
+        {{"rotate", "euler", "orientation"}, about_rotation},
+        {{"look_at", "lookat", "target"},
+         "a camera looks along -z of its node; \"look_at\" of the node, beside \"camera\", turns it"},
+        {{"path", "motion_path"}, "a node moves along \"follow_path\": {\"points\": [...], \"at\": ...}"},
+        {{"easing", "ease"}, "between keys, easing is \"interpolation\": \"ease\" or \"smooth\""},
+        {{"color", "diffuse", "colour", "albedo"}, "the colour of a material is \"base_color\""},
+        {{"emissive"}, "a material gives light with \"emission\": [r, g, b], in cd/m2"},
+        {{"angle", "degree"},
+         "the angle of a rotation is \"degrees\", that of a camera \"fov\", that of a spot \"outer_cone\""},
+        {{"power", "energy", "strength", "brightness"}, "the strength of a light is \"intensity\""},
+        {{"file"}, "meshes of other files are shown by \"include\": \"FILE.glb\""},
+        {{"objects"}, "objects are listed in \"nodes\""},
+        {{"resolution", "width"}, "the size of the picture is \"settings\": {\"size\": \"640x480\"}"},
+        {{"samples"}, "the samples of a pixel are \"spp\"", "settings"},
+        {{"start_frame"}, "the first and last frame are \"frames\": [0, 59]"},
+    };
+    return table;
+}
 
-    {"", "rotate", about_rotation},
-    {"", "euler", about_rotation},
-    {"", "orientation", about_rotation},
-    {"", "look_at", about_view},
-    {"", "lookat", about_view},
-    {"", "target", about_view},
-    {"", "path", about_path},
-    {"", "motion_path", about_path},
-    {"", "easing", about_easing},
-    {"", "ease", about_easing},
-    {"", "color", about_color},
-    {"", "diffuse", about_color},
-    {"", "colour", about_color},
-    {"", "albedo", about_color},
-    {"", "emissive", about_emission},
-    {"", "angle", about_angle},
-    {"", "degree", about_angle},
-    {"", "power", about_intensity},
-    {"", "energy", about_intensity},
-    {"", "strength", about_intensity},
-    {"", "brightness", about_intensity},
-    {"", "file", "meshes of other files are shown by \"include\": \"FILE.glb\""},
-    {"", "objects", "objects are listed in \"nodes\""},
-    {"", "resolution", about_size},
-    {"", "width", about_size},
-    {"settings", "samples", "the samples of a pixel are \"spp\""},
-    {"", "start_frame", "the first and last frame are \"frames\": [0, 59]"},
-};
+const std::vector<Advice>& found_texts() {
+    static const std::vector<Advice> table{
+        {{"area"}, "an area light is a node with a \"shape\" and a \"material\" that has \"emission\""},
+        {{"sun"}, "the sun is \"directional\""},
+        {{"cube"}, "a cube is a \"box\""},
+        {{"plane"}, "a plane is a \"quad\""},
+        {{"progressive", "adaptive"}, "to sample until the error is small enough, write \"error\": 1", "settings"},
+    };
+    return table;
+}
 
-constexpr Advice found_texts[] = {
-    {"", "area", "an area light is a node with a \"shape\" and a \"material\" that has \"emission\""},
-    {"", "sun", "the sun is \"directional\""},
-    {"", "cube", "a cube is a \"box\""},
-    {"", "plane", "a plane is a \"quad\""},
-    {"settings", "progressive", "to sample until the error is small enough, write \"error\": 1"},
-    {"settings", "adaptive", "to sample until the error is small enough, write \"error\": 1"},
-};
-
-template <std::size_t Count>
-std::string_view find_advice(const Advice (&table)[Count], std::string_view list, std::string_view word) {
+std::string_view find_advice(const std::vector<Advice>& table, std::string_view list, std::string_view word) {
     for (const Advice& advice : table) {
-        if (advice.word == word && (advice.list.empty() || advice.list == list)) return advice.text;
+        const bool named = std::ranges::find(advice.words, word) != advice.words.end();
+        if (named && (advice.list.empty() || advice.list == list)) return advice.text;
     }
     return {};
 }
@@ -111,7 +92,7 @@ std::string advise_value(const json::json_pointer& place, std::string_view list,
     const auto& text = value.get_ref<const std::string&>();
     if (key == "shape") return fmt::format("write {{\"type\": \"{}\"}}", printable(text));
     if (key == "environment") return "a picture is \"environment_image\"";
-    return std::string(find_advice(found_texts, list, text));
+    return std::string(find_advice(found_texts(), list, text));
 }
 
 }  // namespace
@@ -125,7 +106,7 @@ std::string advise(const SchemaMismatch& mismatch, const json& document) {
     std::string advice;
     std::string reason = mismatch.reason;
     if (reason.starts_with("unknown key ")) {
-        advice = find_advice(unknown_keys, list, place.back());
+        advice = find_advice(unknown_keys(), list, place.back());
         if (!advice.empty()) reason = reason.substr(0, reason.find("; did you mean"));
     } else {
         advice = advise_value(place, list, value);

@@ -15,6 +15,16 @@ namespace aleph {
 
 namespace {
 
+/// The points that the cage names under "points" or holds under "positions".
+int read_cage_points(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    const auto positions = at.find("positions"), points = at.find("points");
+    if (positions.has_value() == points.has_value()) {
+        at.fail("expected either \"positions\" or \"points\" with a name from the scene's points");
+    }
+    return points ? reader.names.points.require(*points)
+                  : add_points(reader, *positions, reader.names.points.unused(name));
+}
+
 /// Each face is a list of points.
 void read_faces(const JsonRef& at, std::size_t points, Cage& cage) {
     for (std::size_t i = 0; i < at.array_size(); ++i) {
@@ -30,7 +40,7 @@ void read_uv(const JsonRef& at, Cage& cage) {
     const auto uv = at.find("uv"), faces = at.find("face_uv");
     if (faces && !uv) faces->fail("\"face_uv\" numbers the entries of \"uv\", which is missing");
     if (!uv) return;
-    cage.uv = read_vec2s(*uv);
+    cage.uv = read_vectors<glm::vec2>(*uv);
     if (!faces) {
         const int max_point = *std::max_element(cage.faces.points.begin(), cage.faces.points.end());
         if (max_point >= std::ssize(cage.uv)) {
@@ -77,6 +87,8 @@ void read_sharp_parts(const JsonRef& at, std::size_t points, Cage& cage) {
     }
 }
 
+}  // namespace
+
 int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     if (reader.scene.cages.size() >= max_scene_cages) {
         at.fail(fmt::format("more than {} cages; join some and separate them by \"parts\"", max_scene_cages));
@@ -86,11 +98,11 @@ int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     if (const auto word = at.find("scheme")) cage.scheme = read_word<Cage::Scheme>(*word, scheme_words);
     if (const auto word = at.find("boundary")) cage.boundary = read_word<Cage::Boundary>(*word, boundary_words);
     if (const auto word = at.find("uv_rule")) cage.uv_rule = read_word<Cage::UvRule>(*word, uv_rule_words);
-    const PointsUse points = read_points_use(reader, at, name);
-    cage.points = points.index;
+    cage.points = read_cage_points(reader, at, name);
+    const std::size_t points = reader.scene.point_caches[cage.points].point_count();
     const JsonRef faces = at.require("faces");
-    read_faces(faces, points.count, cage);
-    read_sharp_parts(at, points.count, cage);
+    read_faces(faces, points, cage);
+    read_sharp_parts(at, points, cage);
     read_uv(at, cage);
     const std::size_t count = cage.faces.sizes.size();
     if (const auto holes = at.find("holes")) cage.faces.holes = read_indices(*holes, 1, count, "face");
@@ -100,45 +112,18 @@ int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
             parts->fail(fmt::format("has {} numbers for {} faces", cage.faces.parts.size(), count));
         }
     }
-    if (const auto level = at.find_integer("level", 0, max_subdivision_level)) cage.level = static_cast<int>(*level);
-    if (const auto level = at.find_integer("max_level", 0, max_subdivision_level)) {
-        cage.max_level = static_cast<int>(*level);
-    }
+    cage.level = static_cast<int>(at.find_integer("level", 0, max_subdivision_level).value_or(cage.level));
+    cage.max_level = static_cast<int>(at.find_integer("max_level", 0, max_subdivision_level).value_or(cage.max_level));
     if (cage.max_level < cage.level) {
         at.fail(fmt::format("\"max_level\" ({}) is below \"level\" ({})", cage.max_level, cage.level));
     }
     try {
-        validate(cage, points.count);
+        validate(cage, points);
     } catch (const InputError& error) {
         at.fail(error.reason());
     }
     reader.cage_places.push_back(at.pointer());
     return SceneReader::add(std::move(cage), reader.scene.cages, reader.names.cages);
-}
-
-}  // namespace
-
-std::size_t count_parts(const Cage& cage) {
-    return cage.faces.parts.empty()
-               ? 1
-               : static_cast<std::size_t>(*std::max_element(cage.faces.parts.begin(), cage.faces.parts.end())) + 1;
-}
-
-std::size_t count_cage_triangles(const Cage& cage) {
-    // A face of n points becomes n quads at level 1, and four of each at the next.
-    const std::size_t loop = cage.scheme == Cage::Scheme::loop ? cage.faces.sizes.size() : 0;
-    const std::size_t quads = loop > 0 ? 0 : cage.faces.points.size();
-    const std::size_t at_level_1 = 4 * loop + 2 * quads;
-    return at_level_1 << (2 * std::max(cage.level - 1, 0));
-}
-
-void read_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    add_cage(reader, at, name);
-}
-
-int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    if (at.json().is_string()) return reader.names.cages.require(at);
-    return add_cage(reader, at, reader.names.cages.unused(name));
 }
 
 void make_cage_meshes(SceneReader& reader) {

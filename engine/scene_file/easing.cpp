@@ -7,32 +7,12 @@
 #include <string>
 #include <type_traits>
 
+#include "engine/scene/components.h"
 #include "engine/scene/transforms.h"
 
 namespace aleph {
 
 namespace {
-
-double zero_of(double) {
-    return 0.0;
-}
-glm::dvec3 zero_of(const glm::dvec3&) {
-    return glm::dvec3(0.0);
-}
-glm::dquat zero_of(const glm::dquat&) {
-    return {0.0, 0.0, 0.0, 0.0};
-}
-
-template <class T, class Function>
-T for_components(const T& a, const T& b, const Function& function) {
-    if constexpr (std::is_same_v<T, double>) {
-        return function(a, b);
-    } else {
-        T result = a;
-        for (int i = 0; i < T::length(); ++i) result[i] = function(a[i], b[i]);
-        return result;
-    }
-}
 
 /// Slope at a key between two intervals. No steeper than twice the flatter of them, so that the curve stays monotone;
 /// 0 where the key is an extreme.
@@ -66,11 +46,13 @@ Track<T> with_tangents(Track<T> track, Easing easing) {
     cubic.values.reserve(3 * keys);
     for (std::size_t i = 0; i < keys; ++i) {
         const bool inner = i > 0 && i + 1 < keys;
-        T in = zero_of(values[i]), out = in;
+        T in = values[i] - values[i], out = in;
         if (easing == Easing::smooth && inner) {
-            in = out = for_components(slope(i - 1), slope(i), [&](double before, double after) {
-                return limited_slope(before, length(i - 1), after, length(i));
-            });
+            const T before = slope(i - 1), after = slope(i);
+            for (std::size_t k = 0; k < components(in).size(); ++k)
+                components(in)[k] =
+                    limited_slope(components(before)[k], length(i - 1), components(after)[k], length(i));
+            out = in;
         }
         if (easing == Easing::ease_in && i > 0) in = slope(i - 1) * 2.0;
         if (easing == Easing::ease_out && i + 1 < keys) out = slope(i) * 2.0;
@@ -83,13 +65,11 @@ Track<T> with_tangents(Track<T> track, Easing easing) {
 template <class T>
 void check_tangents(const JsonRef& at, const Track<T>& track) {
     for (std::size_t i = 0; i < track.values.size(); ++i) {
-        for_components(track.values[i], track.values[i], [&](double component, double) {
-            if (!(std::abs(component) <= max_json_number)) {
-                at.fail(fmt::format("key {}: its tangent {} is beyond {}; the keys are too near in time", i / 3,
-                                    component, max_json_number));
-            }
-            return component;
-        });
+        for (const double component : components(track.values[i])) {
+            if (std::abs(component) <= max_json_number) continue;
+            at.fail(fmt::format("key {}: its tangent {} is beyond {}; the keys are too near in time", i / 3, component,
+                                max_json_number));
+        }
     }
 }
 

@@ -71,6 +71,8 @@ TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
     return texture;
 }
 
+}  // namespace
+
 int add_material(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const FrameRate& rate = reader.scene.film.frame_rate;
     reader.charge(sizeof(Material) + 900, at, "let shapes share materials");
@@ -146,6 +148,8 @@ int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) 
     return SceneReader::add(std::move(camera), reader.scene.cameras, reader.names.cameras);
 }
 
+namespace {
+
 /// Calls add(reader, element, name) for the members of one of the root's objects, in the order of the file.
 template <class Add>
 void read_named(SceneReader& reader, const JsonRef& root, const KeyOrder& key_order, const char* kind, const Add& add) {
@@ -179,26 +183,11 @@ int read_image_use(SceneReader& reader, const JsonRef& at) {
     return add_image(reader, at, at.string());
 }
 
-int read_material_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    if (at.json().is_string()) return reader.names.materials.require(at);
-    return add_material(reader, at, reader.names.materials.unused(name));
-}
-
-int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    if (at.json().is_string()) return reader.names.lights.require(at);
-    return add_light(reader, at, reader.names.lights.unused(name));
-}
-
-int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    if (at.json().is_string()) return reader.names.cameras.require(at);
-    return add_camera(reader, at, reader.names.cameras.unused(name));
-}
-
 void read_elements(SceneReader& reader, const JsonRef& root, const KeyOrder& order) {
     read_named(reader, root, order, "images", add_image);
     read_named(reader, root, order, "materials", add_material);
-    read_named(reader, root, order, "points", read_points);
-    read_named(reader, root, order, "cages", read_cage);
+    read_named(reader, root, order, "points", add_points);
+    read_named(reader, root, order, "cages", add_cage);
     read_named(reader, root, order, "meshes", add_mesh);
     read_named(reader, root, order, "lights", add_light);
     read_named(reader, root, order, "cameras", add_camera);

@@ -29,6 +29,8 @@ void for_each_number(const JsonRef& at, std::size_t width, const Visit& visit) {
     }
 }
 
+}  // namespace
+
 template <class Vector>
 std::vector<Vector> read_vectors(const JsonRef& at) {
     constexpr std::size_t width = Vector::length();
@@ -42,19 +44,9 @@ std::vector<Vector> read_vectors(const JsonRef& at) {
     return values;
 }
 
-}  // namespace
-
-std::vector<glm::vec2> read_vec2s(const JsonRef& at) {
-    return read_vectors<glm::vec2>(at);
-}
-
-std::vector<glm::vec3> read_vec3s(const JsonRef& at) {
-    return read_vectors<glm::vec3>(at);
-}
-
-std::vector<glm::vec4> read_vec4s(const JsonRef& at) {
-    return read_vectors<glm::vec4>(at);
-}
+template std::vector<glm::vec2> read_vectors(const JsonRef&);
+template std::vector<glm::vec3> read_vectors(const JsonRef&);
+template std::vector<glm::vec4> read_vectors(const JsonRef&);
 
 int read_index(const JsonRef& at, std::size_t count, const char* kind) {
     const std::int64_t index = at.integer(0, std::numeric_limits<int>::max());

@@ -14,9 +14,8 @@ namespace aleph {
 
 // A list is flat ([0, 0, 0, 1, 0, 0]) or made of lists of the vector's size ([[0, 0, 0], [1, 0, 0]]).
 // @throws InputError with the pointer of an element that is no number, or of a list of the wrong length
-std::vector<glm::vec2> read_vec2s(const JsonRef& at);
-std::vector<glm::vec3> read_vec3s(const JsonRef& at);
-std::vector<glm::vec4> read_vec4s(const JsonRef& at);
+template <class Vector>  // vec2, vec3 or vec4
+std::vector<Vector> read_vectors(const JsonRef& at);
 
 /// Indices below `count`, flat or in lists of `width`; their number is a multiple of width.
 /// @param kind  of the elements, for messages

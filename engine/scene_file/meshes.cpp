@@ -8,6 +8,7 @@
 #include "engine/scene_file/lists.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/tracks.h"
+#include "engine/surface/cage_checks.h"
 #include "engine/surface/shapes.h"
 
 namespace aleph {
@@ -42,9 +43,8 @@ Shape read_shape(const JsonRef& at, Shape::Kind kind) {
     }
     if (const auto value = at.find("smooth")) shape.smooth = value->boolean();
     if (const auto value = at.find("uv_scale")) shape.uv_scale = read_dvec2(*value);
-    if (const auto value = at.find_integer("segments", min_shape_segments, max_shape_segments)) {
-        shape.segments = static_cast<int>(*value);
-    }
+    shape.segments =
+        static_cast<int>(at.find_integer("segments", min_shape_segments, max_shape_segments).value_or(shape.segments));
     validate(shape, at.file(), at.pointer());
     return shape;
 }
@@ -53,7 +53,7 @@ Shape read_shape(const JsonRef& at, Shape::Kind kind) {
 TimeSampling read_point_samples(const JsonRef& at, const FrameRate& rate,
                                 std::vector<std::vector<glm::vec3>>& samples) {
     return read_samples(at, rate, [&](const JsonRef& value) {
-        samples.push_back(read_vec3s(value));
+        samples.push_back(read_vectors<glm::vec3>(value));
         if (samples.back().size() != samples.front().size()) {
             value.fail(fmt::format("has {} points, the first key has {}: their number cannot change",
                                    samples.back().size(), samples.front().size()));
@@ -61,17 +61,19 @@ TimeSampling read_point_samples(const JsonRef& at, const FrameRate& rate,
     });
 }
 
-int add_point_cache(SceneReader& reader, const JsonRef& at, const std::string& name) {
+}  // namespace
+
+int add_points(SceneReader& reader, const JsonRef& at, const std::string& name) {
     PointCache cache;
     cache.name = name;
     if (at.json().is_array()) {
-        cache.positions.push_back(read_vec3s(at));
+        cache.positions.push_back(read_vectors<glm::vec3>(at));
     } else {
         cache.sampling = read_point_samples(at, reader.scene.film.frame_rate, cache.positions);
         if (const auto velocities = at.find("velocities")) {
             for (std::size_t i = 0; i < velocities->array_size(); ++i) {
                 const JsonRef sample = (*velocities)[i];
-                cache.velocities.push_back(read_vec3s(sample));
+                cache.velocities.push_back(read_vectors<glm::vec3>(sample));
                 if (cache.velocities.back().size() != cache.point_count()) {
                     sample.fail(fmt::format("has {} velocities for {} points", cache.velocities.back().size(),
                                             cache.point_count()));
@@ -87,6 +89,8 @@ int add_point_cache(SceneReader& reader, const JsonRef& at, const std::string& n
     return SceneReader::add(std::move(cache), reader.scene.point_caches, reader.names.points);
 }
 
+namespace {
+
 void expect_count(const JsonRef& at, std::size_t found, std::size_t vertices, const char* kind) {
     if (found != vertices) {
         at.fail(fmt::format("has {} {} for {} vertices: one for each was expected", found, kind, vertices));
@@ -100,8 +104,8 @@ void read_vertices(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
     if (!positions && !points) at.fail("a mesh needs \"positions\", or \"points\" with a name from the scene's points");
     if (keyed && points) positions->fail("keyed positions already are points over time: leave out \"points\"");
     if (points) mesh.deformation.points = reader.names.points.require(*points);
-    if (keyed) mesh.deformation.points = add_point_cache(reader, *positions, reader.names.points.unused(mesh.name));
-    if (positions && !keyed) mesh.positions = read_vec3s(*positions);
+    if (keyed) mesh.deformation.points = add_points(reader, *positions, reader.names.points.unused(mesh.name));
+    if (positions && !keyed) mesh.positions = read_vectors<glm::vec3>(*positions);
     if (mesh.deformation.points == no_index) {
         if (map) map->fail("\"vertex_points\" goes with \"points\" or keyed positions");
         return;
@@ -134,7 +138,7 @@ void read_triangles(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
     }
     if (const auto normals = at.find("normals")) {
         if (normals->json().is_array()) {
-            mesh.normals = read_vec3s(*normals);
+            mesh.normals = read_vectors<glm::vec3>(*normals);
         } else {
             if (mesh.deformation.points == no_index) normals->fail("normals over time go with points over time");
             mesh.deformation.normal_sampling =
@@ -146,11 +150,11 @@ void read_triangles(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
     for (int set = 0; set < 2; ++set) {
         const auto uv = at.find(set == 0 ? "uv" : "uv1");
         if (!uv) continue;
-        mesh.uv[set] = read_vec2s(*uv);
+        mesh.uv[set] = read_vectors<glm::vec2>(*uv);
         expect_count(*uv, mesh.uv[set].size(), vertices, "texture coordinates");
     }
     if (const auto colors = at.find("colors")) {
-        mesh.colors = read_vec4s(*colors);
+        mesh.colors = read_vectors<glm::vec4>(*colors);
         expect_count(*colors, mesh.colors.size(), vertices, "colors");
     }
 }
@@ -170,20 +174,6 @@ std::vector<glm::vec3> first_positions(const Mesh& mesh, const PointCache& cache
     return positions;
 }
 
-PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    const auto positions = at.find("positions"), points = at.find("points");
-    if (positions.has_value() == points.has_value()) {
-        at.fail("expected either \"positions\" or \"points\" with a name from the scene's points");
-    }
-    const int index = points ? reader.names.points.require(*points)
-                             : add_point_cache(reader, *positions, reader.names.points.unused(name));
-    return {index, reader.scene.point_caches[index].point_count()};
-}
-
-void read_points(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    add_point_cache(reader, at, name);
-}
-
 int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRef>& material,
               const std::optional<JsonRef>& present, const std::string& name) {
     reader.charge(mesh_bytes, at, "let nodes share meshes");
@@ -195,16 +185,16 @@ int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRe
     } else if (type.string() == "cage") {
         check_shape_keys(at, "cage", {"cage", "part"});
         const JsonRef cage = at.require("cage");
-        mesh.subdivision.cage = read_cage_use(reader, cage, name);
-        const auto parts = static_cast<std::int64_t>(count_parts(reader.scene.cages[mesh.subdivision.cage]));
-        mesh.subdivision.part = static_cast<int>(at.find_integer("part", 0, parts - 1).value_or(0));
-        reader.charge(cage_triangle_bytes * count_cage_triangles(reader.scene.cages[mesh.subdivision.cage]), at,
+        mesh.subdivision.cage = read_use(reader, cage, reader.names.cages, name, add_cage);
+        const Cage& used = reader.scene.cages[mesh.subdivision.cage];
+        mesh.subdivision.part = static_cast<int>(at.find_integer("part", 0, count_parts(used) - 1).value_or(0));
+        reader.charge(cage_triangle_bytes * count_triangles(used, std::max(used.level, 1)), at,
                       "lower the cage's \"level\"");
     } else {
         mesh.shape = read_shape(at, read_word<Shape::Kind>(type, shape_words));
         reader.charge(shape_triangle_bytes * shape_triangle_count(*mesh.shape), at, "lower \"segments\"");
     }
-    if (material) mesh.material = read_material_use(reader, *material, name);
+    if (material) mesh.material = read_use(reader, *material, reader.names.materials, name, add_material);
     if (present) mesh.present = read_visibility(*present, reader.scene.film.frame_rate);
     return SceneReader::add(std::move(mesh), reader.scene.meshes, reader.names.meshes);
 }

@@ -60,14 +60,7 @@ class NamedValues {
 
     void replace_all() {
         for (const std::string& name : names_) finish(name, at_root_, 2);
-        for (const auto& member : root_.items()) {
-            if (member.key() == "named" || member.key() == "settings") continue;
-            const JsonRef at = at_root_.require(member.key());
-            if (has_names_for_keys(member.key()))
-                replace_inside(member.value(), at, 2);
-            else
-                replace(member.value(), at, 2);
-        }
+        replace_inside(root_, at_root_, 1);
     }
 
   private:
@@ -96,6 +89,7 @@ class NamedValues {
         }
         for (const auto& member : value.items()) {
             if (!member.value().is_structured()) continue;
+            if (depth == 1 && (member.key() == "named" || member.key() == "settings")) continue;
             const JsonRef inner = at.require(member.key());
             if (has_names_for_keys(member.key()))
                 replace_inside(member.value(), inner, depth + 1);

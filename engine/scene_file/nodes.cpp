@@ -5,7 +5,6 @@
 #include <unordered_set>
 
 #include "engine/base/errors.h"
-#include "engine/scene_file/operations.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/tracks.h"
 
@@ -61,8 +60,10 @@ class NodeReader {
         if (const auto value = at.find("visible")) node.visible = read_visibility(*value, scene_.film.frame_rate);
         const std::string inner = node.name.empty() ? fmt::format("node {}", index) : node.name;
         read_meshes(at, node, inner);
-        if (const auto value = at.find("camera")) node.camera = read_camera_use(reader_, *value, inner);
-        if (const auto value = at.find("light")) node.light = read_light_use(reader_, *value, inner);
+        if (const auto value = at.find("camera"))
+            node.camera = read_use(reader_, *value, reader_.names.cameras, inner, add_camera);
+        if (const auto value = at.find("light"))
+            node.light = read_use(reader_, *value, reader_.names.lights, inner, add_light);
 
         add_node(std::move(node));
         if (const auto instance = at.find("instance")) read_instance(*instance, index);

@@ -1,11 +1,11 @@
-#include "engine/scene_file/operations.h"
+#include "engine/scene/operations.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "engine/base/errors.h"
-#include "engine/scene/operations.h"
+#include "engine/scene/components.h"
 #include "engine/scene_file/tracks.h"
 
 namespace aleph {
@@ -25,9 +25,8 @@ class Stack {
   public:
     void add_kind(Kind kind) { stack_.operations.push_back(kind); }
 
-    /// @param channels  of one value, T to doubles
-    template <class T, class Channels>
-    void add(const Track<T>& track, const JsonRef& at, const Channels& channels) {
+    template <class T>
+    void add(const Track<T>& track, const JsonRef& at) {
         if (track.interpolation != Interpolation::linear) at.fail("operations are linear between their keys");
         const bool keyed = track.values.size() > 1 || track.sampling != TimeSampling{};
         if (keyed && samples_ > 0 && (track.sampling != stack_.sampling || track.values.size() != samples_)) {
@@ -37,9 +36,8 @@ class Stack {
             stack_.sampling = track.sampling;
             samples_ = track.values.size();
         }
-        std::vector<std::vector<double>> values;
-        for (const T& value : track.values) values.push_back(channels(value));
-        tracks_.push_back(std::move(values));
+        auto& values = tracks_.emplace_back();
+        for (const T& value : track.values) values.emplace_back(components(value).begin(), components(value).end());
     }
 
     OperationStack take() {
@@ -58,27 +56,13 @@ class Stack {
     std::vector<std::vector<std::vector<double>>> tracks_;
 };
 
-std::vector<double> from_number(double value) {
-    return {value};
-}
-
-std::vector<double> from_vector(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-std::vector<double> from_matrix(const glm::dmat4& m) {
-    std::vector<double> numbers;
-    for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
-    return numbers;
-}
-
 void read_turn(Stack& stack, const JsonRef& at, const FrameRate& rate) {
     const JsonRef axis = at.require("axis");
-    stack.add(read_vector(axis, rate, any_value), axis, from_vector);
+    stack.add(read_vector(axis, rate, any_value), axis);
     const auto degrees = at.find("degrees"), radians = at.find("radians");
     if (degrees.has_value() == radians.has_value()) at.fail("an axis goes with either \"degrees\" or \"radians\"");
-    if (degrees) stack.add(read_degrees(*degrees, rate, any_value), *degrees, from_number);
-    if (radians) stack.add(read_number(*radians, rate, any_value), *radians, from_number);
+    if (degrees) stack.add(read_degrees(*degrees, rate, any_value), *degrees);
+    if (radians) stack.add(read_number(*radians, rate, any_value), *radians);
 }
 
 void read_operation(Stack& stack, const JsonRef& at, const FrameRate& rate) {
@@ -91,7 +75,7 @@ void read_operation(Stack& stack, const JsonRef& at, const FrameRate& rate) {
     for (std::size_t i = 0; i < radian_words.size(); ++i) {
         if (key != radian_words[i]) continue;
         stack.add_kind(static_cast<Kind>(index_of(Kind::rotate_x) + i));
-        stack.add(read_number(value, rate, any_value), value, from_number);
+        stack.add(read_number(value, rate, any_value), value);
         return;
     }
     const auto word = std::find(operation_words.begin(), operation_words.end(), key);
@@ -99,19 +83,19 @@ void read_operation(Stack& stack, const JsonRef& at, const FrameRate& rate) {
     stack.add_kind(kind);
     switch (kind) {
         case Kind::translate:
-            stack.add(read_vector(value, rate, any_value), value, from_vector);
+            stack.add(read_vector(value, rate, any_value), value);
             break;
         case Kind::scale:
-            stack.add(read_scale(value, rate), value, from_vector);
+            stack.add(read_scale(value, rate), value);
             break;
         case Kind::matrix:
-            stack.add(read_matrix(value, rate), value, from_matrix);
+            stack.add(read_matrix(value, rate), value);
             break;
         case Kind::rotate:
             read_turn(stack, value, rate);
             break;
         default:
-            stack.add(read_degrees(value, rate, any_value), value, from_number);
+            stack.add(read_degrees(value, rate, any_value), value);
     }
 }
 
@@ -120,33 +104,22 @@ class Channels {
   public:
     Channels(const OperationStack& stack, bool keep_keys) : stack_(stack), keep_keys_(keep_keys) {}
 
-    template <class T, class Make>
-    Track<T> take(std::size_t count, const Make& make) {
+    template <class T>
+    Track<T> take() {
         const std::size_t samples = sample_count(stack_), width = channel_count(stack_);
         Track<T> track;
+        track.values.resize(samples);
         for (std::size_t sample = 0; sample < samples; ++sample) {
-            track.values.push_back(make(&stack_.channels[sample * width + at_]));
+            const auto value = components(track.values[sample]);
+            std::copy_n(&stack_.channels[sample * width + at_], value.size(), value.begin());
         }
-        at_ += count;
+        at_ += sizeof(T) / sizeof(double);
         const auto same = [&](const T& value) { return value == track.values.front(); };
         const bool keyed =
             std::exchange(keep_keys_, false) || !std::all_of(track.values.begin(), track.values.end(), same);
         if (!keyed) return Track<T>(track.values.front());
         track.sampling = stack_.sampling;
         return track;
-    }
-    Track<double> number() {
-        return take<double>(1, [](const double* c) { return *c; });
-    }
-    Track<glm::dvec3> vector() {
-        return take<glm::dvec3>(3, [](const double* c) { return glm::dvec3(c[0], c[1], c[2]); });
-    }
-    Track<glm::dmat4> matrix() {
-        return take<glm::dmat4>(16, [](const double* c) {
-            glm::dmat4 m(1.0);
-            for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = c[i];
-            return m;
-        });
     }
 
   private:
@@ -159,20 +132,20 @@ ordered_json write_operation(Kind kind, Channels& channels, const FrameRate& rat
     const char* word = operation_words[index_of(kind)];
     switch (kind) {
         case Kind::translate:
-            return {{word, write_vector(channels.vector(), rate)}};
+            return {{word, write_vector(channels.take<glm::dvec3>(), rate)}};
         case Kind::scale:
-            return {{word, write_scale(channels.vector(), rate)}};
+            return {{word, write_scale(channels.take<glm::dvec3>(), rate)}};
         case Kind::matrix:
-            return {{word, write_matrix(channels.matrix(), rate)}};
+            return {{word, write_matrix(channels.take<glm::dmat4>(), rate)}};
         case Kind::rotate: {
-            ordered_json turn = {{"axis", write_vector(channels.vector(), rate)}};
-            const Track<double> angle = channels.number();
+            ordered_json turn = {{"axis", write_vector(channels.take<glm::dvec3>(), rate)}};
+            const Track<double> angle = channels.take<double>();
             const auto degrees = write_degrees(angle, rate);
             turn[degrees ? "degrees" : "radians"] = degrees ? *degrees : write_number(angle, rate);
             return {{word, turn}};
         }
         default: {
-            const Track<double> angle = channels.number();
+            const Track<double> angle = channels.take<double>();
             if (const auto degrees = write_degrees(angle, rate)) return {{word, *degrees}};
             const std::size_t axis = index_of(kind) - index_of(Kind::rotate_x);
             return {{radian_words[axis], write_number(angle, rate)}};
@@ -201,7 +174,7 @@ ordered_json write_operations(const OperationStack& stack, const FrameRate& rate
     // If no value changes, the first operation keeps the keys.
     Channels probe(stack, false);
     bool keyed = false;
-    for (std::size_t i = 0; i < width; ++i) keyed = probe.number().values.size() > 1 || keyed;
+    for (std::size_t i = 0; i < width; ++i) keyed = probe.take<double>().values.size() > 1 || keyed;
     const bool keep_keys = !keyed && (sample_count(stack) > 1 || stack.sampling != TimeSampling{});
     Channels channels(stack, keep_keys);
     for (const Kind kind : stack.operations) out.push_back(write_operation(kind, channels, rate));

@@ -66,17 +66,22 @@ struct SceneReader {
 
 using KeyOrder = std::map<std::string, std::vector<std::string>>;
 
-/// The root's picture of the environment and its rotation. After read_elements: it may name one of the images.
-void read_environment_picture(SceneReader& reader, const JsonRef& root);
-
 /// The root's images, materials, meshes, lights and cameras, in the order of the file.
 void read_elements(SceneReader& reader, const JsonRef& root, const KeyOrder& key_order);
 
-// A node or mesh holds the name of an element, or the element itself, which then gets the name `name`.
-int read_material_use(SceneReader& reader, const JsonRef& at, const std::string& name);
-int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& name);
-int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name);
-int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name);
+// Each adds an element to its list. @return its index
+int add_material(SceneReader& reader, const JsonRef& at, const std::string& name);
+int add_light(SceneReader& reader, const JsonRef& at, const std::string& name);
+int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name);
+int add_points(SceneReader& reader, const JsonRef& at, const std::string& name);
+int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name);
+
+/// Where a node or mesh holds the name of an element, or the element itself, which then gets the name `name`.
+/// @param names, add  of its kind
+template <class Add>
+int read_use(SceneReader& reader, const JsonRef& at, const NameIndex& names, const std::string& name, const Add& add) {
+    return at.json().is_string() ? names.require(at) : add(reader, at, names.unused(name));
+}
 
 /// The image that a text names: a name from "images", or a path, which becomes an image.
 int read_image_use(SceneReader& reader, const JsonRef& at);
@@ -90,17 +95,6 @@ Enum read_word(const JsonRef& at, const Words& words) {
     at.fail("unknown word");  // the schema has the same words
 }
 
-// Elements of the root's objects "points" and "cages".
-void read_points(SceneReader& reader, const JsonRef& at, const std::string& name);
-void read_cage(SceneReader& reader, const JsonRef& at, const std::string& name);
-
-/// Points that an element names under "points" or holds under "positions".
-struct PointsUse {
-    int index = no_index;
-    std::size_t count = 0;
-};
-PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::string& name);
-
 /// Adds a mesh. Triangles of shapes and cages are made at the end, by make_meshes.
 /// @param material  absent: Material{}
 int read_mesh(SceneReader& reader, const JsonRef& shape, const std::optional<JsonRef>& material,
@@ -109,11 +103,6 @@ int read_mesh(SceneReader& reader, const JsonRef& shape, const std::optional<Jso
 /// Makes the triangles of shapes and cages, after all were counted (SceneReader::charge).
 void make_meshes(SceneReader& reader);
 void make_cage_meshes(SceneReader& reader);
-
-/// Number of parts of a cage.
-std::size_t count_parts(const Cage& cage);
-/// Number of triangles of all parts at the cage's level.
-std::size_t count_cage_triangles(const Cage& cage);
 
 /// Vertex positions of a mesh in the cache's first sample.
 std::vector<glm::vec3> first_positions(const Mesh& mesh, const PointCache& cache);

@@ -70,6 +70,21 @@ void read_header(Scene& scene, const JsonRef& root) {
     }
 }
 
+/// It may name one of the images, which are read before.
+void read_environment_picture(SceneReader& reader, const JsonRef& root) {
+    Scene& scene = reader.scene;
+    const auto picture = root.find("environment_image");
+    if (const auto rotation = root.find("environment_rotation")) {
+        if (!picture) rotation->fail("\"environment_rotation\" turns \"environment_image\", which is not given");
+        scene.environment.axis_rotation = read_axis_rotation(*rotation, scene.film.frame_rate);
+        if (!scene.environment.axis_rotation)
+            scene.environment.rotation = read_quaternion(*rotation, scene.film.frame_rate);
+    }
+    if (!picture) return;
+    scene.environment.image = read_image_use(reader, *picture);
+    if (!scene.environment.radiance) scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
+}
+
 void read_settings(Scene& scene, const JsonRef& root) {
     const auto settings = root.find("settings");
     if (!settings) return;
@@ -138,20 +153,6 @@ int NameIndex::require(const JsonRef& at, std::string_view advice) const {
     if (const auto found = find(at.string())) return *found;
     at.fail(fmt::format("there is no {} called \"{}\"{}{}", kind_, printable(at.string()),
                         suggestion(at.string(), names_), advice));
-}
-
-void read_environment_picture(SceneReader& reader, const JsonRef& root) {
-    Scene& scene = reader.scene;
-    const auto picture = root.find("environment_image");
-    if (const auto rotation = root.find("environment_rotation")) {
-        if (!picture) rotation->fail("\"environment_rotation\" turns \"environment_image\", which is not given");
-        scene.environment.axis_rotation = read_axis_rotation(*rotation, scene.film.frame_rate);
-        if (!scene.environment.axis_rotation)
-            scene.environment.rotation = read_quaternion(*rotation, scene.film.frame_rate);
-    }
-    if (!picture) return;
-    scene.environment.image = read_image_use(reader, *picture);
-    if (!scene.environment.radiance) scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
 }
 
 void SceneReader::charge(std::size_t bytes, const JsonRef& at, const char* advice) {

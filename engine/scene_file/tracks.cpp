@@ -47,17 +47,10 @@ std::vector<double> read_times(const JsonRef& list, std::size_t count, const Fra
     std::vector<double> times;
     times.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const JsonRef element = list[i];
-        const auto check = [&](const JsonRef& at) {
-            times.push_back(read_time(at, rate, in_frames));
-            if (i > 0 && !(times[i] > times[i - 1])) {
-                at.fail(fmt::format("times have to ascend: {} is not above the time before", at.json().dump()));
-            }
-        };
-        if (first_of_key) {
-            check(element[0]);
-        } else {
-            check(element);
+        const JsonRef element = list[i], at = first_of_key ? element[0] : element;
+        times.push_back(read_time(at, rate, in_frames));
+        if (i > 0 && !(times[i] > times[i - 1])) {
+            at.fail(fmt::format("times have to ascend: {} is not above the time before", at.json().dump()));
         }
     }
     return times;
@@ -107,7 +100,7 @@ void read_values(const JsonRef& values, Track<T>& track, const ValueReader<T>& r
 TimeSampling read_regular_times(const JsonRef& at, const FrameRate& rate, bool in_frames) {
     TimeSampling sampling;
     const auto start = at.find("start"), period = at.find("period"), cycle = at.find("cycle");
-    sampling.period = period ? read_time(*period, rate, in_frames) : in_frames ? seconds_per_frame(rate) : 1.0;
+    sampling.period = period ? read_time(*period, rate, in_frames) : in_frames ? rate.seconds_of(1) : 1.0;
     if (!(sampling.period > 0.0)) period->fail("has to be above 0");
     if (start) sampling.start = read_time(*start, rate, in_frames);
     if (cycle) {
@@ -204,21 +197,13 @@ double to_radians(double degrees) {
     return degrees * (std::numbers::pi / 180.0);
 }
 
-double seconds_per_frame(const FrameRate& rate) {
-    return static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
-}
-
 TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::function<void(const JsonRef&)>& visit) {
     TimeSampling sampling = read_sampling(at, rate);
     const auto keys = at.find("keys");
     const JsonRef list = keys ? *keys : at.require("values");
     for (std::size_t i = 0; i < list.array_size(); ++i) {
         const JsonRef item = list[i];
-        if (keys) {
-            visit(item[1]);
-        } else {
-            visit(item);
-        }
+        visit(keys ? item[1] : item);
     }
     validate(sampling, list.array_size(), at.file(), at.pointer());
     return sampling;

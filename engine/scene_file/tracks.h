@@ -33,7 +33,6 @@ glm::dvec2 read_dvec2(const JsonRef& at);
 
 // Conversions of the reader.
 double to_radians(double degrees);
-double seconds_per_frame(const FrameRate& rate);
 /// The shortest decimal of degrees that to_radians turns into exactly these radians; nothing if there is none.
 std::optional<double> exact_degrees(double radians);
 
@@ -52,5 +51,15 @@ nlohmann::ordered_json write_samples(const TimeSampling& sampling, const FrameRa
                                      std::vector<nlohmann::ordered_json> values);
 
 nlohmann::ordered_json write_dvec3(const glm::dvec3& value);
+
+// The list of transform operations of a node (operations.cpp).
+
+/// Every operation is an object with one key. Keyed operations have the same times.
+/// @throws InputError with the pointer of the faulty operation
+OperationStack read_operations(const JsonRef& at, const FrameRate& rate);
+
+/// @throws InputError if channels and operations do not match
+nlohmann::ordered_json write_operations(const OperationStack& stack, const FrameRate& rate, const std::string& file,
+                                        const std::string& place);
 
 }  // namespace aleph

@@ -7,11 +7,9 @@
 #include "engine/base/errors.h"
 #include "engine/json/format.h"
 #include "engine/scene/visit.h"
-#include "engine/scene_file/operations.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/tracks.h"
 #include "engine/scene_file/write_elements.h"
-#include "engine/scene_file/write_meshes.h"
 #include "engine/surface/cage_checks.h"
 #include "engine/surface/shapes.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The writer of scene files: state shared by its parts, and materials, lights and cameras. The reader: elements.cpp.
+// The writer of scene files: state shared by its parts, and the parts. The reader: elements.cpp.
 
 #include <fmt/format.h>
 
@@ -55,5 +55,19 @@ struct SceneWriting {
 nlohmann::ordered_json write_material(const SceneWriting& at, const Material& material);
 nlohmann::ordered_json write_light(const SceneWriting& at, const Light& light);
 nlohmann::ordered_json write_camera(const SceneWriting& at, const Camera& camera);
+
+// Points, cages, shapes and triangles (write_meshes.cpp). The reader: meshes.cpp and cages.cpp.
+
+nlohmann::ordered_json write_points(const PointCache& cache, const FrameRate& rate);
+
+/// The shape's parameters.
+nlohmann::ordered_json write_shape(const Shape& shape);
+
+/// @param points  name of the cage's points
+nlohmann::ordered_json write_cage(const Cage& cage, const std::string& points);
+
+/// Vertices and triangles as lists.
+/// @param cache  its points over time; null if it has none
+nlohmann::ordered_json write_triangles(const Mesh& mesh, const PointCache* cache, const FrameRate& rate);
 
 }  // namespace aleph

@@ -1,10 +1,9 @@
-#include "engine/scene_file/write_meshes.h"
-
 #include <algorithm>
 
 #include "engine/scene_file/lists.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/tracks.h"
+#include "engine/scene_file/write_elements.h"
 
 namespace aleph {
 

@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 /// The whole frame that the reader turns into exactly these seconds; nothing if there is none.
 std::optional<std::int64_t> whole_frame(double seconds, const FrameRate& rate) {
-    const double frame = std::round(seconds / seconds_per_frame(rate));
+    const double frame = std::round(seconds / rate.seconds_of(1));
     if (!(std::abs(frame) <= 1e9)) return std::nullopt;
     const auto number = static_cast<std::int64_t>(frame);
     const bool exact =
@@ -85,7 +85,7 @@ ordered_json write_samples(const TimeSampling& sampling, const FrameRate& rate, 
     } else if (sampling.start != 0.0 || std::signbit(sampling.start)) {
         out["start"] = time(sampling.start);
     }
-    if (sampling.period != (in_frames ? seconds_per_frame(rate) : 1.0)) out["period"] = time(sampling.period);
+    if (sampling.period != (in_frames ? rate.seconds_of(1) : 1.0)) out["period"] = time(sampling.period);
     out["values"] = std::move(values);
     return out;
 }

@@ -210,6 +210,18 @@ std::size_t measure_crowding(const Cage& cage, std::size_t cage_points) {
     return sum;
 }
 
+int count_parts(const Cage& cage) {
+    return cage.faces.parts.empty() ? 1 : std::ranges::max(cage.faces.parts) + 1;
+}
+
+std::size_t count_triangles(const Cage& cage, int level) {
+    std::size_t pieces = 0;  // twice the triangles at level 0, were every face a quad or a Loop triangle
+    for (const int size : cage.faces.sizes) {
+        pieces += cage.scheme == Cage::Scheme::loop ? 2u : static_cast<std::size_t>(size);
+    }
+    return pieces * (std::size_t{1} << (2 * level)) / 2;
+}
+
 void validate(const Cage& cage, std::size_t cage_points) {
     Checker(cage, cage_points).check();
 }

@@ -30,6 +30,12 @@ void validate(const Cage& cage, std::size_t cage_points);
 /// more than two faces (they become sharp).
 std::vector<std::string> list_warnings(const Cage& cage);
 
+/// Number of parts of a valid cage.
+int count_parts(const Cage& cage);
+
+/// Triangles of all parts, holes included, at a level; at least 1 where some face is no quad (Loop: triangle).
+std::size_t count_triangles(const Cage& cage, int level);
+
 /// Calls visit(a, b, sharpness) for every edge of every crease.
 template <class Visit>
 void for_each_crease_edge(const Cage& cage, const Visit& visit) {

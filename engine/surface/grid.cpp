@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/errors.h"
+#include "engine/surface/cage_checks.h"
 #include "engine/surface/sharing.h"
 
 namespace aleph {
@@ -134,9 +135,7 @@ class GridBuilder : private SharedVertices {
     }
 
     void make_parts() {
-        const int parts =
-            cage_.faces.parts.empty() ? 1 : *std::max_element(cage_.faces.parts.begin(), cage_.faces.parts.end()) + 1;
-        grid_.parts.resize(static_cast<std::size_t>(parts));
+        grid_.parts.resize(static_cast<std::size_t>(count_parts(cage_)));
         for (int f = 0; f < base_.GetNumFaces(); ++f) {
             if (!is_drawn(f)) continue;
             const auto part = static_cast<std::size_t>(cage_.faces.parts.empty() ? 0 : cage_.faces.parts[f]);

@@ -109,14 +109,6 @@ int LimitSurface::part_count() const {
     return static_cast<int>(state_->parts.size());
 }
 
-std::size_t LimitSurface::vertex_count(int part) const {
-    return state_->part(part).vertices.size();
-}
-
-std::size_t LimitSurface::triangle_count(int part) const {
-    return state_->part(part).triangles.size();
-}
-
 const std::vector<glm::uvec3>& LimitSurface::triangles(int part) const {
     return state_->part(part).corners;
 }
@@ -174,20 +166,16 @@ std::vector<glm::dvec3> cage_points_at(const Scene& scene, const Cage& cage, dou
 namespace {
 
 const PointCache& find_points(const Scene& scene, const Cage& cage) {
-    const std::string place = "cage " + printable(cage.name);
-    if (cage.points < 0 || static_cast<std::size_t>(cage.points) >= scene.point_caches.size()) {
-        throw InputError(scene.source.file, place, "it has no points");
-    }
+    const auto require = [&](bool holds, const char* reason) {
+        if (!holds) throw InputError(scene.source.file, "cage " + printable(cage.name), reason);
+    };
+    require(cage.points >= 0 && cage.points < std::ssize(scene.point_caches), "it has no points");
     const PointCache& cache = scene.point_caches[cage.points];
-    if (cache.positions.empty()) throw InputError(scene.source.file, place, "it has no points");
+    require(!cache.positions.empty(), "it has no points");
     for (const auto& sample : cache.positions) {
-        if (sample.size() != cache.point_count())
-            throw InputError(scene.source.file, place, "its number of points changes");
-        for (const glm::vec3& p : sample) {
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-                throw InputError(scene.source.file, place, "one of its points is not finite");
-            }
-        }
+        require(sample.size() == cache.point_count(), "its number of points changes");
+        for (const glm::vec3& p : sample)
+            require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "one of its points is not finite");
     }
     return cache;
 }
@@ -204,18 +192,14 @@ void tessellate_cage(Scene& scene, int cage_index) {
         throw InputError(scene.source.file, error.place(), error.reason());
     }
     for (const Mesh& mesh : scene.meshes) {
-        if (mesh.subdivision.cage != cage_index ||
-            (mesh.subdivision.part >= 0 && mesh.subdivision.part < surface->part_count()))
-            continue;
+        const auto& [used, part, limit] = mesh.subdivision;
+        if (used != cage_index || (part >= 0 && part < surface->part_count())) continue;
         throw InputError(scene.source.file, "mesh " + printable(mesh.name),
-                         fmt::format("cage {} has no faces for part {}", printable(cage.name), mesh.subdivision.part));
+                         fmt::format("cage {} has no faces for part {}", printable(cage.name), part));
     }
-    for (const std::string& warning : list_warnings(cage)) {
-        if (std::find(scene.source.warnings.begin(), scene.source.warnings.end(), warning) ==
-            scene.source.warnings.end()) {
-            scene.source.warnings.push_back(warning);
-        }
-    }
+    std::vector<std::string>& warnings = scene.source.warnings;
+    for (const std::string& warning : list_warnings(cage))
+        if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
     const std::vector<glm::dvec3> first(cache.positions.front().begin(), cache.positions.front().end());
     const std::vector<glm::dvec3> control = surface->make_control_points(first);
     for (Mesh& mesh : scene.meshes) {

@@ -25,8 +25,6 @@ class LimitSurface {
     /// The level asked for; 1 in place of 0 where some face is no quad (triangle for Loop).
     int level() const;
     int part_count() const;
-    std::size_t vertex_count(int part) const;
-    std::size_t triangle_count(int part) const;
     /// Corners of the part's triangles, into its vertices.
     const std::vector<glm::uvec3>& triangles(int part) const;
 

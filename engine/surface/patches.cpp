@@ -61,32 +61,25 @@ int refine(Far::TopologyRefiner& refiner, bool has_uv, bool smooth_ends) {
 }
 
 /// Notes the weights with which OpenSubdiv makes refined points.
-struct StencilRecorder {
-    std::vector<int>& targets;
-    std::vector<int>& row_begins;
-    std::vector<int>& sources;
-    std::vector<double>& weights;
-};
-
 struct RecordedPoint {
-    StencilRecorder& recorder;
+    RefinedPoints& record;
     int index;
 
     void Clear() {
-        recorder.targets.push_back(index);
-        recorder.row_begins.push_back(static_cast<int>(recorder.sources.size()));
+        record.targets.push_back(index);
+        record.row_begins.push_back(static_cast<int>(record.sources.size()));
     }
     void AddWithWeight(const RecordedPoint& source, double weight) {
         if (weight == 0.0) return;
-        recorder.sources.push_back(source.index);
-        recorder.weights.push_back(weight);
+        record.sources.push_back(source.index);
+        record.weights.push_back(weight);
     }
 };
 
 struct RecordedLevel {
-    StencilRecorder& recorder;
+    RefinedPoints& record;
     int first;
-    RecordedPoint operator[](int i) const { return {recorder, first + i}; }
+    RecordedPoint operator[](int i) const { return {record, first + i}; }
 };
 
 struct UvValue {
@@ -134,28 +127,27 @@ LimitPatches::LimitPatches(Far::TopologyRefiner& refiner, std::size_t crowding) 
 }
 
 void LimitPatches::record_stencils() {
-    StencilRecorder recorder{targets_, row_begins_, sources_, weights_};
     const Far::PrimvarRefinerReal<double> primvars(refiner_);
     int first = 0;
     for (int level = 1; level < refiner_.GetNumLevels(); ++level) {
-        const RecordedLevel from{recorder, first};
+        const RecordedLevel from{refined_, first};
         first += refiner_.GetLevel(level - 1).GetNumVertices();
-        RecordedLevel to{recorder, first};
+        RecordedLevel to{refined_, first};
         primvars.Interpolate(level, from, to);
     }
     point_count_ = refiner_.GetNumVerticesTotal();
     if (const Far::StencilTableReal<double>* local = table_->GetLocalPointStencilTable<double>()) {
         for (int i = 0; i < local->GetNumStencils(); ++i) {
             const Far::StencilReal<double> stencil = local->GetStencil(i);
-            RecordedPoint point{recorder, point_count_ + i};
+            RecordedPoint point{refined_, point_count_ + i};
             point.Clear();
             for (int k = 0; k < stencil.GetSize(); ++k) {
-                point.AddWithWeight({recorder, stencil.GetVertexIndices()[k]}, stencil.GetWeights()[k]);
+                point.AddWithWeight({refined_, stencil.GetVertexIndices()[k]}, stencil.GetWeights()[k]);
             }
         }
         point_count_ += local->GetNumStencils();
     }
-    row_begins_.push_back(static_cast<int>(sources_.size()));
+    refined_.row_begins.push_back(static_cast<int>(refined_.sources.size()));
 }
 
 std::vector<glm::dvec3> LimitPatches::make_control_points(std::span<const glm::dvec3> cage_points) const {
@@ -163,9 +155,10 @@ std::vector<glm::dvec3> LimitPatches::make_control_points(std::span<const glm::d
                 fmt::format("{} points for a cage of {}", cage_points.size(), cage_point_count_));
     std::vector<glm::dvec3> control(static_cast<std::size_t>(point_count_));
     std::copy(cage_points.begin(), cage_points.end(), control.begin());
-    for (std::size_t row = 0; row < targets_.size(); ++row) {
-        const int begin = row_begins_[row], count = row_begins_[row + 1] - begin;
-        control[targets_[row]] = blend(control, &sources_[begin], &weights_[begin], count);
+    const auto& [targets, row_begins, sources, weights] = refined_;
+    for (std::size_t row = 0; row < targets.size(); ++row) {
+        const int begin = row_begins[row], count = row_begins[row + 1] - begin;
+        control[targets[row]] = blend(control, &sources[begin], &weights[begin], count);
     }
     return control;
 }

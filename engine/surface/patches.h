@@ -32,6 +32,12 @@ struct LimitSample {
     int basis = 0;
 };
 
+/// Row r makes point targets[r] of points made before it.
+struct RefinedPoints {
+    std::vector<int> targets, row_begins, sources;
+    std::vector<double> weights;
+};
+
 struct Tangents {
     glm::dvec3 ds{0.0}, dt{0.0};
 };
@@ -78,9 +84,7 @@ class LimitPatches {
     int point_count_ = 0;
     std::unique_ptr<const Far::PatchTable> table_;
     std::unique_ptr<const Far::PatchMap> map_;
-    /// Row r makes point targets_[r] of points made before it.
-    std::vector<int> targets_, row_begins_, sources_;
-    std::vector<double> weights_;
+    RefinedPoints refined_;
     /// Samples on a grid share few sets of weights.
     std::vector<Basis> bases_;
     std::unordered_multimap<std::uint64_t, int> known_bases_;

@@ -4,6 +4,7 @@
 #include <opensubdiv/far/topologyDescriptor.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -28,65 +29,18 @@ void catch_opensubdiv_messages() {
     });
 }
 
-Sdc::SchemeType convert(Cage::Scheme scheme) {
-    switch (scheme) {
-        case Cage::Scheme::loop:
-            return Sdc::SCHEME_LOOP;
-        case Cage::Scheme::bilinear:
-            return Sdc::SCHEME_BILINEAR;
-        case Cage::Scheme::catmull_clark:
-            break;
-    }
-    return Sdc::SCHEME_CATMARK;
-}
+using Options = Sdc::Options;
 
-Sdc::Options::VtxBoundaryInterpolation convert(Cage::Boundary boundary) {
-    switch (boundary) {
-        case Cage::Boundary::none:
-            return Sdc::Options::VTX_BOUNDARY_NONE;
-        case Cage::Boundary::edge_only:
-            return Sdc::Options::VTX_BOUNDARY_EDGE_ONLY;
-        case Cage::Boundary::edge_and_corner:
-            break;
-    }
-    return Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;
-}
-
-Sdc::Options::FVarLinearInterpolation convert(Cage::UvRule rule) {
-    switch (rule) {
-        case Cage::UvRule::linear_none:
-            return Sdc::Options::FVAR_LINEAR_NONE;
-        case Cage::UvRule::linear_corners_only:
-            return Sdc::Options::FVAR_LINEAR_CORNERS_ONLY;
-        case Cage::UvRule::linear_corners_plus2:
-            return Sdc::Options::FVAR_LINEAR_CORNERS_PLUS2;
-        case Cage::UvRule::linear_boundaries:
-            return Sdc::Options::FVAR_LINEAR_BOUNDARIES;
-        case Cage::UvRule::linear_all:
-            return Sdc::Options::FVAR_LINEAR_ALL;
-        case Cage::UvRule::linear_corners_plus1:
-            break;
-    }
-    return Sdc::Options::FVAR_LINEAR_CORNERS_PLUS1;
-}
+// OpenSubdiv's names, in the order of ours.
+constexpr std::array schemes{Sdc::SCHEME_CATMARK, Sdc::SCHEME_LOOP, Sdc::SCHEME_BILINEAR};
+constexpr std::array boundaries{Options::VTX_BOUNDARY_NONE, Options::VTX_BOUNDARY_EDGE_ONLY,
+                                Options::VTX_BOUNDARY_EDGE_AND_CORNER};
+constexpr std::array uv_rules{Options::FVAR_LINEAR_NONE,          Options::FVAR_LINEAR_CORNERS_ONLY,
+                              Options::FVAR_LINEAR_CORNERS_PLUS1, Options::FVAR_LINEAR_CORNERS_PLUS2,
+                              Options::FVAR_LINEAR_BOUNDARIES,    Options::FVAR_LINEAR_ALL};
 
 float clamp_sharpness(float sharpness) {
     return std::clamp(sharpness, 0.0f, 10.0f);
-}
-
-/// Crease chains as pairs of points.
-struct CreaseEdges {
-    std::vector<int> points;
-    std::vector<float> sharpness;
-};
-
-CreaseEdges make_crease_edges(const Cage& cage) {
-    CreaseEdges edges;
-    for_each_crease_edge(cage, [&](int a, int b, float sharpness) {
-        edges.points.insert(edges.points.end(), {a, b});
-        edges.sharpness.push_back(clamp_sharpness(sharpness));
-    });
-    return edges;
 }
 
 }  // namespace
@@ -95,7 +49,12 @@ std::unique_ptr<Far::TopologyRefiner> make_refiner(const Cage& cage, std::size_t
     validate(cage, cage_points);
     catch_opensubdiv_messages();
 
-    const CreaseEdges creases = make_crease_edges(cage);
+    std::vector<int> crease_points;  // pairs
+    std::vector<float> creases;
+    for_each_crease_edge(cage, [&](int a, int b, float sharpness) {
+        crease_points.insert(crease_points.end(), {a, b});
+        creases.push_back(clamp_sharpness(sharpness));
+    });
     std::vector<float> corners(cage.corners.sharpness.size());
     std::transform(cage.corners.sharpness.begin(), cage.corners.sharpness.end(), corners.begin(), clamp_sharpness);
 
@@ -104,9 +63,9 @@ std::unique_ptr<Far::TopologyRefiner> make_refiner(const Cage& cage, std::size_t
     descriptor.numFaces = static_cast<int>(cage.faces.sizes.size());
     descriptor.numVertsPerFace = cage.faces.sizes.data();
     descriptor.vertIndicesPerFace = cage.faces.points.data();
-    descriptor.numCreases = static_cast<int>(creases.sharpness.size());
-    descriptor.creaseVertexIndexPairs = creases.points.data();
-    descriptor.creaseWeights = creases.sharpness.data();
+    descriptor.numCreases = static_cast<int>(creases.size());
+    descriptor.creaseVertexIndexPairs = crease_points.data();
+    descriptor.creaseWeights = creases.data();
     descriptor.numCorners = static_cast<int>(corners.size());
     descriptor.cornerVertexIndices = cage.corners.points.data();
     descriptor.cornerWeights = corners.data();
@@ -120,11 +79,11 @@ std::unique_ptr<Far::TopologyRefiner> make_refiner(const Cage& cage, std::size_t
         descriptor.fvarChannels = &uv;
     }
 
-    Sdc::Options options;
-    options.SetVtxBoundaryInterpolation(convert(cage.boundary));
-    options.SetFVarLinearInterpolation(convert(cage.uv_rule));
+    Options options;
+    options.SetVtxBoundaryInterpolation(boundaries[index_of(cage.boundary)]);
+    options.SetFVarLinearInterpolation(uv_rules[index_of(cage.uv_rule)]);
     using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-    Factory::Options factory_options(convert(cage.scheme), options);
+    Factory::Options factory_options(schemes[index_of(cage.scheme)], options);
     factory_options.validateFullTopology = true;
 
     opensubdiv_error.clear();

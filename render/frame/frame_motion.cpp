@@ -4,8 +4,6 @@
 #include <numeric>
 
 #include "motion/raster.h"
-#include "motion/raster_motion.h"
-#include "motion/still_motion.h"
 #include "perception/sanitize.h"
 #include "render/frame/prepared_frame.h"
 #include "render/settings/measure.h"
@@ -80,7 +78,7 @@ void FrameMotion::compute(const FrameWork& work, const FrameScene& here, Estimat
     const std::optional<PictureSearch> search = picture_search(shot_.settings.guide.motion);
     if (search) {
         out.motion = has_other ? search_other(work, here, light, *search, clock, frame)
-                               : make_unknown_motion(out.view.width, out.view.height);
+                               : make_motion_field(out.view.width, out.view.height, MotionValidity::no_counterpart);
         return;
     }
     out.motion = compute_from_scene(here.posed(), has_other ? other_view() : here.posed(), centers.hits, work.other);

@@ -126,7 +126,7 @@ struct ImageSequence::State {
     MotionField find_motion(std::int64_t frame, const LoadedFrame& now) {
         const OtherFrame which = now.motion ? is_cut(shot.film.cuts, frame + 1) ? OtherFrame::none : OtherFrame::next
                                             : find_other_frame(files, shot.film.cuts, frame);
-        if (which == OtherFrame::none) return make_unknown_motion(width, height);
+        if (which == OtherFrame::none) return make_motion_field(width, height, MotionValidity::no_counterpart);
         if (now.motion) return *now.motion;
         if (which == OtherFrame::next) return compare(frame).there;
         MotionField motion = compare(frame - 1).back;
@@ -136,7 +136,7 @@ struct ImageSequence::State {
 
     /// @param motion  to the other frame
     MotionField find_backward(std::int64_t frame, const LoadedFrame& now, const MotionField& motion) {
-        if (is_cut(shot.film.cuts, frame)) return make_unknown_motion(width, height);
+        if (is_cut(shot.film.cuts, frame)) return make_motion_field(width, height, MotionValidity::no_counterpart);
         if (now.motion) return now.backward.value_or(MotionField());
         if (files.contains(frame - 1)) return compare(frame - 1).back;
         MotionField backward = motion;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/texture_limits.h"
 #include "render/surface/texture_texels.h"
 
 namespace aleph {

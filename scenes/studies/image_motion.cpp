@@ -12,7 +12,6 @@
 #include "engine/rays/ray_scene.h"
 #include "motion/picture_motion.h"
 #include "motion/raster.h"
-#include "motion/raster_motion.h"
 #include "render/cli/support/options.h"
 #include "render/frame/sequence.h"
 #include "render/output/sheet.h"

@@ -30,26 +30,14 @@ TEST(CageMotion, IsTheLimitSurfacesAtEveryLevel) {
     for (int level = 0; level <= 6; ++level) {
         Scene scene = make_cage_scene(test, {test.points, later}, level);
         scene.nodes[1].transform.translation = glm::dvec3(1.5, 1.6, 1.9);
-        const SeenMotion moved = compute_motion(scene);
         const auto from = round_to_float(test.points), to = round_to_float(later);
-        int hits = 0;
-        double worst = 0.0, longest = 0.0;
-        for (std::size_t i = 0; i < moved.hits.size(); ++i) {
-            const Hit& hit = moved.hits.pixels[i];
-            if (hit.instance == no_index) continue;
-            ++hits;
+        const MotionErrors errors = find_motion_errors(compute_motion(scene), [&](const Hit& hit) {
             const glm::dvec2 st = place_of(hit, level);
-            const glm::dvec2 expected =
-                project_camera_point(moved.other.view,
-                                     to_camera(moved.other.view, tensor(to, bspline(st.x), bspline(st.y)))) -
-                project_camera_point(moved.now.view,
-                                     to_camera(moved.now.view, tensor(from, bspline(st.x), bspline(st.y))));
-            worst = std::max(worst, glm::length(moved.motion.displacement.pixels[i] - expected));
-            longest = std::max(longest, glm::length(expected));
-        }
-        EXPECT_GT(hits, 2000);
-        EXPECT_GT(longest, 20.0);
-        EXPECT_LT(worst, 1e-9) << "level " << level;
+            return std::pair(tensor(from, bspline(st.x), bspline(st.y)), tensor(to, bspline(st.x), bspline(st.y)));
+        });
+        EXPECT_GT(errors.hits, 2000u);
+        EXPECT_GT(errors.longest, 20.0);
+        EXPECT_LT(errors.worst, 1e-9) << "level " << level;
     }
 }
 
@@ -61,24 +49,15 @@ TEST(CageMotion, FollowsAnAffineMapOfAnIrregularCage) {
     for (const glm::dvec3& p : test.points) later.push_back(map * p + shift);
     Scene scene = make_cage_scene(test, {test.points, later}, 4);
     scene.nodes[1].transform.translation = glm::dvec3(0.1, 0.2, 5.0);
-    const SeenMotion moved = compute_motion(scene);
     const LimitSurface& surface = *scene.meshes[0].subdivision.limit.surface;
     const auto control = surface.make_control_points(round_to_float(test.points));
-    double worst = 0.0;
-    int hits = 0;
-    for (std::size_t i = 0; i < moved.hits.size(); ++i) {
-        const Hit& hit = moved.hits.pixels[i];
-        if (hit.instance == no_index) continue;
-        ++hits;
+    const MotionErrors errors = find_motion_errors(compute_motion(scene), [&](const Hit& hit) {
         const glm::dvec3 p = surface.evaluate(0, control, hit.primitive, hit.u, hit.v);
-        const glm::dvec2 expected =
-            project_camera_point(moved.other.view, to_camera(moved.other.view, map * p + shift)) -
-            project_camera_point(moved.now.view, to_camera(moved.now.view, p));
-        worst = std::max(worst, glm::length(moved.motion.displacement.pixels[i] - expected));
-    }
-    EXPECT_GT(hits, 1000);
-    EXPECT_LT(worst, 1e-4);  // the second moment's points are floats too
-    EXPECT_GT(worst, 0.0);
+        return std::pair(p, map * p + shift);
+    });
+    EXPECT_GT(errors.hits, 1000u);
+    EXPECT_LT(errors.worst, 1e-4);  // the second moment's points are floats too
+    EXPECT_GT(errors.worst, 0.0);
 }
 
 TEST(CageMotion, RP16_StaticSurfacesDoNotMoveAtAnyLevel) {

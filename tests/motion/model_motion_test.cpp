@@ -161,9 +161,8 @@ TEST_P(MotionTruth, ErrorBelowMillionthOfAPixel) {
 }
 
 TEST_P(MotionTruth, TheSameMomentTwiceGivesExactlyZero) {
-    const TwoViews views(scene_, 0.3, 0.3, width, height);
-    const Image<Hit> hits = make_random_hits(scene_, views.now.pose, width, height);
-    const MotionField field = compute_model_motion(scene_, views.now, views.other, hits);
+    const Image<Hit> hits = make_random_hits(scene_, pose(scene_, 0.3), width, height);
+    const MotionField field = motion_between(scene_, 0.3, 0.3, hits);
     for (std::size_t i = 0; i < hits.size(); ++i) {
         ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0));
         ASSERT_EQ(field.path_length.pixels[i], 0.0);
@@ -171,16 +170,12 @@ TEST_P(MotionTruth, TheSameMomentTwiceGivesExactlyZero) {
 }
 
 TEST_P(MotionTruth, SameBitsForAnyNumberOfThreads) {
-    const TwoViews views(scene_, 0.3, 0.3 + 1.0 / 30.0, width, height);
-    const Image<Hit> hits = make_random_hits(scene_, views.now.pose, width, height);
+    const Image<Hit> hits = make_random_hits(scene_, pose(scene_, 0.3), width, height);
     const auto run = [&](int threads) {
         const ThreadLimit limit(threads);
-        return compute_model_motion(scene_, views.now, views.other, hits);
+        return motion_between(scene_, 0.3, 0.3 + 1.0 / 30.0, hits);
     };
-    const MotionField one = run(1), four = run(4);
-    EXPECT_EQ(one.displacement, four.displacement);
-    EXPECT_EQ(one.path_length, four.path_length);
-    EXPECT_EQ(one.validity, four.validity);
+    expect_same_field(run(1), run(4));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -203,9 +198,8 @@ TEST(ModelMotion, StaticObjectsBesideMovingOnesAreExactlyStill) {
     still.transform.scale = glm::dvec3(1.1, -0.7, 0.3);
     add_object(scene, still);
     translating(scene, root);
-    const TwoViews views(scene, 0.1, 0.4, width, height);
-    const Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
-    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
+    const Image<Hit> hits = make_random_hits(scene, pose(scene, 0.1), width, height);
+    const MotionField field = motion_between(scene, 0.1, 0.4, hits);
     for (std::size_t i = 0; i < hits.size(); ++i) {
         if (hits.pixels[i].instance == 0) {
             EXPECT_EQ(field.displacement.pixels[i], glm::dvec2(0.0));
@@ -223,10 +217,7 @@ TEST(ModelMotion, ZoomMovesObjectsAndBackground) {
     add_node(scene, node);
     add_camera(scene);
     scene.cameras[0].fov = ramp(0.6, 0.9);
-    const TwoViews views(scene, 0.0, 1.0, width, height);
-    Image<Hit> hits(width, height);
-    hits(width / 2, height / 2) = {.instance = 0, .primitive = 0};
-    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
+    const MotionField field = motion_between(scene, 0.0, 1.0, one_hit(width, height, width / 2, height / 2));
     const double grown = 0.5 * height / std::tan(0.45) - 0.5 * height / std::tan(0.3);  // focal length in pixels
     EXPECT_NEAR(field.displacement(width / 2, height / 2).x, 0.1 * grown, 1e-9);
     EXPECT_NEAR(field.displacement(width / 2, height / 2).y, -0.05 * grown, 1e-9);
@@ -243,30 +234,15 @@ TEST(ModelMotion, FilmOffsetSlidesThePicture) {
         scene.cameras[0].orthographic = orthographic;
         scene.cameras[0].shift_x = ramp(0.1, 0.35);
         scene.cameras[0].shift_y = -0.2;
-        const TwoViews views(scene, 0.0, 1.0, width, height);
-        Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
+        Image<Hit> hits = make_random_hits(scene, pose(scene, 0.0), width, height);
         if (!orthographic) hits(3, 5).instance = no_index;
-        const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
-        for (const glm::dvec2& d : field.displacement.pixels) {
+        for (const glm::dvec2& d : motion_between(scene, 0.0, 1.0, hits).displacement.pixels) {
             ASSERT_NEAR(d.x, -0.25 * height, 1e-9);
             ASSERT_NEAR(d.y, 0.0, 1e-9);
         }
         scene.cameras[0].shift_x = 0.35;
-        const TwoViews held(scene, 0.0, 1.0, width, height);
-        const MotionField still = compute_model_motion(scene, held.now, held.other, hits);
-        for (const glm::dvec2& d : still.displacement.pixels) ASSERT_EQ(d, glm::dvec2(0.0));
-    }
-}
-
-TEST(ModelMotion, PathIsTheDisplacementsLengthWhereNothingTurnsFar) {
-    Scene scene;
-    dollying(scene, add_node(scene, child_of(no_index, {})));
-    const TwoViews views(scene, 0.0, 1.0 / 30.0, width, height);
-    const Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
-    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        const glm::dvec2& d = field.displacement.pixels[i];
-        ASSERT_DOUBLE_EQ(field.path_length.pixels[i], std::sqrt(d.x * d.x + d.y * d.y));
+        for (const glm::dvec2& d : motion_between(scene, 0.0, 1.0, hits).displacement.pixels)
+            ASSERT_EQ(d, glm::dvec2(0.0));
     }
 }
 

@@ -193,7 +193,7 @@ TEST(PictureMotion, SizesMustAgree) {
 }
 
 TEST(PictureMotion, TurnedRoundAStillPixelIsNotNegative) {
-    MotionField field = make_unknown_motion(2, 1);
+    MotionField field = make_motion_field(2, 1, MotionValidity::valid);
     field.displacement(1, 0) = {3.0, -4.0};
     turn_round(field);
     EXPECT_FALSE(std::signbit(field.displacement(0, 0).x));

@@ -1,6 +1,5 @@
 // Motion from rasterized maps: its error is that of 8 bits for each coordinate, and no more.
 
-#include "motion/raster_motion.h"
 #include "motion/raster.h"
 #include "motion/reprojection.h"
 #include "tests/support/deforming_scenes.h"

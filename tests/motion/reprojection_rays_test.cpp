@@ -1,22 +1,15 @@
 // Reprojection with real rays: single-precision hits must not disturb motion, and points hidden in the other frame are
 // found.
 
-#include "engine/rays/ray_scene.h"
-#include "motion/model_motion.h"
+#include "engine/surface/shapes.h"
 #include "motion/reprojection.h"
-#include "tests/support/first_hits.h"
 #include "tests/support/motion_scenes.h"
 #include "tests/support/motion_truth.h"
+#include "tests/support/seen_motion.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-RayScene trace(const Scene& scene, const ScenePose& frame, const CameraView& view) {
-    RayScene rays(scene);
-    rays.update(frame, compute_anchor(view));
-    return rays;
-}
 
 TEST(ReprojectionRays, RP01_StaticSceneMovesByExactlyZero) {
     for (const double tilt : {45.0, 10.0, 1.0, 0.1}) {
@@ -28,10 +21,7 @@ TEST(ReprojectionRays, RP01_StaticSceneMovesByExactlyZero) {
         Node mount{.transform = {.translation = glm::dvec3(0.1, 0.7, -0.3),
                                  .axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.03}}};
         add_camera(scene, add_node(scene, mount));
-        const TwoViews views(scene, 0.0, 1.0 / 30.0, 320, 240);
-        const RayScene rays = trace(scene, views.now.pose, views.now.view);
-        const Image<Hit> hits = cast_first_hits(rays, views.now.view);
-        const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
+        const auto [now, other, hits, field] = SeenMotion(scene, 0.0, 1.0 / 30.0, 320, 240);
         std::size_t surface = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0)) << tilt;
@@ -74,13 +64,6 @@ TEST(ReprojectionRays, RP18_BarycentricsOffTheTriangleArePutBack) {
     }
 }
 
-/// The pixel position that the hit's barycentrics give.
-glm::dvec2 hit_pixel(const Scene& scene, const ScenePose& frame, const CameraView& view, const Hit& hit) {
-    const Instance& instance = frame.instances[hit.instance];
-    const CameraFromObject map = make_camera_from_object(view, frame.world[instance.node]);
-    return project_camera_point(view, map(surface_point(scene.meshes[instance.mesh], hit)));
-}
-
 TEST(ReprojectionRays, RP18_HitsOnSubPixelTrianglesLieAtTheirPixel) {
     // Triangles 1e-3 px across, upright and grazing, around the centre of pixel (70, 40).
     for (const double tilt : {0.0, 80.0, 89.0}) {
@@ -94,10 +77,11 @@ TEST(ReprojectionRays, RP18_HitsOnSubPixelTrianglesLieAtTheirPixel) {
         node.transform.axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, -tilt * degrees};
         add_node(scene, node);
         add_camera(scene, no_index, fov_of(1000.0, 100));
-        const TwoViews views(scene, 0.0, 1.0, 100, 100);
-        const Image<Hit> hits = cast_first_hits(trace(scene, views.now.pose, views.now.view), views.now.view);
+        const PosedView posed = make_posed_view(scene, 0.0, 0, 100, 100);
+        const Image<Hit> hits = cast_first_hits(scene, posed);
         ASSERT_EQ(hits(70, 40).instance, 0) << tilt;
-        const glm::dvec2 pixel = hit_pixel(scene, views.now.pose, views.now.view, hits(70, 40));
+        const CameraFromObject map = make_camera_from_object(posed.view, posed.pose.world[0]);
+        const glm::dvec2 pixel = project_camera_point(posed.view, map(surface_point(scene.meshes[0], hits(70, 40))));
         EXPECT_NEAR(pixel.x, 70.5, 1e-4) << tilt;
         EXPECT_NEAR(pixel.y, 40.5, 1e-4) << tilt;
     }
@@ -123,9 +107,8 @@ TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
     Node node{.meshes = {0}};
     add_node(scene, node);
     add_camera(scene, no_index, 0.12);
-    const TwoViews views(scene, 0.0, 1.0, 320, 240);
-    const CameraView& view = views.now.view;
-    const Image<Hit> hits = cast_first_hits(trace(scene, views.now.pose, view), view);
+    const PosedView posed = make_posed_view(scene, 0.0, 0, 320, 240);
+    const Image<Hit> hits = cast_first_hits(scene, posed);
     Real worst = 0, worst_by_distance = 0;
     std::size_t count = 0;
     for (int y = 0; y < hits.height; ++y) {
@@ -134,16 +117,15 @@ TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
             if (hit.instance == no_index) continue;
             ++count;
             const glm::uvec3& triangle = slivers.triangles[hit.primitive];
-            const RealVector p0 = real(slivers.positions[triangle.x]), p1 = real(slivers.positions[triangle.y]),
-                             p2 = real(slivers.positions[triangle.z]);
-            const RealVector normal = unit(cross(p1 - p0, p2 - p0));
-            const Real length = std::sqrt(dot(p1 - p0, p1 - p0)) + std::sqrt(dot(p2 - p0, p2 - p0));
-            const RealVector point = real(surface_point(slivers, hit));
-            worst = std::max(worst, std::abs(dot(point - p0, normal)) / length);
-            const CameraRay ray = make_camera_ray(view, x + 0.5, y + 0.5);
+            const RealVector p0(slivers.positions[triangle.x]), p1(slivers.positions[triangle.y]),
+                p2(slivers.positions[triangle.z]);
+            const RealVector normal = unit(glm::cross(p1 - p0, p2 - p0));
+            const RealVector point(surface_point(slivers, hit));
+            worst = std::max(worst,
+                             std::abs(glm::dot(point - p0, normal)) / (glm::distance(p0, p1) + glm::distance(p0, p2)));
+            const CameraRay ray = make_camera_ray(posed.view, x + 0.5, y + 0.5);
             const glm::dvec3 along = ray.origin + static_cast<double>(hit.distance) * ray.direction;
-            const RealVector way = real(along) - point;
-            worst_by_distance = std::max(worst_by_distance, std::sqrt(dot(way, way)));
+            worst_by_distance = std::max(worst_by_distance, glm::distance(RealVector(along), point));
         }
     }
     EXPECT_GT(count, 1000u);
@@ -219,22 +201,7 @@ TEST(ReprojectionRays, HiddenIsWhatTheCardCoversNext) {
 
 TEST(ReprojectionRays, ASpinningBallHidesWhatTurnsAway) {
     Scene scene;
-    Mesh ball;  // latitudes and longitudes, radius 1
-    const unsigned around = 96, down = 48;
-    for (unsigned row = 0; row <= down; ++row) {
-        for (unsigned column = 0; column <= around; ++column) {
-            const double polar = 180.0 * degrees * row / down, angle = 360.0 * degrees * column / around;
-            ball.positions.emplace_back(glm::vec3(
-                glm::dvec3(std::sin(polar) * std::sin(angle), std::cos(polar), std::sin(polar) * std::cos(angle))));
-        }
-    }
-    for (unsigned row = 0; row < down; ++row) {
-        for (unsigned column = 0; column < around; ++column) {
-            const unsigned a = row * (around + 1) + column, c = a + around + 1;
-            if (row > 0) ball.triangles.emplace_back(a, c, a + 1);
-            if (row + 1 < down) ball.triangles.emplace_back(a + 1, c, c + 1);
-        }
-    }
+    const Mesh ball = make_shape_mesh({.kind = Shape::Kind::sphere, .radius = 1.0, .segments = 96});
     scene.meshes = {ball};
     Node node{.transform = {.translation = ramp(glm::dvec3(-0.3, 0.0, -6.0), glm::dvec3(0.3, 0.2, -6.0)),
                             .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 40.0 * degrees)}},
@@ -246,10 +213,10 @@ TEST(ReprojectionRays, ASpinningBallHidesWhatTurnsAway) {
     for (std::size_t i = 0; i < motion.hits.size(); ++i) {
         if (motion.hits.pixels[i].instance == no_index) continue;
         // On a ball a point is its own normal; it faces the camera where that leans towards it.
-        const RealVector normal = real_turned(real(surface_point(ball, motion.hits.pixels[i])), {0, 1, 0},
-                                              40.0L * std::numbers::pi_v<Real> / 180);
-        const RealVector place = normal + RealVector{0.3L, 0.2L, -6};
-        const Real facing = -dot(unit(place), unit(normal));
+        const RealVector normal =
+            real_turned(surface_point(ball, motion.hits.pixels[i]), {0, 1, 0}, 40.0L * std::numbers::pi_v<Real> / 180);
+        const RealVector place = normal + RealVector(0.3L, 0.2L, -6);
+        const Real facing = -glm::dot(unit(place), unit(normal));
         const MotionValidity validity = motion.after.validity.pixels[i];
         if (facing > 0.05L) {
             EXPECT_EQ(validity, MotionValidity::valid) << i;

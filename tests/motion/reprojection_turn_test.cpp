@@ -35,10 +35,7 @@ TEST(ReprojectionTurn, RP07_RotationBeyondAHalfTurnPerFrame) {
 TEST(ReprojectionTurn, RP07_TheCameraTurnsInstead) {
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
     scene.nodes[1].transform.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 2.0 * std::numbers::pi)};
-    const TwoViews views(scene, 0.0, 1.0, 1000, 1000);
-    Image<Hit> hits(1000, 1000);
-    hits(650, 500) = {.instance = 0, .primitive = 0};
-    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
+    const MotionField field = motion_between(scene, 0.0, 1.0, one_hit(1000, 1000, 650, 500));
     EXPECT_NEAR(field.path_length(650, 500), 942.48, 9.4);
     EXPECT_LT(glm::length(field.displacement(650, 500)), 1e-9);
     // The background too: a roll moves it on a circle around the centre.
@@ -55,9 +52,7 @@ TEST(ReprojectionTurn, RP07_ViewsMadeByHand) {
     view.axes = glm::mat3_cast(glm::angleAxis(120.0 * degrees, glm::dvec3(0, 0, 1)));
     view.position += glm::dvec3(0.5, 0.25, -1.0);
     view.pixels_per_unit *= 1.5;
-    Image<Hit> hits(1000, 1000);
-    hits(650, 500) = {.instance = 0, .primitive = 0};
-    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
+    const MotionField field = compute_model_motion(scene, views.now, views.other, one_hit(1000, 1000, 650, 500));
     // Five steps of 18 degrees.
     const auto place_at = [&](double fraction) {
         const glm::dvec3 off(1.0 - 0.5 * fraction, -0.25 * fraction, -10.0 + fraction);
@@ -72,19 +67,21 @@ TEST(ReprojectionTurn, RP07_ViewsMadeByHand) {
     EXPECT_GT(path, 1.05 * glm::length(field.displacement(650, 500)));
 }
 
+/// A full turn in four keys of 90 degrees within a second.
+Track<glm::dquat> make_full_turn() {
+    std::vector<glm::dquat> turns;
+    for (int i = 0; i <= 4; ++i) turns.push_back(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1)));
+    return keyed({0.0, 0.25, 0.5, 0.75, 1.0}, turns);
+}
+
 /// The same bits at both times, although it moves between them.
 TEST(ReprojectionTurn, RP07_FullTurnBetweenEqualPoses) {
     for (const bool camera_turns : {false, true}) {
         Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
         Track<glm::dquat>& rotation = scene.nodes[camera_turns ? 1 : 0].transform.rotation;
-        rotation.sampling.kind = TimeSampling::Kind::acyclic;
-        rotation.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
-        for (int i = 1; i < 4; ++i) rotation.values.push_back(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1)));
-        rotation.values.push_back(rotation.values.front());
-        const TwoViews views(scene, 0.0, 1.0, 1000, 1000);
-        Image<Hit> hits(1000, 1000);
-        hits(650, 500) = {.instance = 0, .primitive = 0};
-        const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
+        rotation = make_full_turn();
+        rotation.values.back() = rotation.values.front();
+        const MotionField field = motion_between(scene, 0.0, 1.0, one_hit(1000, 1000, 650, 500));
         EXPECT_EQ(field.displacement(650, 500), glm::dvec2(0.0));
         EXPECT_NEAR(field.path_length(650, 500), 942.48, 9.4);
         const double background = camera_turns ? 2.0 * std::numbers::pi * std::hypot(300.5, 0.5) : 0.0;
@@ -94,13 +91,8 @@ TEST(ReprojectionTurn, RP07_FullTurnBetweenEqualPoses) {
 }
 
 TEST(ReprojectionTurn, RP07_QuaternionKeysWithinTheFrame) {
-    // A full turn in four keys of 90 degrees between two frames.
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
-    Track<glm::dquat>& rotation = scene.nodes[0].transform.rotation;
-    rotation.sampling.kind = TimeSampling::Kind::acyclic;
-    rotation.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
-    rotation.values.clear();
-    for (int i = 0; i <= 4; ++i) rotation.values.push_back(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1)));
+    scene.nodes[0].transform.rotation = make_full_turn();
     EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
     EXPECT_NEAR(motion_of_point(scene, 0.1, 0.9).path_length, 0.8 * 942.48, 9.4);
     EXPECT_NEAR(motion_of_point(scene, 0.9, 0.1).path_length, 0.8 * 942.48, 9.4);
@@ -122,14 +114,10 @@ TEST(ReprojectionTurn, RP08_KeysBeyondAHalfTurnGoTheShortWay) {
 
 TEST(ReprojectionTurn, RP07_MatrixKeysWithinTheFrame) {
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
-    Track<glm::dmat4> matrix;
-    matrix.sampling.kind = TimeSampling::Kind::acyclic;
-    matrix.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
-    matrix.values.clear();
-    for (int i = 0; i <= 4; ++i) {
-        matrix.values.emplace_back(glm::mat4_cast(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1))));
-    }
-    scene.nodes[0].transform.matrix = matrix;
+    const Track<glm::dquat> turn = make_full_turn();
+    std::vector<glm::dmat4> matrices;
+    for (const glm::dquat& rotation : turn.values) matrices.push_back(glm::mat4_cast(rotation));
+    scene.nodes[0].transform.matrix = keyed(turn.sampling.times, matrices);
     EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
 }
 
@@ -156,13 +144,10 @@ std::vector<double> subdivide(const Scene& scene) {
 /// Starts at rest and ends fast: even steps would turn 38 degrees in the last of 18.
 TEST(ReprojectionTurn, RP07_UnevenSpin) {
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
-    Track<double> angle;
-    angle.interpolation = Interpolation::cubic;
-    angle.sampling.kind = TimeSampling::Kind::acyclic;
-    angle.sampling.times = {0.0, 1.0};
     const double turn = 2.0 * std::numbers::pi;
-    angle.values = {0.0, 0.0, 0.0, 2.0 * turn, turn, 0.0};  // angle = turn t^2
-    scene.nodes[0].transform.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, angle};
+    scene.nodes[0].transform.axis_rotation = AxisRotation{
+        {0.0, 0.0, 1.0},
+        keyed<double>({0.0, 1.0}, {0.0, 0.0, 0.0, 2.0 * turn, turn, 0.0}, Interpolation::cubic)};  // turn t^2
     EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
     const std::vector<double> times = subdivide(scene);
     double previous = 0.0;

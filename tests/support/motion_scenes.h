@@ -1,6 +1,8 @@
 #pragma once
 // Small moving scenes made in code, and hits on them made by hand, for the tests of motion.
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -11,6 +13,7 @@
 #include "engine/pose/posed_view.h"
 #include "engine/scene/scene.h"
 #include "motion/model_motion.h"
+#include "tests/support/deforming_scenes.h"
 
 namespace aleph {
 
@@ -19,11 +22,7 @@ inline constexpr double degrees = std::numbers::pi / 180.0;
 /// Linear from one value to the other between two times, held outside.
 template <class T>
 Track<T> ramp(const T& from, const T& to, double begin = 0.0, double end = 1.0) {
-    Track<T> track;
-    track.sampling.kind = TimeSampling::Kind::acyclic;
-    track.sampling.times = {begin, end};
-    track.values = {from, to};
-    return track;
+    return keyed<T>({begin, end}, {from, to});
 }
 
 inline int add_node(Scene& scene, Node node) {
@@ -66,20 +65,8 @@ inline int add_triangle_soup(Scene& scene, int triangles, float half_size) {
 
 /// A rectangle in the xy plane, facing +z, of this many cells each way.
 inline int add_grid(Scene& scene, float width, float height, unsigned cells = 1) {
-    Mesh mesh;
-    for (unsigned row = 0; row <= cells; ++row) {
-        for (unsigned column = 0; column <= cells; ++column) {
-            mesh.positions.emplace_back(width * (static_cast<float>(column) / static_cast<float>(cells) - 0.5f),
-                                        height * (static_cast<float>(row) / static_cast<float>(cells) - 0.5f), 0.0f);
-        }
-    }
-    for (unsigned row = 0; row < cells; ++row) {
-        for (unsigned column = 0; column < cells; ++column) {
-            const unsigned a = row * (cells + 1) + column, b = a + 1, c = a + cells + 1, d = c + 1;
-            mesh.triangles.emplace_back(a, b, d);
-            mesh.triangles.emplace_back(a, d, c);
-        }
-    }
+    Mesh mesh = make_sheet(cells);
+    for (glm::vec3& p : mesh.positions) p *= glm::vec3(0.5f * width, 0.5f * height, 1.0f);
     scene.meshes.push_back(mesh);
     return static_cast<int>(scene.meshes.size()) - 1;
 }
@@ -102,6 +89,26 @@ struct TwoViews {
           other(make_posed_view(scene, other_seconds, 0, width, height)) {}
 };
 
+/// Motion of these hits between two times.
+inline MotionField motion_between(const Scene& scene, double now, double other, const Image<Hit>& hits,
+                                  OtherFrame which = OtherFrame::next) {
+    const TwoViews views(scene, now, other, hits.width, hits.height);
+    return compute_model_motion(scene, views.now, views.other, hits, which);
+}
+
+inline void expect_same_field(const MotionField& a, const MotionField& b) {
+    EXPECT_EQ(a.displacement, b.displacement);
+    EXPECT_EQ(a.path_length, b.path_length);
+    EXPECT_EQ(a.validity, b.validity);
+}
+
+/// A hit on the first corner of the first triangle, in an image otherwise empty.
+inline Image<Hit> one_hit(int width, int height, int x, int y) {
+    Image<Hit> hits(width, height);
+    hits(x, y) = {.instance = 0, .primitive = 0};
+    return hits;
+}
+
 /// Hits spread over the scene's surfaces, visible or not: motion is exact for any (primitive, u, v).
 inline Image<Hit> make_random_hits(const Scene& scene, const ScenePose& frame, int width, int height) {
     std::mt19937 random(11);
@@ -119,21 +126,11 @@ inline Image<Hit> make_random_hits(const Scene& scene, const ScenePose& frame, i
     return hits;
 }
 
-/// The motion of one hit, at the centre of an image otherwise empty.
 struct PointMotion {
     glm::dvec2 displacement{0.0};
     double path_length = 0.0;
     MotionValidity validity = MotionValidity::valid;
 };
-inline PointMotion point_motion(const Scene& scene, double now, double other, const Hit& hit, int width, int height,
-                                OtherFrame which = OtherFrame::next) {
-    const TwoViews views(scene, now, other, width, height);
-    Image<Hit> hits(width, height);
-    hits(width / 2, height / 2) = hit;
-    const MotionField field = compute_model_motion(scene, views.now, views.other, hits, which);
-    return {field.displacement(width / 2, height / 2), field.path_length(width / 2, height / 2),
-            field.validity(width / 2, height / 2)};
-}
 
 /// Vertical field of view that gives this focal length in pixels.
 inline double fov_of(double focal_length, int height) {
@@ -150,7 +147,8 @@ inline Scene make_point_scene(const glm::vec3& point, double focal_length = 1000
 }
 inline PointMotion motion_of_point(const Scene& scene, double now = 0.0, double other = 1.0,
                                    OtherFrame which = OtherFrame::next) {
-    return point_motion(scene, now, other, {.instance = 0, .primitive = 0}, 1000, 1000, which);
+    const MotionField field = motion_between(scene, now, other, one_hit(1000, 1000, 500, 500), which);
+    return {field.displacement(500, 500), field.path_length(500, 500), field.validity(500, 500)};
 }
 
 }  // namespace aleph

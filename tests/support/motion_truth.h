@@ -2,9 +2,10 @@
 // Reference for motion: each point through the hierarchy in long double, from the keys, without matrices, poses or
 // camera views. Shares no code with engine or motion except the plain structs of the scene.
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/geometric.hpp>
 
 #include "engine/rays/ray_scene.h"
 #include "engine/scene/scene.h"
@@ -13,32 +14,10 @@ namespace aleph {
 
 using Real = long double;
 
-struct RealVector {
-    Real x = 0, y = 0, z = 0;
-};
-inline RealVector operator+(const RealVector& a, const RealVector& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline RealVector operator-(const RealVector& a, const RealVector& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline RealVector operator*(Real s, const RealVector& a) {
-    return {s * a.x, s * a.y, s * a.z};
-}
-inline Real dot(const RealVector& a, const RealVector& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline RealVector cross(const RealVector& a, const RealVector& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+using RealVector = glm::vec<3, Real, glm::defaultp>;
+
 inline RealVector unit(const RealVector& a) {
-    return (1 / std::sqrt(dot(a, a))) * a;
-}
-inline RealVector real(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-inline RealVector real(const glm::vec3& v) {
-    return {v.x, v.y, v.z};
+    return a / std::sqrt(glm::dot(a, a));
 }
 
 /// The keys around a time and the fraction between them. Acyclic samplings only, as the tests author them.
@@ -63,38 +42,35 @@ inline Real real_value(const Track<double>& track, Real seconds) {
 }
 inline RealVector real_value(const Track<glm::dvec3>& track, Real seconds) {
     const RealSpan s = real_span(track, seconds);
-    const RealVector a = real(track.values[s.from]);
-    return a + s.fraction * (real(track.values[s.to]) - a);
+    const RealVector a(track.values[s.from]);
+    return a + s.fraction * (RealVector(track.values[s.to]) - a);
 }
 
 /// Turned by an angle about a unit axis (Rodrigues).
 inline RealVector real_turned(const RealVector& v, const RealVector& axis, Real angle) {
-    return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1 - std::cos(angle)) * dot(axis, v)) * axis;
+    return std::cos(angle) * v + std::sin(angle) * glm::cross(axis, v) +
+           ((1 - std::cos(angle)) * glm::dot(axis, v)) * axis;
 }
 
 /// Quaternion as x, y, z, w.
-using RealQuaternion = std::array<Real, 4>;
+using RealQuaternion = glm::vec<4, Real, glm::defaultp>;
 inline RealQuaternion real_quaternion(const glm::dquat& q) {
-    const Real length = std::sqrt(Real(q.x) * q.x + Real(q.y) * q.y + Real(q.z) * q.z + Real(q.w) * q.w);
-    return {q.x / length, q.y / length, q.z / length, q.w / length};
+    const RealQuaternion real(q.x, q.y, q.z, q.w);
+    return real / std::sqrt(glm::dot(real, real));
 }
 inline RealVector real_turned(const RealVector& v, const RealQuaternion& q) {
-    const RealVector u{q[0], q[1], q[2]};
-    return v + 2 * cross(u, cross(u, v) + q[3] * v);
+    const RealVector u(q);
+    return v + Real(2) * glm::cross(u, glm::cross(u, v) + q[3] * v);
 }
 inline RealVector real_turned(const RealVector& v, const Track<glm::dquat>& track, Real seconds) {
     const RealSpan s = real_span(track, seconds);
     const RealQuaternion a = real_quaternion(track.values[s.from]), b = real_quaternion(track.values[s.to]);
-    Real cosine = 0;
-    for (int i = 0; i < 4; ++i) cosine += a[i] * b[i];
+    const Real cosine = glm::dot(a, b);
     const Real sign = cosine < 0 ? -1 : 1;
     const Real angle = std::acos(std::min<Real>(sign * cosine, 1));
     RealQuaternion q = a;
     if (angle > 1e-9L) {
-        for (int i = 0; i < 4; ++i) {
-            q[i] = (std::sin((1 - s.fraction) * angle) * a[i] + std::sin(s.fraction * angle) * sign * b[i]) /
-                   std::sin(angle);
-        }
+        q = (std::sin((1 - s.fraction) * angle) * a + std::sin(s.fraction * angle) * sign * b) / std::sin(angle);
     }
     return real_turned(v, q);
 }
@@ -102,13 +78,12 @@ inline RealVector real_turned(const RealVector& v, const Track<glm::dquat>& trac
 inline RealVector real_to_parent(const Node& node, const RealVector& p, Real seconds) {
     if (node.transform.matrix) {
         const glm::dmat4& m = node.transform.matrix->values.front();
-        return p.x * real(glm::dvec3(m[0])) + p.y * real(glm::dvec3(m[1])) + p.z * real(glm::dvec3(m[2])) +
-               real(glm::dvec3(m[3]));
+        return p.x * RealVector(m[0]) + p.y * RealVector(m[1]) + p.z * RealVector(m[2]) + RealVector(m[3]);
     }
     const RealVector scale = real_value(node.transform.scale, seconds);
-    const RealVector scaled{scale.x * p.x, scale.y * p.y, scale.z * p.z};
+    const RealVector scaled = scale * p;
     const RealVector turned = node.transform.axis_rotation
-                                  ? real_turned(scaled, unit(real(node.transform.axis_rotation->axis)),
+                                  ? real_turned(scaled, unit(node.transform.axis_rotation->axis),
                                                 real_value(node.transform.axis_rotation->angle, seconds))
                                   : real_turned(scaled, node.transform.rotation, seconds);
     return turned + real_value(node.transform.translation, seconds);
@@ -130,23 +105,23 @@ struct RealPixel {
 inline RealPixel real_project(const Scene& scene, int camera_node, const RealVector& world, Real seconds, int width,
                               int height) {
     const Camera& camera = scene.cameras[scene.nodes[camera_node].camera];
-    const RealVector eye = real_to_world(scene, camera_node, {}, seconds);
+    const RealVector eye = real_to_world(scene, camera_node, RealVector(0), seconds);
     const RealVector forward = unit(real_to_world(scene, camera_node, {0, 0, -1}, seconds) - eye);
     const RealVector up_hint = real_to_world(scene, camera_node, {0, 1, 0}, seconds) - eye;
-    const RealVector up = unit(up_hint - dot(up_hint, forward) * forward);
-    const RealVector right = cross(forward, up);
+    const RealVector up = unit(up_hint - glm::dot(up_hint, forward) * forward);
+    const RealVector right = glm::cross(forward, up);
     const RealVector way = world - eye;
-    const Real depth = dot(way, forward);
+    const Real depth = glm::dot(way, forward);
     const Real scale = camera.orthographic ? height / (2 * real_value(camera.half_height, seconds))
                                            : height / (2 * std::tan(real_value(camera.fov, seconds) / 2)) / depth;
-    return {Real(width) / 2 + dot(way, right) * scale, Real(height) / 2 - dot(way, up) * scale, depth};
+    return {Real(width) / 2 + glm::dot(way, right) * scale, Real(height) / 2 - glm::dot(way, up) * scale, depth};
 }
 
 inline RealVector real_surface_point(const Mesh& mesh, const Hit& hit) {
     const glm::uvec3& triangle = mesh.triangles[hit.primitive];
     const Real u = hit.u, v = hit.v;
-    return (1 - u - v) * real(mesh.positions[triangle.x]) + u * real(mesh.positions[triangle.y]) +
-           v * real(mesh.positions[triangle.z]);
+    return (1 - u - v) * RealVector(mesh.positions[triangle.x]) + u * RealVector(mesh.positions[triangle.y]) +
+           v * RealVector(mesh.positions[triangle.z]);
 }
 
 }  // namespace aleph

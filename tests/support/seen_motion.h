@@ -1,4 +1,8 @@
 #pragma once
+// What a camera sees, and its motion to another moment.
+
+#include <algorithm>
+#include <utility>
 
 #include "motion/model_motion.h"
 #include "tests/support/first_hits.h"
@@ -21,5 +25,30 @@ struct SeenMotion {
     Image<Hit> hits;
     MotionField motion;
 };
+
+/// Motion found against motion expected, pixels.
+struct MotionErrors {
+    std::size_t hits = 0;
+    double worst = 0.0;    ///< largest difference
+    double longest = 0.0;  ///< of the motion expected
+};
+
+/// @param find_ends  from a hit to the pair of its points at both times: world, m
+template <class FindEnds>
+MotionErrors find_motion_errors(const SeenMotion& seen, const FindEnds& find_ends) {
+    const auto project = [](const CameraView& view, const glm::dvec3& point) {
+        return project_camera_point(view, to_camera(view, point));
+    };
+    MotionErrors errors;
+    for (std::size_t i = 0; i < seen.hits.size(); ++i) {
+        if (seen.hits.pixels[i].instance == no_index) continue;
+        const std::pair<glm::dvec3, glm::dvec3> ends = find_ends(seen.hits.pixels[i]);
+        const glm::dvec2 expected = project(seen.other.view, ends.second) - project(seen.now.view, ends.first);
+        ++errors.hits;
+        errors.worst = std::max(errors.worst, glm::length(seen.motion.displacement.pixels[i] - expected));
+        errors.longest = std::max(errors.longest, glm::length(expected));
+    }
+    return errors;
+}
 
 }  // namespace aleph

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/surface/cage_checks.h"
 #include "tests/support/all_pixels.h"
 #include "tests/support/subdivision_reference.h"
 
@@ -16,16 +17,18 @@ struct TestCage {
     std::vector<glm::dvec3> points;
 };
 
+inline void add_face(Cage& cage, const std::vector<int>& points) {
+    cage.faces.sizes.push_back(static_cast<int>(points.size()));
+    cage.faces.points.insert(cage.faces.points.end(), points.begin(), points.end());
+}
+
 inline TestCage make_cage(const std::vector<glm::dvec3>& points, const std::vector<std::vector<int>>& faces,
                           Cage::Scheme scheme = Cage::Scheme::catmull_clark) {
     TestCage result;
     result.cage.name = "test";
     result.cage.scheme = scheme;
     result.points = points;
-    for (const auto& face : faces) {
-        result.cage.faces.sizes.push_back(static_cast<int>(face.size()));
-        result.cage.faces.points.insert(result.cage.faces.points.end(), face.begin(), face.end());
-    }
+    for (const auto& face : faces) add_face(result.cage, face);
     return result;
 }
 
@@ -110,15 +113,9 @@ inline ReferenceMesh make_reference(const TestCage& from) {
         mesh.faces.emplace_back(first, first + size);
         begin += static_cast<std::size_t>(size);
     }
-    begin = 0;
-    for (std::size_t c = 0; c < from.cage.creases.lengths.size(); ++c) {
-        const auto length = static_cast<std::size_t>(from.cage.creases.lengths[c]);
-        for (std::size_t i = begin; i + 1 < begin + length; ++i) {
-            mesh.creases[ReferenceMesh::edge(from.cage.creases.points[i], from.cage.creases.points[i + 1])] =
-                static_cast<double>(from.cage.creases.sharpness[c]);
-        }
-        begin += length;
-    }
+    for_each_crease_edge(from.cage, [&](int a, int b, float sharpness) {
+        mesh.creases[ReferenceMesh::edge(a, b)] = static_cast<double>(sharpness);
+    });
     for (std::size_t c = 0; c < from.cage.corners.points.size(); ++c) {
         mesh.corners[from.cage.corners.points[c]] = static_cast<double>(from.cage.corners.sharpness[c]);
     }

@@ -24,14 +24,8 @@ Scene make_sheet(double distance, double height_of_waves = 0.3) {
     return scene;
 }
 
-int level_of(const Scene& scene, const CageLevelSettings& settings = {}) {
-    return choose_cage_levels(scene, 0, width, height, settings).at(0);
-}
-
-CageLevelSettings with_triangles(std::size_t most) {
-    CageLevelSettings settings;
-    settings.max_triangles = most;
-    return settings;
+int level_of(const Scene& scene, std::size_t max_triangles = 4'000'000) {
+    return choose_cage_levels(scene, 0, width, height, max_triangles).at(0);
 }
 
 /// The fineness of a sheet at a level: its triangles' longest edge, and the largest distance of finer triangles' points
@@ -200,11 +194,11 @@ TEST(CageLevel, StaysWithinTheCagesAndTheScenesLimits) {
     scene.cages[0].max_level = -1;
     EXPECT_EQ(level_of(scene), 0);
     scene.cages[0].max_level = 8;
-    EXPECT_EQ(level_of(scene, with_triangles(36 * 2 * 64)), 3);
-    EXPECT_EQ(level_of(scene, with_triangles(36 * 2 * 64 - 1)), 2);
-    EXPECT_EQ(level_of(scene, with_triangles(1)), 0);
+    EXPECT_EQ(level_of(scene, 36 * 2 * 64), 3);
+    EXPECT_EQ(level_of(scene, 36 * 2 * 64 - 1), 2);
+    EXPECT_EQ(level_of(scene, 1), 0);
     scene.cages[0].level = 1;  // as authored at least
-    EXPECT_EQ(level_of(scene, with_triangles(1)), 1);
+    EXPECT_EQ(level_of(scene, 1), 1);
 }
 
 TEST(CageLevel, CameraInTheSurfaceIsNoHarm) {

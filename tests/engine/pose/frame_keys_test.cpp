@@ -2,20 +2,11 @@
 
 #include "engine/pose/frame_keys.h"
 #include "engine/pose/pose.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-template <class T>
-Track<T> keyed_at(std::vector<double> times, std::vector<T> values, Interpolation interpolation) {
-    Track<T> track;
-    track.sampling.kind = TimeSampling::Kind::acyclic;
-    track.sampling.times = std::move(times);
-    track.values = std::move(values);
-    track.interpolation = interpolation;
-    return track;
-}
 
 Scene make_moving_scene() {
     Scene scene;
@@ -23,32 +14,30 @@ Scene make_moving_scene() {
     scene.film.range = FrameRange{-2, 30};
     Node& flyer = scene.nodes.emplace_back();
     flyer.name = "flyer";
-    flyer.transform.translation = keyed_at<glm::dvec3>(
+    flyer.transform.translation = keyed<glm::dvec3>(
         {0.0, 1.0}, {{0, 0, 0}, {0, 1, 0}, {1, 5, 0}, {1, -5, 0}, {1, 1, 0}, {0, 0, 0}}, Interpolation::cubic);
-    flyer.transform.rotation =
-        keyed_at<glm::dquat>({0.0, 1.0}, {glm::dquat(1, 0, 0, 0), glm::dquat(0, 1, 0, 0)}, Interpolation::linear);
+    flyer.transform.rotation = keyed<glm::dquat>({0.0, 1.0}, {glm::dquat(1, 0, 0, 0), glm::dquat(0, 1, 0, 0)});
     Node& wheel = scene.nodes.emplace_back();
     wheel.name = "wheel";
     wheel.parent = 0;
-    wheel.transform.axis_rotation =
-        AxisRotation{{0, 0.6, 0.8}, keyed_at<double>({0.0, 1.0}, {0.0, 100.0}, Interpolation::linear)};
-    wheel.transform.translation = keyed_at<glm::dvec3>({0.0, 0.7}, {{0, 0, 0}, {3, 0, 0}}, Interpolation::linear);
-    wheel.transform.scale = keyed_at<glm::dvec3>({0.0, 0.5}, {{1, 1, 1}, {2, 1, 1}}, Interpolation::step);
+    wheel.transform.axis_rotation = AxisRotation{{0, 0.6, 0.8}, keyed<double>({0.0, 1.0}, {0.0, 100.0})};
+    wheel.transform.translation = keyed<glm::dvec3>({0.0, 0.7}, {{0, 0, 0}, {3, 0, 0}});
+    wheel.transform.scale = keyed<glm::dvec3>({0.0, 0.5}, {{1, 1, 1}, {2, 1, 1}}, Interpolation::step);
     return scene;
 }
 
 TEST(FrameKeys, TransformsAtFramesStay) {
     const Scene given = make_moving_scene();
-    Scene keyed = given;
-    key_frames(keyed);
-    EXPECT_FALSE(keyed.nodes[1].transform.axis_rotation.has_value());
-    EXPECT_EQ(keyed.nodes[0].transform.rotation.key_count(), 33u);
-    EXPECT_EQ(keyed.nodes[0].transform.translation.interpolation, Interpolation::linear);
-    EXPECT_EQ(keyed.nodes[1].transform.translation, given.nodes[1].transform.translation);
-    EXPECT_EQ(keyed.nodes[1].transform.scale, given.nodes[1].transform.scale);
+    Scene framed = given;
+    key_frames(framed);
+    EXPECT_FALSE(framed.nodes[1].transform.axis_rotation.has_value());
+    EXPECT_EQ(framed.nodes[0].transform.rotation.key_count(), 33u);
+    EXPECT_EQ(framed.nodes[0].transform.translation.interpolation, Interpolation::linear);
+    EXPECT_EQ(framed.nodes[1].transform.translation, given.nodes[1].transform.translation);
+    EXPECT_EQ(framed.nodes[1].transform.scale, given.nodes[1].transform.scale);
     for (std::int64_t frame = -2; frame <= 30; ++frame) {
         const double seconds = given.film.frame_rate.seconds_of(frame);
-        const ScenePose before = pose(given, seconds), after = pose(keyed, seconds);
+        const ScenePose before = pose(given, seconds), after = pose(framed, seconds);
         for (int node = 0; node < 2; ++node) {
             for (int i = 0; i < 16; ++i)
                 EXPECT_NEAR(after.world[node][i / 4][i % 4], before.world[node][i / 4][i % 4], 1e-13) << frame;

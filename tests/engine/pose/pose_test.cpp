@@ -111,41 +111,29 @@ TEST(Pose, CamerasAreOrthonormalWhateverTheScale) {
 }
 
 TEST(Pose, MaterialsStayInRangeWhereCubicKeysOvershoot) {
-    Scene scene;
-    Material material{
-        .glow = {.color = glm::dvec3(1.0, 2.0, 3.0), .strength = 4.0},
-        .gloss = {.roughness = keyed<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic)}};
-    scene.materials = {material};
-    scene.environment.radiance = Track<glm::dvec3>(keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(2.0)}));
-    const ScenePose frame = pose(scene, 0.5);
-    EXPECT_EQ(frame.materials[0].gloss.roughness, 1.0f);  // the curve is at 3.25
-    EXPECT_EQ(frame.materials[0].emission, Rgb(4.0f, 8.0f, 12.0f));
-    EXPECT_EQ(frame.materials[0].gloss.ior, 1.5f);
-    EXPECT_EQ(frame.environment, Rgb(1.0f));
-    EXPECT_EQ(frame.seconds, 0.5);
-}
-
-TEST(Pose, VolumesCoatsSheenAndAnisotropyStayInRange) {
     const auto overshoot = keyed<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic);
     const auto below = keyed<double>({0.0, 1.0}, {0.0, 0.0, -9.0, 9.0, 0.0, 0.0}, Interpolation::cubic);
     Scene scene;
-    Material material;
+    Material material{.glow = {.color = glm::dvec3(1.0, 2.0, 3.0), .strength = 4.0}};
     material.glass.thickness = material.glass.attenuation_distance = below;
-    material.layers.clearcoat = material.layers.clearcoat_roughness = material.layers.sheen_roughness =
-        material.layers.anisotropy = overshoot;
+    material.gloss.roughness = material.layers.clearcoat = material.layers.clearcoat_roughness =
+        material.layers.sheen_roughness = material.layers.anisotropy = overshoot;
     material.layers.anisotropy_rotation = below;
     material.glass.attenuation_color = material.layers.sheen_color = keyed<glm::dvec3>(
         {0.0, 1.0}, {{0, 0, 0}, {1, 0, 0.5}, {9, -9, 0}, {-9, 9, 0}, {1, 0, 0.5}, {0, 0, 0}}, Interpolation::cubic);
     scene.materials = {material};
-    const MaterialValues half = pose(scene, 0.5).materials[0];  // the curves are at 3.25, -2.25 and (3.25, -2.25, 0.5)
-    EXPECT_EQ(half.glass.thickness, 0.0f);
-    EXPECT_EQ(half.glass.attenuation_distance, 0.0f);
+    const auto [color, alpha, emission, gloss, glass, layers] = pose(scene, 0.5).materials[0];
+    // The curves are at 3.25, -2.25 and (3.25, -2.25, 0.5).
     for (const float value :
-         {half.layers.clearcoat, half.layers.clearcoat_roughness, half.layers.sheen_roughness, half.layers.anisotropy})
+         {gloss.roughness, layers.clearcoat, layers.clearcoat_roughness, layers.sheen_roughness, layers.anisotropy})
         EXPECT_EQ(value, 1.0f);
-    EXPECT_EQ(half.glass.attenuation_color, Rgb(1.0f, 0.0f, 0.5f));
-    EXPECT_EQ(half.layers.sheen_color, Rgb(1.0f, 0.0f, 0.5f));
-    EXPECT_EQ(half.layers.anisotropy_rotation, -2.25f);
+    EXPECT_EQ(glass.thickness, 0.0f);
+    EXPECT_EQ(glass.attenuation_distance, 0.0f);
+    EXPECT_EQ(glass.attenuation_color, Rgb(1.0f, 0.0f, 0.5f));
+    EXPECT_EQ(layers.sheen_color, Rgb(1.0f, 0.0f, 0.5f));
+    EXPECT_EQ(layers.anisotropy_rotation, -2.25f);
+    EXPECT_EQ(emission, Rgb(4.0f, 8.0f, 12.0f));
+    EXPECT_EQ(gloss.ior, 1.5f);
 }
 
 TEST(Pose, TheEnvironmentTurnsByQuaternionsOrAboutAnAxis) {
@@ -238,24 +226,21 @@ TEST(IsWorldAnimated, CamerasDoNotCount) {
     scene.cameras[0].fov = keyed<double>({0.0, 1.0}, {1.0, 2.0});
     EXPECT_FALSE(is_world_animated(scene));
 
-    Scene other = scene;
-    other.nodes[3].light = 0;  // a lamp on the rig
-    EXPECT_TRUE(is_world_animated(other));
-    other = scene;
-    other.nodes[0].transform.translation = moving;
-    EXPECT_TRUE(is_world_animated(other));
-    other.nodes[0].transform.matrix = glm::dmat4(1.0);  // which replaces the translation
-    EXPECT_FALSE(is_world_animated(other));
-    other = scene;
-    other.nodes[1].visible = keyed<double>({0.0, 1.0}, {1.0, 0.0});
-    EXPECT_TRUE(is_world_animated(other));
-    other = scene;
-    other.materials.resize(1);
-    other.materials[0].glow.strength = keyed<double>({0.0, 1.0}, {1.0, 0.0});
-    EXPECT_TRUE(is_world_animated(other));
-    other = scene;
-    other.environment.radiance = moving;
-    EXPECT_TRUE(is_world_animated(other));
+    const auto animated_with = [&](const std::function<void(Scene&)>& change) {
+        Scene other = scene;
+        change(other);
+        return is_world_animated(other);
+    };
+    const auto fading = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    EXPECT_TRUE(animated_with([](Scene& s) { s.nodes[3].light = 0; })) << "a lamp on the rig";
+    EXPECT_TRUE(animated_with([&](Scene& s) { s.nodes[0].transform.translation = moving; }));
+    EXPECT_TRUE(animated_with([&](Scene& s) { s.nodes[1].visible = fading; }));
+    EXPECT_TRUE(animated_with([&](Scene& s) { s.materials.emplace_back().glow.strength = fading; }));
+    EXPECT_TRUE(animated_with([&](Scene& s) { s.environment.radiance = moving; }));
+    EXPECT_FALSE(animated_with([&](Scene& s) {
+        s.nodes[0].transform.translation = moving;
+        s.nodes[0].transform.matrix = glm::dmat4(1.0);
+    })) << "which replaces the translation";
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // Broken elements of scene files: materials, cameras, lights, nodes, keys, shapes.
 
-#include "tests/engine/scene_file/bad_scene_file.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {
@@ -205,9 +204,6 @@ TEST(BadSceneFile, KF10_KF11_KeyTimes) {
 }
 
 TEST(BadSceneFile, Shapes) {
-    const auto shape = [](const std::string& body, const std::string& place, const std::string& word) {
-        return node("\"shape\": {" + body + "}", "/shape" + place, word);
-    };
     expect_all_refused({
         shape("\"radius\": 1", "", "\"type\" is missing"),
         shape("\"type\": \"tours\"", "/type", "\"torus\""),

@@ -1,6 +1,7 @@
 // Hostile scene files. Randomly damaged ones are refused with an InputError or read, and what was read can be saved;
 // the largest that are parsed stay within the limits of load_cost.h.
 
+#include <cctype>
 #include <cstdio>
 
 #include "engine/json/memory.h"
@@ -15,10 +16,14 @@ const std::string whole_file = R"({"aleph": 1, "name": "n", "fps": "30000/1001",
   "viewing": {"pixels_per_degree": 31, "display_white": 100, "persistence": 0.5}, "exposure": 0.5, "camera": "eye",
   "environment": {"keys": [[0, [0, 0, 0]], [12, [1, 1, 1]]], "interpolation": "step"},
   "environment_image": "felt", "environment_rotation": {"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [30, 720]]}},
-  "images": {"felt": "felt.png"}, "settings": {"accuracy": 0.1, "gather": 512, "guide": "full", "size": "64x48"},
-  "materials": {"felt": {"base_color": [0.1, 0.5, 0.1], "base_color_texture": {"image": "felt", "wrap": ["clamp", "mirror"]}},
+  "images": {"felt": "felt.png"}, "settings": {"accuracy": 0.1, "gather": 512, "guide": "full", "size": "64x48",
+    "adapter_k": 1, "min_radius_pixels": 1},
+  "materials": {"felt": {"base_color": [0.1, 0.5, 0.1], "alpha": 1, "metallic": 1, "roughness": 1, "specular": 1,
+      "specular_color": [1, 1, 1], "ior": 1.5, "base_color_texture": {"image": "felt", "wrap": ["clamp", "mirror"],
+      "offset": [1, 0], "scale": [1, 2], "rotation": 3}},
     "glass": {"transmission": 1, "thickness": 0.5, "attenuation_distance": 2, "attenuation_color": [1, 0, 1], "anisotropy_rotation": 30,
-      "clearcoat": 1, "sheen_color": [0.5, 0, 0], "normal_texture": "felt", "normal_scale": 0.5},
+      "clearcoat": 1, "clearcoat_roughness": 1, "clearcoat_normal_scale": 1, "sheen_color": [0.5, 0, 0], "sheen_roughness": 1,
+      "anisotropy": 1, "normal_texture": "felt", "normal_scale": 0.5},
     "lamp": {"emission": [1, 1, 1], "emission_strength": {"values": [1, 2, 3], "start": 4, "period": 0.5}}},
   "meshes": {"ball": {"shape": {"type": "sphere", "radius": 0.5, "segments": 8}, "material": "felt"},
     "flag": {"shape": {"type": "mesh", "points": "cloth", "vertex_points": [0, 1, 2, 0], "triangles": [[0, 1, 2], [3, 1, 2]],
@@ -27,12 +32,13 @@ const std::string whole_file = R"({"aleph": 1, "name": "n", "fps": "30000/1001",
   "cages": {"tent": {"positions": [[0,0,0], [1,0,0], [1,1,0], [0,1,0], [0,0,2]], "faces": [[0,1,2,3], [0,3,4], [1,0,4]], "level": 1,
     "max_level": 2, "creases": [{"points": [0, 3], "sharpness": 2}], "corners": [{"point": 4, "sharpness": 10}], "holes": [2],
     "uv": [0,0, 1,0], "face_uv": [[0,1,1,0], [0,1,0], [1,1,1]], "parts": [0, 1, 0]}},
-  "lights": {"key": {"type": "spot", "intensity": 40, "range": 9, "inner_cone": 10, "outer_cone": 20}}, "cameras": {"eye": {"fov": 45, "shutter": [0, 0.5]}},
-  "nodes": [{"name": "table", "shape": {"type": "box", "size": [1, 2, 3]}, "material": "lamp", "children": [
+  "lights": {"key": {"type": "spot", "color": [1, 1, 1], "intensity": 40, "range": 9, "inner_cone": 10, "outer_cone": 20}},
+  "cameras": {"eye": {"fov": 45, "near": 1, "aperture": 1, "focus": 1, "shutter": [0, 0.5]}},
+  "nodes": [{"name": "table", "shape": {"type": "box", "size": [1, 2, 3], "uv_scale": [1, 1]}, "material": "lamp", "children": [
       {"name": "b1", "mesh": "ball", "translation": {"keys": [[0, [0, 0, 0]], [5, [1, 0, 0]]], "unit": "seconds"}},
       {"rotation": {"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [30, 720]]}}, "scale": 2, "visible": false}]},
     {"name": "b2", "instance": "b1", "parent": "table", "rotation": [0, 0, 0, 1], "include": "a.glb"},
-    {"name": "c", "camera": "eye", "light": "key", "matrix": [1,0,0,4, 0,1,0,5, 0,0,1,6, 0,0,0,1]},
+    {"name": "c", "camera": "eye", "light": "key", "shape": {"type": "cylinder", "height": 1}, "matrix": [1,0,0,4, 0,1,0,5, 0,0,1,6, 0,0,0,1]},
     {"shape": {"type": "cage", "cage": "tent", "part": 1}, "instance": "b1"}, {"mesh": "flag", "inherits": false, "visible": "always"},
     {"shape": {"type": "torus", "radius": 0.5, "tube_radius": 0.25, "segments": 6}, "operations": [{"translate": [1, 2, 3]},
       {"rotate_y": {"keys": [[0, 0], [30, 360]]}}, {"rotate": {"axis": [0, 1, 0], "degrees": 45}}]},
@@ -55,29 +61,29 @@ class Damage {
             text[digit] = static_cast<char>('0' + below(10));
             return text;
         }
-        const std::size_t times = 1 + below(3);
-        for (std::size_t i = 0; i < times; ++i) {
-            const std::size_t at = below(text.size()), length = 1 + below(12);
+        for (std::size_t times = 1 + below(3); times > 0; --times) {
+            std::size_t at = below(text.size()), removed = 1 + below(12);
+            std::string added;
             switch (below(5)) {
                 case 0:
-                    text[at] = static_cast<char>(below(256));
+                    added = static_cast<char>(below(256));
+                    removed = 1;
                     break;
                 case 1:
-                    text.erase(at, length);
                     break;
                 case 2:
-                    text.insert(at, text.substr(below(text.size()), length));
+                    added = text.substr(below(text.size()), std::exchange(removed, 0));
                     break;
                 case 3:
-                    text.insert(at, pieces_[below(pieces_.size())]);
+                    added = pieces_[below(pieces_.size())];
+                    removed = 0;
                     break;
-                default: {  // a number becomes another
-                    const std::size_t digit = text.find_first_of("0123456789", at);
-                    if (digit != std::string::npos) {
-                        text.replace(digit, 1, pieces_[below(pieces_.size())]);
-                    }
-                }
+                default:  // a number becomes another
+                    added = pieces_[below(pieces_.size())];
+                    at = text.find_first_of("0123456789", at);
+                    removed = 1;
             }
+            if (at < text.size()) text.replace(at, removed, added);
         }
         return text;
     }
@@ -124,6 +130,26 @@ void expect_read_or_refused(const std::string& whole, int times) {
 TEST(DamagedSceneFile, IsReadOrRefusedAndWhatIsReadCanBeSaved) {
     expect_read_or_refused(whole_file, 2000);
     expect_read_or_refused(guided_file, 400);
+}
+
+/// Values that are not finite numbers up to 1e18, in every place for a number.
+TEST(DamagedSceneFile, InfinityAnywhereIsRefused) {
+    int places = 0;
+    bool in_text = false;
+    for (std::size_t at = 0; at < whole_file.size(); ++at) {
+        if (whole_file[at] == '"') in_text = !in_text;
+        if (in_text || std::isdigit(whole_file[at]) == 0) continue;
+        const std::size_t end = whole_file.find_first_not_of("0123456789.", at);
+        for (const char* bad : {"1e999", "-1e999", "1e19", "-1e19", "NaN", "\"0\""}) {
+            const std::string text = std::string(whole_file).replace(at, end - at, bad);
+            const Refusal found = find_refusal([&] { read_scene_text(text, "broken.json"); });
+            EXPECT_EQ(found.file, "broken.json") << bad << " at " << whole_file.substr(at > 30 ? at - 30 : 0, 40);
+            EXPECT_FALSE(found.place.empty());
+        }
+        ++places;
+        at = end - 1;
+    }
+    EXPECT_GT(places, 250);
 }
 
 TEST(DamagedSceneFile, EveryBeginningOfAFileIsRefused) {

@@ -1,10 +1,7 @@
 // Easing words of "interpolation": their values, and that no component leaves the interval between two keys.
 
 #include "engine/scene/transforms.h"
-#include "tests/engine/scene_file/bad_scene_file.h"
-#include "tests/engine/scene_file/short_text.h"
-#include "tests/engine/scene_file/written_again.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {

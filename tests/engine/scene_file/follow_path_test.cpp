@@ -2,9 +2,7 @@
 
 #include "engine/scene_file/path_curve.h"
 #include "tests/engine/scene_file/guided_poses.h"
-#include "tests/engine/scene_file/short_text.h"
-#include "tests/engine/scene_file/written_again.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {
@@ -108,7 +106,7 @@ TEST(FollowPath, ConstantSpeedAroundACircle) {
         fastest = std::max(fastest, speed);
         const PathCurve::Place exact = curve.at(curve.length() * frame / 96.0);
         expect_near(here, exact.position, part % 8 == 0 ? 1e-13 : 1.01e-7 * curve.length());
-        const glm::dvec3 view = view_of(world_at(scene, "car", frame_seconds(scene, frame)));
+        const glm::dvec3 view = view_at(scene, "car", frame);
         expect_near(view, exact.direction, part % 8 == 0 ? 1e-12 : 1.01e-6);
         EXPECT_NEAR(world_at(scene, "car", frame_seconds(scene, frame))[1].y, 1.0, 1e-12);
     }
@@ -154,7 +152,7 @@ TEST(FollowPath, ACameraOnAPathLooksAtAnotherNodeOnAPath) {
         EXPECT_LT(miss_angle(scene, "eye", "car", frame_seconds(scene, part / 4.0)), part % 4 == 0 ? 1e-13 : 1.1e-6);
     }
     // The way of the points, also for a car that moves backwards.
-    expect_near(view_of(world_at(scene, "car", 0.0)), glm::normalize(glm::dvec3(2, 0, 1)), 1e-12);
+    expect_near(view_at(scene, "car", 0.0), glm::normalize(glm::dvec3(2, 0, 1)), 1e-12);
 }
 
 TEST(FollowPath, StandsStillWhereAtIsConstant) {

@@ -27,6 +27,10 @@ inline glm::dvec3 view_of(const glm::dmat4& world) {
     return -glm::normalize(glm::dvec3(world[2]));
 }
 
+inline glm::dvec3 view_at(const Scene& scene, const std::string& name, double frame) {
+    return view_of(world_at(scene, name, frame_seconds(scene, frame)));
+}
+
 /// The angle between the node's -z and the way to the target, rad.
 inline double miss_angle(const Scene& scene, const std::string& name, const std::string& target, double seconds) {
     const ScenePose posed = pose(scene, seconds);

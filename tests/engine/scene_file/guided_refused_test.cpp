@@ -1,8 +1,7 @@
 // Scene files whose "look_at" or "follow_path" cannot be: keys that exclude each other, cycles, no direction, and more
 // work or memory than the limits.
 
-#include "tests/engine/scene_file/bad_scene_file.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {

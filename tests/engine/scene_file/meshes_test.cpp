@@ -1,9 +1,7 @@
 // Meshes, points over time and subdivision cages in scene files: the meaning of the keys, and what is refused.
 
 #include "engine/pose/pose.h"
-#include "tests/engine/scene_file/short_text.h"
-#include "tests/engine/scene_file/written_again.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {
@@ -126,84 +124,75 @@ TEST(SceneJsonMeshes, CageWarningsStayWithTheScene) {
     EXPECT_EQ(again(scene), scene);
 }
 
-struct BadShape {
-    std::string shape, place, word;
-};
-
 TEST(SceneJsonMeshes, WhatDoesNotFitTogetherIsRefusedAtItsPlace) {
     const std::string tri = "\"positions\": [0,0,0, 1,0,0, 0,1,0], \"triangles\": [0,1,2]";
     const std::string faces = "\"positions\": [0,0,0, 1,0,0, 1,1,0, 0,1,0], \"faces\": [[0,1,2,3]]";
-    const auto mesh = [](const std::string& body) { return "\"type\": \"mesh\", " + body; };
-    const auto cage = [](const std::string& body) { return "\"type\": \"cage\", \"cage\": {" + body + "}"; };
-    const std::vector<BadShape> bad = {
-        {mesh("\"triangles\": [0,1,2]"), "", "needs \"positions\""},
-        {mesh("\"positions\": [0,0,0]"), "", "\"triangles\" is missing"},
-        {mesh("\"positions\": [0,0], \"triangles\": []"), "/positions", "groups of 3"},
-        {mesh("\"positions\": [[0,0,0], [1,1]], \"triangles\": []"), "/positions/1", "expected 3 numbers, found 2"},
-        {mesh("\"positions\": [[0,0,0], 1], \"triangles\": []"), "/positions/1", "array"},
-        {mesh("\"positions\": [0,0,\"x\"], \"triangles\": []"), "/positions/2", "number"},
-        {mesh("\"positions\": [0,0,1e19], \"triangles\": []"), "/positions/2", "1e+18"},
-        {mesh("\"positions\": [0,0,0], \"triangles\": [0,0,1]"), "/triangles/2", "no vertex 1"},
-        {mesh("\"positions\": [0,0,0], \"triangles\": [0,0,-1]"), "/triangles/2", "must lie within"},
-        {mesh("\"positions\": [0,0,0], \"triangles\": [0,0,0.5]"), "/triangles/2", "integer"},
-        {mesh(tri + ", \"normals\": [0,0,1]"), "/normals", "1 normals for 3 vertices"},
-        {mesh(tri + ", \"uv\": [0,0]"), "/uv", "texture coordinates"},
-        {mesh(tri + ", \"colors\": [0,0,0,1]"), "/colors", "colors"},
-        {mesh(tri + ", \"vertex_points\": [0]"), "/vertex_points", "goes with"},
-        {mesh(tri + ", \"normals\": {\"values\": [[0,0,1, 0,0,1, 0,0,1]]}"), "/normals", "over time"},
-        {mesh(tri + ", \"points\": \"cloth\""), "/points", "no list of points called"},
-        {mesh(tri + ", \"radius\": 1"), "/radius", "a mesh has no \"radius\""},
-        {mesh("\"positions\": {\"keys\": [[0, [0,0,0]], [1, [0,0,0, 1,1,1]]]}, \"triangles\": []"),
-         "/positions/keys/1/1", "number cannot change"},
-        {mesh("\"positions\": {\"keys\": [[0, [0,0,0]], [0, [0,0,0]]]}, \"triangles\": []"), "/positions/keys/1/0",
-         "ascend"},
-        {mesh("\"positions\": {\"values\": [[]]}, \"triangles\": []"), "/positions", "no points"},
-        {mesh("\"positions\": {\"values\": [[0,0,0]], \"velocities\": []}, \"triangles\": []"), "/positions/velocities",
-         "one for each"},
-        {mesh("\"positions\": {\"values\": [[0,0,0]], \"interpolation\": \"cubic\"}, \"triangles\": []"),
-         "/positions/interpolation", "unknown key"},
-        {cage(faces + ", \"level\": 11"), "/cage/level", "from 0 to 10"},
-        {cage(faces + ", \"level\": 7"), "/cage", "\"max_level\" (6) is below"},
-        {cage("\"positions\": [0,0,0, 1,0,0, 1,1,0], \"faces\": [[0,1,3]]"), "/cage/faces/0/2", "no point 3"},
-        {cage("\"positions\": [0,0,0, 1,0,0, 1,1,0], \"faces\": [[0,1]]"), "/cage/faces/0", "at least 3"},
-        {cage("\"positions\": [0,0,0, 1,0,0, 1,1,0], \"faces\": [[0,1,1]]"), "/cage", "twice"},
-        {cage("\"faces\": [[0,1,2]]"), "/cage", "either \"positions\" or \"points\""},
-        {cage("\"positions\": [0,0,0]"), "/cage", "\"faces\" is missing"},
-        {cage(faces + ", \"scheme\": \"loop\""), "/cage", "triangles only"},
-        {cage(faces + ", \"scheme\": \"catmark\""), "/cage/scheme", "\"catmull_clark\""},
-        {cage(faces + ", \"holes\": [1]"), "/cage/holes/0", "no face 1"},
-        {cage(faces + ", \"parts\": [0, 0]"), "/cage/parts", "2 numbers for 1 faces"},
-        {cage(faces + ", \"creases\": [{\"points\": [0, 1]}]"), "/cage/creases/0", "\"sharpness\" is missing"},
-        {cage(faces + ", \"creases\": [{\"points\": [0, 9], \"sharpness\": 1}]"), "/cage/creases/0/points/1",
-         "no point 9"},
-        {cage(faces + ", \"creases\": [{\"points\": [0, 1], \"sharpness\": -1}]"), "/cage/creases/0/sharpness",
-         "at least 0"},
-        {cage(faces + ", \"corners\": [{\"point\": 4, \"sharpness\": 1}]"), "/cage/corners/0/point", "no point 4"},
-        {cage(faces + ", \"uv\": [0,0]"), "/cage/uv", "\"face_uv\""},
-        {cage(faces + ", \"face_uv\": [[0,0,0,0]]"), "/cage/face_uv", "missing"},
-        {cage(faces + ", \"uv\": [0,0], \"face_uv\": [[0,0,0]]"), "/cage/face_uv/0", "face of 4"},
-        {cage(faces + ", \"uv\": [0,0], \"face_uv\": [[0,0,0,1]]"), "/cage/face_uv/0/3", "no texture coordinate 1"},
-        {"\"type\": \"cage\", \"cage\": \"couch\"", "/cage", "no cage called"},
-        {"\"type\": \"cage\"", "", "\"cage\" is missing"},
-        {cage(faces) + ", \"part\": 1", "/part", "must lie within"},
+    const auto mesh = [](const std::string& body, const char* place, const char* word) {
+        return shape("\"type\": \"mesh\", " + body, place, word);
     };
-    for (const BadShape& refused : bad) {
-        const Refusal found = find_refusal([&] { read(", \"nodes\": [{\"shape\": {" + refused.shape + "}}]"); });
-        EXPECT_EQ(found.place, "/nodes/0/shape" + refused.place) << found.message << "\n  in " << refused.shape;
-        EXPECT_NE(found.reason.find(refused.word), std::string::npos) << found.message << "\n  no " << refused.word;
-    }
+    const auto cage = [](const std::string& body, const char* place, const char* word) {
+        return shape("\"type\": \"cage\", \"cage\": {" + body + "}", place, word);
+    };
+    expect_all_refused({
+        mesh("\"triangles\": [0,1,2]", "", "needs \"positions\""),
+        mesh("\"positions\": [0,0,0]", "", "\"triangles\" is missing"),
+        mesh("\"positions\": [0,0], \"triangles\": []", "/positions", "groups of 3"),
+        mesh("\"positions\": [[0,0,0], [1,1]], \"triangles\": []", "/positions/1", "expected 3 numbers, found 2"),
+        mesh("\"positions\": [[0,0,0], 1], \"triangles\": []", "/positions/1", "array"),
+        mesh("\"positions\": [0,0,\"x\"], \"triangles\": []", "/positions/2", "number"),
+        mesh("\"positions\": [0,0,1e19], \"triangles\": []", "/positions/2", "1e+18"),
+        mesh("\"positions\": [0,0,0], \"triangles\": [0,0,1]", "/triangles/2", "no vertex 1"),
+        mesh("\"positions\": [0,0,0], \"triangles\": [0,0,-1]", "/triangles/2", "must lie within"),
+        mesh("\"positions\": [0,0,0], \"triangles\": [0,0,0.5]", "/triangles/2", "integer"),
+        mesh(tri + ", \"normals\": [0,0,1]", "/normals", "1 normals for 3 vertices"),
+        mesh(tri + ", \"uv\": [0,0]", "/uv", "texture coordinates"),
+        mesh(tri + ", \"colors\": [0,0,0,1]", "/colors", "colors"),
+        mesh(tri + ", \"vertex_points\": [0]", "/vertex_points", "goes with"),
+        mesh(tri + ", \"normals\": {\"values\": [[0,0,1, 0,0,1, 0,0,1]]}", "/normals", "over time"),
+        mesh(tri + ", \"points\": \"cloth\"", "/points", "no list of points called"),
+        mesh(tri + ", \"radius\": 1", "/radius", "a mesh has no \"radius\""),
+        mesh("\"positions\": {\"keys\": [[0, [0,0,0]], [1, [0,0,0, 1,1,1]]]}, \"triangles\": []", "/positions/keys/1/1",
+             "number cannot change"),
+        mesh("\"positions\": {\"keys\": [[0, [0,0,0]], [0, [0,0,0]]]}, \"triangles\": []", "/positions/keys/1/0",
+             "ascend"),
+        mesh("\"positions\": {\"values\": [[]]}, \"triangles\": []", "/positions", "no points"),
+        mesh("\"positions\": {\"values\": [[0,0,0]], \"velocities\": []}, \"triangles\": []", "/positions/velocities",
+             "one for each"),
+        mesh("\"positions\": {\"values\": [[0,0,0]], \"interpolation\": \"cubic\"}, \"triangles\": []",
+             "/positions/interpolation", "unknown key"),
+        cage(faces + ", \"level\": 11", "/cage/level", "from 0 to 10"),
+        cage(faces + ", \"level\": 7", "/cage", "\"max_level\" (6) is below"),
+        cage("\"positions\": [0,0,0, 1,0,0, 1,1,0], \"faces\": [[0,1,3]]", "/cage/faces/0/2", "no point 3"),
+        cage("\"positions\": [0,0,0, 1,0,0, 1,1,0], \"faces\": [[0,1]]", "/cage/faces/0", "at least 3"),
+        cage("\"positions\": [0,0,0, 1,0,0, 1,1,0], \"faces\": [[0,1,1]]", "/cage", "twice"),
+        cage("\"faces\": [[0,1,2]]", "/cage", "either \"positions\" or \"points\""),
+        cage("\"positions\": [0,0,0]", "/cage", "\"faces\" is missing"),
+        cage(faces + ", \"scheme\": \"loop\"", "/cage", "triangles only"),
+        cage(faces + ", \"scheme\": \"catmark\"", "/cage/scheme", "\"catmull_clark\""),
+        cage(faces + ", \"holes\": [1]", "/cage/holes/0", "no face 1"),
+        cage(faces + ", \"parts\": [0, 0]", "/cage/parts", "2 numbers for 1 faces"),
+        cage(faces + ", \"creases\": [{\"points\": [0, 1]}]", "/cage/creases/0", "\"sharpness\" is missing"),
+        cage(faces + ", \"creases\": [{\"points\": [0, 9], \"sharpness\": 1}]", "/cage/creases/0/points/1",
+             "no point 9"),
+        cage(faces + ", \"creases\": [{\"points\": [0, 1], \"sharpness\": -1}]", "/cage/creases/0/sharpness",
+             "at least 0"),
+        cage(faces + ", \"corners\": [{\"point\": 4, \"sharpness\": 1}]", "/cage/corners/0/point", "no point 4"),
+        cage(faces + ", \"uv\": [0,0]", "/cage/uv", "\"face_uv\""),
+        cage(faces + ", \"face_uv\": [[0,0,0,0]]", "/cage/face_uv", "missing"),
+        cage(faces + ", \"uv\": [0,0], \"face_uv\": [[0,0,0]]", "/cage/face_uv/0", "face of 4"),
+        cage(faces + ", \"uv\": [0,0], \"face_uv\": [[0,0,0,1]]", "/cage/face_uv/0/3", "no texture coordinate 1"),
+        shape("\"type\": \"cage\", \"cage\": \"couch\"", "/cage", "no cage called"),
+        shape("\"type\": \"cage\"", "", "\"cage\" is missing"),
+        shape("\"type\": \"cage\", \"part\": 1, \"cage\": {" + faces + "}", "/part", "must lie within"),
+    });
 }
 
 TEST(SceneJsonMeshes, TooManyTrianglesOfACageAreRefusedBeforeTheyAreMade) {
     std::string faces = "[0,1,2,3]";
     for (int i = 0; i < 20; ++i) faces += ", [0,1,2,3]";
-    const Refusal found = find_refusal([&] {
-        read(
-            R"(, "nodes": [{"shape": {"type": "cage", "cage": {"positions": [0,0,0, 1,0,0, 1,1,0, 0,1,0], "faces": [)" +
-            faces + R"(], "level": 10, "max_level": 10}}}])");
-    });
-    EXPECT_EQ(found.place, "/nodes/0/shape");
-    EXPECT_NE(found.reason.find("lower the cage's \"level\""), std::string::npos) << found.message;
+    expect_refused(shape(R"("type": "cage", "cage": {"positions": [0,0,0, 1,0,0, 1,1,0, 0,1,0], "faces": [)" + faces +
+                             R"(], "level": 10, "max_level": 10})",
+                         "", "lower the cage's \"level\""));
 }
 
 }  // namespace

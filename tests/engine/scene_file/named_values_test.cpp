@@ -1,9 +1,6 @@
 // Named values: where they may stand, and files that misuse them.
 
-#include "tests/engine/scene_file/bad_scene_file.h"
-#include "tests/engine/scene_file/short_text.h"
-#include "tests/engine/scene_file/written_again.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {

@@ -2,9 +2,7 @@
 
 #include "engine/pose/pose.h"
 #include "engine/surface/shapes.h"
-#include "tests/engine/scene_file/short_text.h"
-#include "tests/engine/scene_file/written_again.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {

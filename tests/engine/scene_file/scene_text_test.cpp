@@ -3,9 +3,7 @@
 #include "engine/scene_file/scene_text.h"
 #include "engine/pose/pose.h"
 #include "engine/scene_file/tracks.h"
-#include "tests/engine/scene_file/short_text.h"
-#include "tests/engine/scene_file/written_again.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {
@@ -149,14 +147,12 @@ TEST(SceneJson, CamerasTakeTurns) {
     EXPECT_EQ(read_keys(R"([[-2, "wide"], [40, "close"]])").film.camera_keys,
               (std::vector<CameraKey>{{-2, "wide"}, {40, "close"}}));
     EXPECT_EQ(frame_range(read_keys(R"([[-2, "wide"], [40, "close"]])")), (FrameRange{-2, 40}));
-    for (const auto& [keys, message] : std::vector<std::pair<const char*, const char*>>{
-             {R"([[0, "a"], [0, "b"]])", "/camera/keys/1: key times have to ascend"},
-             {R"([[0.5, "a"]])", "/camera"},
-             {"[]", "/camera"},
-             {R"([[0, "a", 1]])", "/camera"}}) {
-        const Refusal found = find_refusal([&] { read_keys(keys); });
-        EXPECT_NE(found.message.find(message), std::string::npos) << keys << ": " << found.message;
-    }
+    expect_all_refused({
+        scene(R"("camera": {"keys": [[0, "a"], [0, "b"]]})", "/camera/keys/1", "key times have to ascend"),
+        scene(R"("camera": {"keys": [[0.5, "a"]]})", "/camera", "a name"),
+        scene(R"("camera": {"keys": []})", "/camera", "a name"),
+        scene(R"("camera": {"keys": [[0, "a", 1]]})", "/camera", "a name"),
+    });
 }
 
 }  // namespace

@@ -3,9 +3,7 @@
 #include "engine/pose/pose.h"
 #include "engine/scene_file/fields.h"
 #include "engine/scene_file/tracks.h"
-#include "tests/engine/scene_file/short_text.h"
-#include "tests/engine/scene_file/written_again.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {
@@ -36,20 +34,6 @@ TEST(SceneJsonSurfaces, EveryNumberOfAMaterial) {
         Track<double>(0.1));
 }
 
-TEST(SceneJsonSurfaces, WhatIsNotGivenChangesNothing) {
-    const Material m = read(R"(, "materials": {"m": {}})").materials[0];
-    const auto& [clearcoat, clearcoat_roughness, sheen_color, sheen_roughness, anisotropy, anisotropy_rotation] =
-        m.layers;
-    for (const auto* number : {&m.glass.thickness, &m.glass.attenuation_distance, &clearcoat, &clearcoat_roughness,
-                               &sheen_roughness, &anisotropy, &anisotropy_rotation})
-        EXPECT_EQ(*number, Track<double>(0.0));
-    EXPECT_EQ(m.glass.attenuation_color, Track<glm::dvec3>(glm::dvec3(1.0)));
-    EXPECT_EQ(m.layers.sheen_color, Track<glm::dvec3>(glm::dvec3(0.0)));
-    EXPECT_EQ(m.textures.normal_scale, 1.0);
-    EXPECT_EQ(m.textures.clearcoat_normal_scale, 1.0);
-    EXPECT_EQ(read("").film.viewing.persistence, 1.0);
-}
-
 TEST(SceneJsonSurfaces, EveryTextureHasItsOwnKey) {
     const Scene scene = read(R"(, "materials": {"m": {"normal_texture": "0.png", "thickness_texture": "1.png",
         "clearcoat_texture": "2.png", "clearcoat_roughness_texture": "3.png", "clearcoat_normal_texture": "4.png",
@@ -57,14 +41,11 @@ TEST(SceneJsonSurfaces, EveryTextureHasItsOwnKey) {
         "anisotropy_texture": {"image": "7.png", "uv_set": 1}}})");
     const Material& m = scene.materials[0];
     const auto path = [&](const TextureRef& texture) { return scene.images.at(texture.image).path; };
-    EXPECT_EQ(path(m.textures[TextureSlot::normal]), "0.png");
-    EXPECT_EQ(path(m.textures[TextureSlot::thickness]), "1.png");
-    EXPECT_EQ(path(m.textures[TextureSlot::clearcoat]), "2.png");
-    EXPECT_EQ(path(m.textures[TextureSlot::clearcoat_roughness]), "3.png");
-    EXPECT_EQ(path(m.textures[TextureSlot::clearcoat_normal]), "4.png");
-    EXPECT_EQ(path(m.textures[TextureSlot::sheen_color]), "5.png");
-    EXPECT_EQ(path(m.textures[TextureSlot::sheen_roughness]), "6.png");
-    EXPECT_EQ(path(m.textures[TextureSlot::anisotropy]), "7.png");
+    int number = 0;
+    for (const TextureSlot slot : {TextureSlot::normal, TextureSlot::thickness, TextureSlot::clearcoat,
+                                   TextureSlot::clearcoat_roughness, TextureSlot::clearcoat_normal,
+                                   TextureSlot::sheen_color, TextureSlot::sheen_roughness, TextureSlot::anisotropy})
+        EXPECT_EQ(path(m.textures[slot]), fmt::format("{}.png", number++));
     EXPECT_EQ(m.textures[TextureSlot::anisotropy].uv_set, 1);
     EXPECT_EQ(again(scene), scene);
 }

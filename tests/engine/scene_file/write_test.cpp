@@ -7,8 +7,7 @@
 #include "engine/scene_file/lists.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/surface/shapes.h"
-#include "tests/engine/scene_file/written_again.h"
-#include "tests/support/test.h"
+#include "tests/engine/scene_file/scene_texts.h"
 
 namespace aleph {
 namespace {
@@ -214,18 +213,6 @@ TEST(SceneJsonMeshes, FloatsAreWrittenShort) {
             EXPECT_EQ(static_cast<float>(widen(value)), value);
         }
     }
-}
-
-TEST(SceneJsonMeshes, AMeshOfAProgramIsSavedAsLists) {
-    Scene scene;
-    Shape torus;
-    torus.kind = Shape::Kind::torus;
-    torus.segments = 12;
-    Mesh mesh = make_shape_mesh(torus, no_index, "bent");
-    mesh.shape.reset();
-    for (glm::vec3& p : mesh.positions) p.y += 0.1f * p.x * p.x;
-    scene.meshes.push_back(mesh);
-    EXPECT_EQ(again(scene), scene);
 }
 
 TEST(SceneJsonMeshes, MorphTargetsAndSkinsAreRefusedByName) {

@@ -1,7 +1,5 @@
 // Subdivision surfaces as meshes: levels, holes and parts, places between the vertices (RP-16, RP-17).
-#include "engine/surface/limit_surface.h"
-#include "tests/engine/surface/limit_checks.h"
-#include "tests/support/subdivision_cages.h"
+#include "tests/engine/surface/cage_checks.h"
 #include "tests/support/subdivision_reference.h"
 #include "tests/support/test.h"
 
@@ -13,8 +11,8 @@ TEST(LimitSurface, HolesAreAbsentAndChangeNothingElse) {
     const LimitSurface whole(test.cage, 8, 2);
     test.cage.faces.holes = {2, 5};
     const LimitSurface holed(test.cage, 8, 2);
-    EXPECT_EQ(whole.triangle_count(0), 6u * 32u);
-    EXPECT_EQ(holed.triangle_count(0), 4u * 32u);
+    EXPECT_EQ(whole.triangles(0).size(), 6u * 32u);
+    EXPECT_EQ(holed.triangles(0).size(), 4u * 32u);
     const auto all = vertices_of(whole, test.points).positions;
     for (const glm::dvec3& p : vertices_of(holed, test.points).positions) {
         double nearest = 1.0;
@@ -28,8 +26,8 @@ TEST(LimitSurface, PartsShareTheirEdgesBitForBit) {
     test.cage.faces.parts = {0, 0, 1, 1, 0, 1};
     const LimitSurface surface(test.cage, 8, 3);
     ASSERT_EQ(surface.part_count(), 2);
-    EXPECT_EQ(surface.triangle_count(0), 3u * 128u);
-    EXPECT_EQ(surface.triangle_count(1), 3u * 128u);
+    EXPECT_EQ(surface.triangles(0).size(), 3u * 128u);
+    EXPECT_EQ(surface.triangles(1).size(), 3u * 128u);
     const Vertices a = vertices_of(surface, test.points, 0), b = vertices_of(surface, test.points, 1);
     int shared = 0;
     for (std::size_t i = 0; i < a.positions.size(); ++i) {
@@ -135,30 +133,26 @@ TEST(LimitSurface, RP17_ParametersOutsideTheTriangleAreClamped) {
 }
 
 TEST(LimitSurface, MovesWithItsCageByAnyAffineMap) {
-    const TestCage test = make_prism_cage();
-    const LimitSurface surface(test.cage, test.points.size(), 2);
-    const glm::dmat3 map(0.3, 0.9, -0.2, -1.1, 0.4, 0.5, 0.2, 0.1, 1.7);
-    const glm::dvec3 shift(3.0, -2.0, 0.7);
-    std::vector<glm::dvec3> moved;
-    for (const glm::dvec3& p : test.points) moved.push_back(map * p + shift);
-    const Vertices before = vertices_of(surface, test.points), after = vertices_of(surface, moved);
-    for (std::size_t i = 0; i < before.positions.size(); ++i) {
-        EXPECT_LT(glm::length(after.positions[i] - (map * before.positions[i] + shift)), 1e-14);
-        const glm::dvec3 n = glm::normalize(glm::transpose(glm::inverse(map)) * glm::dvec3(before.normals[i]));
-        EXPECT_LT(glm::length(glm::dvec3(after.normals[i]) - n), 1e-6);
-    }
-}
-
-TEST(LimitSurface, IsAsAccurateFarFromTheOrigin) {
-    const TestCage test = make_prism_cage();
-    const LimitSurface surface(test.cage, test.points.size(), 3);
-    const glm::dvec3 far(1048576.0, -4194304.0, 524288.0);  // powers of two: the cage itself is moved exactly enough
-    std::vector<glm::dvec3> moved;
-    for (const glm::dvec3& p : test.points) moved.push_back(p + far);
-    const Vertices before = vertices_of(surface, test.points), after = vertices_of(surface, moved);
-    for (std::size_t i = 0; i < before.positions.size(); ++i) {
-        EXPECT_LT(glm::length(after.positions[i] - far - before.positions[i]), 5e-9);  // a double's step there is 9e-10
-        EXPECT_LT(glm::length(after.normals[i] - before.normals[i]), 1e-5f);
+    const struct {
+        glm::dmat3 map;
+        glm::dvec3 shift;
+        double position_error, normal_error;
+    } cases[] = {
+        {glm::dmat3(0.3, 0.9, -0.2, -1.1, 0.4, 0.5, 0.2, 0.1, 1.7), {3.0, -2.0, 0.7}, 1e-14, 1e-6},
+        // Powers of two: the cage itself is moved exactly enough. A double's step there is 9e-10.
+        {glm::dmat3(1.0), {1048576.0, -4194304.0, 524288.0}, 5e-9, 1e-5},
+    };
+    for (const auto& c : cases) {
+        const TestCage test = make_prism_cage();
+        const LimitSurface surface(test.cage, test.points.size(), 3);
+        std::vector<glm::dvec3> moved;
+        for (const glm::dvec3& p : test.points) moved.push_back(c.map * p + c.shift);
+        const Vertices before = vertices_of(surface, test.points), after = vertices_of(surface, moved);
+        for (std::size_t i = 0; i < before.positions.size(); ++i) {
+            EXPECT_LT(glm::length(after.positions[i] - c.shift - c.map * before.positions[i]), c.position_error);
+            const glm::dvec3 n = glm::normalize(glm::transpose(glm::inverse(c.map)) * glm::dvec3(before.normals[i]));
+            EXPECT_LT(glm::length(glm::dvec3(after.normals[i]) - n), c.normal_error);
+        }
     }
 }
 
@@ -203,7 +197,7 @@ TEST(TessellateCage, LevelZeroOfOtherPolygonsIsLevelOne) {
     const TestCage test = make_prism_cage();
     const LimitSurface surface(test.cage, 10, 0);
     EXPECT_EQ(surface.level(), 1);
-    EXPECT_EQ(surface.triangle_count(0), 5u * 8u + 2u * 5u * 2u);
+    EXPECT_EQ(surface.triangles(0).size(), 5u * 8u + 2u * 5u * 2u);
     EXPECT_EQ(LimitSurface(make_cube_cage().cage, 8, 0).level(), 0);
 }
 

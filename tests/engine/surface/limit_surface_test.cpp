@@ -1,7 +1,5 @@
 // Subdivision surfaces against closed forms: B-splines, limit masks, explicit subdivision.
-#include "engine/surface/limit_surface.h"
-#include "tests/engine/surface/limit_checks.h"
-#include "tests/support/subdivision_cages.h"
+#include "tests/engine/surface/cage_checks.h"
 #include "tests/support/subdivision_reference.h"
 #include "tests/support/test.h"
 
@@ -64,7 +62,7 @@ TestCage make_bspline_cage() {
 TEST(LimitSurface, RegularFaceIsABicubicBSpline) {
     const TestCage test = make_bspline_cage();
     const LimitSurface surface(test.cage, test.points.size(), 0);
-    ASSERT_EQ(surface.triangle_count(0), 2u);  // without boundary rule the outer faces have no surface
+    ASSERT_EQ(surface.triangles(0).size(), 2u);  // without boundary rule the outer faces have no surface
     const auto control = surface.make_control_points(test.points);
     for (int i = 0; i <= 20; ++i) {
         for (int j = 0; j <= 20; ++j) {
@@ -135,10 +133,9 @@ TEST(LimitSurface, LoopAgreesWithExplicitSubdivision) {
             torus.points.emplace_back((3.0 + std::cos(b)) * std::cos(a), (3.0 + std::cos(b)) * std::sin(a),
                                       std::sin(b));
             const int right = (i + 1) % n, up = (j + 1) % m;
-            for (const auto& face : {std::array{j * n + i, j * n + right, up * n + right},
-                                     std::array{j * n + i, up * n + right, up * n + i}}) {
-                torus.cage.faces.sizes.push_back(3);
-                torus.cage.faces.points.insert(torus.cage.faces.points.end(), face.begin(), face.end());
+            for (const auto& face : {std::vector{j * n + i, j * n + right, up * n + right},
+                                     std::vector{j * n + i, up * n + right, up * n + i}}) {
+                add_face(torus.cage, face);
             }
         }
     }
@@ -205,7 +202,8 @@ TEST(LimitSurface, SharpEdgesHaveANormalPerSide) {
         }
     }
     EXPECT_EQ(pairs, 4 * 8);  // the loop's vertices, once each
-    const std::size_t smooth = LimitSurface(make_cube_cage().cage, 8, 3).vertex_count(0);
+    const TestCage cube = make_cube_cage();
+    const std::size_t smooth = vertices_of(LimitSurface(cube.cage, 8, 3), cube.points).positions.size();
     EXPECT_EQ(smooth, 6u * 64u + 2u);  // V = F + 2: every vertex once
 }
 

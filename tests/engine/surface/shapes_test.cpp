@@ -8,7 +8,8 @@
 namespace aleph {
 namespace {
 
-TEST(Shapes, ArraysAgreeAndNothingIsDegenerate) {
+// Triangles are counter-clockwise from their side in space, and so in (u, -v): images are not mirrored.
+TEST(Shapes, ArraysAgreeAndTrianglesFaceTheirSide) {
     for (const Shape& shape : all_shapes()) {
         const Mesh mesh = make_shape_mesh(shape, 7, "name");
         EXPECT_EQ(mesh.name, "name");
@@ -18,8 +19,16 @@ TEST(Shapes, ArraysAgreeAndNothingIsDegenerate) {
         ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
         ASSERT_EQ(mesh.uv[0].size(), mesh.positions.size());
         EXPECT_TRUE(mesh.uv[1].empty());
-        for (const glm::uvec3& triangle : mesh.triangles)
-            EXPECT_GT(glm::length(area_vector(corners(mesh, triangle))), 1e-5);
+        for (const glm::uvec3& triangle : mesh.triangles) {
+            const Corners c = corners(mesh, triangle);
+            EXPECT_GT(glm::length(area_vector(c)), 1e-5) << "segments " << shape.segments;
+            for (int i = 0; i < 3; ++i) {
+                EXPECT_NEAR(glm::length(c.normal[i]), 1.0, 2e-7);
+                EXPECT_GE(glm::dot(glm::normalize(area_vector(c)), c.normal[i]), 0.2) << "segments " << shape.segments;
+            }
+            const glm::dvec2 a = c.uv[1] - c.uv[0], b = c.uv[2] - c.uv[0];
+            EXPECT_GT(-(a.x * b.y - a.y * b.x), 1e-6) << "segments " << shape.segments;
+        }
     }
 }
 
@@ -35,19 +44,6 @@ TEST(Shapes, EveryVertexIsUsedAndNoneIsThereTwice) {
             different.insert({p.x, p.y, p.z, n.x, n.y, n.z, mesh.uv[0][i].x, mesh.uv[0][i].y});
         }
         EXPECT_EQ(different.size(), mesh.positions.size()) << "segments " << shape.segments;
-    }
-}
-
-TEST(Shapes, NormalsAreUnitAndTrianglesCounterClockwiseFromTheirSide) {
-    for (const Shape& shape : all_shapes()) {
-        const Mesh mesh = make_shape_mesh(shape);
-        for (const glm::uvec3& triangle : mesh.triangles) {
-            const Corners c = corners(mesh, triangle);
-            for (int i = 0; i < 3; ++i) {
-                EXPECT_NEAR(glm::length(c.normal[i]), 1.0, 2e-7);
-                EXPECT_GE(glm::dot(glm::normalize(area_vector(c)), c.normal[i]), 0.2) << "segments " << shape.segments;
-            }
-        }
     }
 }
 
@@ -106,18 +102,6 @@ TEST(Shapes, SphereImageFacesPlusZAndRunsCounterClockwise) {
         EXPECT_NEAR(uv.y, std::acos(std::clamp(p.y / 0.8, -1.0, 1.0)) / std::numbers::pi, 1e-3);
         if (std::abs(p.y) > 0.79 || std::abs(uv.x - 0.5) > 0.49) continue;  // pole and seam: u is free there
         EXPECT_NEAR(uv.x, 0.5 + std::atan2(p.x, p.z) / (2.0 * std::numbers::pi), 1e-6);
-    }
-}
-
-// Seen from outside an image is never mirrored: counter-clockwise in space is counter-clockwise in (u, -v).
-TEST(Shapes, ImagesAreNotMirrored) {
-    for (const Shape& shape : all_shapes()) {
-        const Mesh mesh = make_shape_mesh(shape);
-        for (const glm::uvec3& triangle : mesh.triangles) {
-            const Corners c = corners(mesh, triangle);
-            const glm::dvec2 a = c.uv[1] - c.uv[0], b = c.uv[2] - c.uv[0];
-            EXPECT_GT(-(a.x * b.y - a.y * b.x), 1e-6) << "segments " << shape.segments;
-        }
     }
 }
 

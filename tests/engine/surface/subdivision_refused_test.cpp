@@ -6,62 +6,73 @@
 namespace aleph {
 namespace {
 
-TEST(SubdivisionHard, FacesOfFewerThanThreePointsAreRefused) {
-    // OpenSubdiv overruns its memory on a face of one point.
-    for (const int size : {1, 2, 0, -1, std::numeric_limits<int>::min()}) {
-        TestCage test = make_cube_cage();
-        test.cage.faces.sizes[3] = size;
-        expect_refused(test.cage, 8, "at least 3");
+constexpr int largest_int = std::numeric_limits<int>::max(), smallest_int = std::numeric_limits<int>::min();
+
+TEST(SubdivisionHard, DamagedCagesAreRefused) {
+    const auto size = [](int points) { return [=](Cage& c) { c.faces.sizes[3] = points; }; };
+    const auto more = [](int points) { return [=](Cage& c) { c.faces.sizes.push_back(points); }; };
+    const auto point = [](int index) { return [=](Cage& c) { c.faces.points[5] = index; }; };
+    const auto holes = [](int face) { return [=](Cage& c) { c.faces.holes = {face}; }; };
+    const auto parts = [](const std::vector<int>& list) { return [=](Cage& c) { c.faces.parts = list; }; };
+    const auto creases = [](const std::vector<int>& lengths, const std::vector<int>& points,
+                            const std::vector<float>& sharpness) {
+        return [=](Cage& c) { c.creases = {lengths, points, sharpness}; };
+    };
+    const auto corners = [](const std::vector<int>& points, const std::vector<float>& sharpness) {
+        return [=](Cage& c) { c.corners = {points, sharpness}; };
+    };
+    const auto uv = [](std::size_t count, int index, float v) {
+        return [=](Cage& c) {
+            c.uv = {{0.0f, 0.0f}, {1.0f, v}};
+            c.faces.uv.assign(count, index);
+        };
+    };
+    const std::pair<std::function<void(Cage&)>, const char*> cases[] = {
+        {size(1), "at least 3"},  // OpenSubdiv overruns its memory on a face of one point
+        {size(2), "at least 3"},
+        {size(0), "at least 3"},
+        {size(-1), "at least 3"},
+        {size(smallest_int), "at least 3"},
+        {point(8), "names point"},
+        {point(-1), "names point"},
+        {point(largest_int), "names point"},
+        {point(smallest_int), "names point"},
+        {[](Cage& c) { c.faces.points[5] = c.faces.points[7]; }, "twice"},
+        {[](Cage& c) { c.faces.points.pop_back(); }, "corners"},
+        {more(largest_int), "corners"},
+        {more(60000), "corners"},
+        {[](Cage& c) { c.scheme = Cage::Scheme::loop; }, "triangles only"},
+        {holes(6), "hole 6"},
+        {holes(-1), "hole -1"},
+        {parts({0, 1}), "parts for 2"},
+        {parts({0, 0, 0, 0, 0, largest_int}), "part 2147483647"},
+        {parts({0, 0, 0, 0, 0, -1}), "part -1"},
+        {creases({2}, {0, 8}, {1.0f}), "names point 8"},
+        {creases({2}, {0, -1}, {1.0f}), "names point -1"},
+        {creases({1}, {0}, {1.0f}), "at least 2"},
+        {creases({-2}, {0, 1}, {1.0f}), "at least 2"},
+        {creases({3}, {0, 1}, {1.0f}), "3 points"},
+        {creases({largest_int, largest_int, 2}, {0, 1}, {1.0f, 1.0f, 1.0f}), "points, but 2"},
+        {creases({2}, {0, 1}, {}), "0 sharpnesses"},
+        {creases({2}, {0, 1}, {float_nan}), "not a finite"},
+        {creases({2}, {0, 1}, {float_infinity}), "not a finite"},
+        {corners({8}, {1.0f}), "corner 0 names point 8"},
+        {corners({1}, {float_nan}), "not a finite"},
+        {corners({1, 2}, {1.0f}), "2 corners"},
+        {uv(23, 0, 0.0f), "texture coordinates for 23"},
+        {uv(24, 2, 0.0f), "texture coordinate 2 of 2"},
+        {uv(24, -1, 0.0f), "texture coordinate -1"},
+        {uv(24, 0, float_nan), "not finite"},
+    };
+    for (const auto& [damage, reason] : cases) {
+        Cage cage = make_cube_cage().cage;
+        damage(cage);
+        expect_refused(cage, 8, reason);
     }
-    TestCage one = make_cage({{0, 0, 0}}, {{0}});
-    expect_refused(one.cage, 1, "at least 3");
+    expect_refused(make_cage({{0, 0, 0}}, {{0}}).cage, 1, "at least 3");
     expect_refused(make_cage({}, {}).cage, 8, "no faces");
-}
-
-TEST(SubdivisionHard, PointsOutOfRangeOrRepeatedAreRefused) {
-    for (const int bad : {8, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
-        TestCage test = make_cube_cage();
-        test.cage.faces.points[5] = bad;
-        expect_refused(test.cage, 8, "names point");
-    }
-    TestCage twice = make_cube_cage();
-    twice.cage.faces.points[5] = twice.cage.faces.points[7];
-    expect_refused(twice.cage, 8, "twice");
     expect_refused(make_cube_cage().cage, 0, "names point 0 of 0");
-}
-
-TEST(SubdivisionHard, SizesThatDoNotFitAreRefused) {
-    TestCage test = make_cube_cage();
-    test.cage.faces.points.pop_back();
-    expect_refused(test.cage, 8, "corners");
-    test = make_cube_cage();
-    test.cage.faces.sizes.push_back(2147483647);
-    expect_refused(test.cage, 8, "corners");
-    test = make_cube_cage();
-    test.cage.faces.sizes.push_back(60000);
-    expect_refused(test.cage, 8, "corners");
     expect_refused(make_cube_cage().cage, std::size_t{1} << 40, "at most");
-}
-
-TEST(SubdivisionHard, LoopTakesTrianglesOnly) {
-    TestCage test = make_cube_cage();
-    test.cage.scheme = Cage::Scheme::loop;
-    expect_refused(test.cage, 8, "triangles only");
-}
-
-TEST(SubdivisionHard, HolesAndPartsOutOfRangeAreRefused) {
-    TestCage test = make_cube_cage();
-    test.cage.faces.holes = {6};
-    expect_refused(test.cage, 8, "hole 6");
-    test.cage.faces.holes = {-1};
-    expect_refused(test.cage, 8, "hole -1");
-    test = make_cube_cage();
-    test.cage.faces.parts = {0, 1};
-    expect_refused(test.cage, 8, "parts for 2");
-    test.cage.faces.parts = {0, 0, 0, 0, 0, 2147483647};
-    expect_refused(test.cage, 8, "part 2147483647");
-    test.cage.faces.parts = {0, 0, 0, 0, 0, -1};
-    expect_refused(test.cage, 8, "part -1");
 }
 
 TEST(SubdivisionHard, CagesWithNothingToDrawAreRefused) {
@@ -71,52 +82,6 @@ TEST(SubdivisionHard, CagesWithNothingToDrawAreRefused) {
     TestCage strip = make_grid_cage(4, 2);
     strip.cage.boundary = Cage::Boundary::none;
     EXPECT_THROW(LimitSurface(strip.cage, 8, 1), InputError);
-}
-
-TEST(SubdivisionHard, DamagedCreasesAreRefused) {
-    const auto with = [](std::vector<int> lengths, std::vector<int> points, std::vector<float> sharpness) {
-        TestCage test = make_cube_cage();
-        test.cage.creases.lengths = std::move(lengths);
-        test.cage.creases.points = std::move(points);
-        test.cage.creases.sharpness = std::move(sharpness);
-        return test.cage;
-    };
-    expect_refused(with({2}, {0, 8}, {1.0f}), 8, "names point 8");
-    expect_refused(with({2}, {0, -1}, {1.0f}), 8, "names point -1");
-    expect_refused(with({1}, {0}, {1.0f}), 8, "at least 2");
-    expect_refused(with({-2}, {0, 1}, {1.0f}), 8, "at least 2");
-    expect_refused(with({3}, {0, 1}, {1.0f}), 8, "3 points");
-    expect_refused(with({2147483647, 2147483647, 2}, {0, 1}, {1.0f, 1.0f, 1.0f}), 8, "points, but 2");
-    expect_refused(with({2}, {0, 1}, {}), 8, "0 sharpnesses");
-    expect_refused(with({2}, {0, 1}, {float_nan}), 8, "not a finite");
-    expect_refused(with({2}, {0, 1}, {float_infinity}), 8, "not a finite");
-}
-
-TEST(SubdivisionHard, DamagedCornersAreRefused) {
-    TestCage test = make_cube_cage();
-    add_corner(test.cage, 8, 1.0f);
-    expect_refused(test.cage, 8, "corner 0 names point 8");
-    test = make_cube_cage();
-    add_corner(test.cage, 1, float_nan);
-    expect_refused(test.cage, 8, "not a finite");
-    test = make_cube_cage();
-    test.cage.corners.points = {1, 2};
-    test.cage.corners.sharpness = {1.0f};
-    expect_refused(test.cage, 8, "2 corners");
-}
-
-TEST(SubdivisionHard, DamagedTextureCoordinatesAreRefused) {
-    TestCage test = make_cube_cage();
-    test.cage.uv = {{0, 0}, {1, 0}};
-    test.cage.faces.uv.assign(23, 0);
-    expect_refused(test.cage, 8, "texture coordinates for 23");
-    test.cage.faces.uv.assign(24, 2);
-    expect_refused(test.cage, 8, "texture coordinate 2 of 2");
-    test.cage.faces.uv.assign(24, -1);
-    expect_refused(test.cage, 8, "texture coordinate -1");
-    test.cage.faces.uv.assign(24, 0);
-    test.cage.uv[1].y = float_nan;
-    expect_refused(test.cage, 8, "not finite");
 }
 
 TEST(SubdivisionHard, SharpEdgesAtPointsOfTwoFacesAreRefused) {
@@ -134,8 +99,7 @@ TEST(SubdivisionHard, TooManyNeighboursAreRefused) {
     TestCage fan = make_cage({}, {});
     // OpenSubdiv counts them in 16 bits, and its time and memory grow with their square.
     for (int i = 0; i < 65540; ++i) {
-        fan.cage.faces.sizes.push_back(3);
-        for (const int p : {0, i + 1, i + 2}) fan.cage.faces.points.push_back(p);
+        add_face(fan.cage, {0, i + 1, i + 2});
     }
     expect_refused(fan.cage, 65542, "too many faces meet");
 }

@@ -1,4 +1,6 @@
 // Odd and damaged cages, and surfaces at their limits (RP-16, RP-17).
+#include <numeric>
+
 #include "tests/engine/surface/cage_checks.h"
 #include "tests/support/test.h"
 
@@ -11,11 +13,7 @@ TEST(SubdivisionHard, SharpnessBeyondItsRangeIsClamped) {
     add_crease(most.cage, {0, 1, 3, 2, 0}, 10.0f);
     add_crease(negative.cage, {0, 1, 3, 2, 0}, -5.0f);
     const auto points_of = [](const TestCage& test) {
-        const LimitSurface surface(test.cage, 8, 2);
-        std::vector<glm::dvec3> positions;
-        std::vector<glm::vec3> normals;
-        surface.evaluate_vertices(0, surface.make_control_points(test.points), positions, normals);
-        return positions;
+        return vertices_of(LimitSurface(test.cage, 8, 2), test.points).positions;
     };
     EXPECT_EQ(points_of(sharp), points_of(most));
     EXPECT_EQ(points_of(negative), points_of(none));
@@ -58,16 +56,14 @@ TEST(SubdivisionHard, SurfacesThatAreNoManifoldAreSharpThere) {
     }
     for (int i = 0; i < 6; ++i) {
         const int next = i == 5 ? 1 : 2 * i + 2, next_up = i == 5 ? 0 : 2 * i + 3;
-        strip.cage.faces.sizes.push_back(4);
-        for (const int p : {2 * i, next, next_up, 2 * i + 1}) strip.cage.faces.points.push_back(p);
+        add_face(strip.cage, {2 * i, next, next_up, 2 * i + 1});
     }
     expect_sound(strip, 3);
 }
 
 TEST(SubdivisionHard, RepeatedFacesAreLetPassWithAWarning) {
     TestCage test = make_cube_cage();
-    for (int k = 0; k < 4; ++k) test.cage.faces.points.push_back(test.cage.faces.points[k]);
-    test.cage.faces.sizes.push_back(4);
+    add_face(test.cage, {0, 4, 6, 2});
     const auto warnings = list_warnings(test.cage);
     ASSERT_EQ(warnings.size(), 2u);
     EXPECT_NE(warnings[1].find("repeat"), std::string::npos);
@@ -91,42 +87,36 @@ TEST(SubdivisionHard, DegenerateCagesHaveUnitNormals) {
         for (std::size_t i = 0; i < test.points.size(); ++i) test.points[i].x = static_cast<double>(i);
         expect_sound(test);  // a line
     }
-    TestCage flat = make_cube_cage();
-    for (glm::dvec3& p : flat.points) p.z = 0.0;
-    expect_sound(flat);
-    TestCage tiny = make_cube_cage();
-    for (glm::dvec3& p : tiny.points) p *= 1e-30;
-    expect_sound(tiny);
-    TestCage huge = make_cube_cage();
-    for (glm::dvec3& p : huge.points) p *= 1e18;
-    expect_sound(huge);
+    for (const glm::dvec3& scale : {glm::dvec3(1.0, 1.0, 0.0), glm::dvec3(1e-30), glm::dvec3(1e18)}) {
+        TestCage test = make_cube_cage();
+        for (glm::dvec3& p : test.points) p *= scale;
+        expect_sound(test);
+    }
 }
 
 TEST(SubdivisionHard, FacesAndPointsOfManyNeighbours) {
+    const auto add_circle = [](TestCage& test, int n) {
+        for (int i = 0; i < n; ++i) {
+            const double a = 2.0 * std::numbers::pi * i / n;
+            test.points.emplace_back(std::cos(a), std::sin(a), 0.0);
+        }
+    };
     for (const Cage::Scheme scheme : {Cage::Scheme::catmull_clark, Cage::Scheme::loop}) {
         TestCage fan = make_cage({}, {}, scheme);  // a double cone: points of 700 neighbours
         constexpr int n = 700;
-        for (int i = 0; i < n; ++i) {
-            const double a = 2.0 * std::numbers::pi * i / n;
-            fan.points.emplace_back(std::cos(a), std::sin(a), 0.0);
-        }
+        add_circle(fan, n);
         fan.points.emplace_back(0.0, 0.0, 1.0);
         fan.points.emplace_back(0.0, 0.0, -1.0);
         for (int i = 0; i < n; ++i) {
-            for (const auto& face : {std::vector{i, (i + 1) % n, n}, std::vector{(i + 1) % n, i, n + 1}}) {
-                fan.cage.faces.sizes.push_back(3);
-                fan.cage.faces.points.insert(fan.cage.faces.points.end(), face.begin(), face.end());
-            }
+            add_face(fan.cage, {i, (i + 1) % n, n});
+            add_face(fan.cage, {(i + 1) % n, i, n + 1});
         }
         expect_sound(fan, 1);
     }
-    TestCage polygon = make_cage({}, {{}});
-    for (int i = 0; i < 1800; ++i) {
-        const double a = 2.0 * std::numbers::pi * i / 1800;
-        polygon.points.emplace_back(std::cos(a), std::sin(a), 0.0);
-        polygon.cage.faces.points.push_back(i);
-    }
-    polygon.cage.faces.sizes = {1800};
+    std::vector<int> all(1800);
+    std::iota(all.begin(), all.end(), 0);
+    TestCage polygon = make_cage({}, {all});
+    add_circle(polygon, 1800);
     expect_sound(polygon, 1);
 }
 
@@ -140,10 +130,9 @@ TEST(SubdivisionHard, HighlyIrregularAndSemiSharpCagesStayWithinBounds) {
     for (int y = 0; y < n; ++y) {
         for (int x = 0; x < n; ++x) {
             const int p = y * (n + 1) + x;
-            for (const auto& face : {std::array{p, p + 1, p + n + 2}, std::array{p, p + n + 2, p + n + 1}}) {
-                test.cage.faces.sizes.push_back(3);
-                for (const int q : face) test.cage.faces.points.push_back(q);
-                add_crease(test.cage, {face[0], face[1], face[2]}, 8.5f);
+            for (const auto& face : {std::vector{p, p + 1, p + n + 2}, std::vector{p, p + n + 2, p + n + 1}}) {
+                add_face(test.cage, face);
+                add_crease(test.cage, face, 8.5f);
             }
         }
     }
@@ -157,6 +146,7 @@ void damage(TestCage& test, std::mt19937& random) {
     const auto pick = [&](std::size_t count) {
         return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
     };
+    const auto pick_point = [&] { return static_cast<int>(pick(test.points.size())); };
     const int values[] = {-2147483647, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 100, 65536, 2147483647};
     const int value = values[pick(std::size(values))];
     Cage& cage = test.cage;
@@ -167,17 +157,16 @@ void damage(TestCage& test, std::mt19937& random) {
         case 1:
         case 2:
         case 3:
-            cage.faces.points[pick(cage.faces.points.size())] = static_cast<int>(pick(test.points.size()));
+            cage.faces.points[pick(cage.faces.points.size())] = pick_point();
             break;
         case 4:
-            add_crease(cage, {value, static_cast<int>(pick(test.points.size()))}, 3.3f);
+            add_crease(cage, {value, pick_point()}, 3.3f);
             break;
         case 5:
-            add_crease(cage, {static_cast<int>(pick(test.points.size())), static_cast<int>(pick(test.points.size()))},
-                       static_cast<float>(pick(12)));
+            add_crease(cage, {pick_point(), pick_point()}, static_cast<float>(pick(12)));
             break;
         case 6:
-            add_corner(cage, static_cast<int>(pick(test.points.size())), static_cast<float>(pick(12)));
+            add_corner(cage, pick_point(), static_cast<float>(pick(12)));
             break;
         case 7:
             cage.faces.holes.push_back(static_cast<int>(pick(cage.faces.sizes.size())));
@@ -186,8 +175,7 @@ void damage(TestCage& test, std::mt19937& random) {
             cage.boundary = static_cast<Cage::Boundary>(pick(3));
             break;
         default:
-            cage.faces.sizes.push_back(3);
-            for (int k = 0; k < 3; ++k) cage.faces.points.push_back(static_cast<int>(pick(test.points.size())));
+            add_face(cage, {pick_point(), pick_point(), pick_point()});
     }
     cage.uv_rule = static_cast<Cage::UvRule>(pick(6));
 }

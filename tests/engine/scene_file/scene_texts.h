@@ -1,10 +1,25 @@
 #pragma once
-// Broken scene files as short texts, with the expected place and reason of the error.
+// Scene files as short texts: read, written again, and refused with the expected place and reason.
 
 #include "engine/scene_file/scene_text.h"
 #include "tests/support/test.h"
 
 namespace aleph {
+
+/// @param body  what follows the version: nothing, or a comma and more
+inline Scene read(const std::string& body) {
+    return read_scene_text("{\"aleph\": 1" + body + "}", "test.json").scene;
+}
+
+/// @param node  what stands in the only node
+inline Scene read_node(const std::string& node) {
+    return read(", \"nodes\": [{" + node + "}]");
+}
+
+/// The scene after it was written as a scene file and read again.
+inline Scene again(const Scene& scene) {
+    return read_scene_text(write_scene_text(scene, "test.json"), "test.json").scene;
+}
 
 struct BadScene {
     std::string text;   ///< of the file
@@ -29,6 +44,10 @@ inline BadScene scene(const std::string& body, const std::string& place, const s
 
 inline BadScene node(const std::string& body, const std::string& place, const std::string& word) {
     return scene("\"nodes\": [{" + body + "}]", "/nodes/0" + place, word);
+}
+
+inline BadScene shape(const std::string& body, const std::string& place, const std::string& word) {
+    return node("\"shape\": {" + body + "}", "/shape" + place, word);
 }
 
 inline BadScene material(const std::string& body, const std::string& place, const std::string& word) {
