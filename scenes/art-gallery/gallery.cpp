@@ -25,8 +25,7 @@ Scene make_art_gallery(const std::string& textures) {
     materials.oak = add_textured(scene, "oak", "oak");
     materials.dark = add_lambert(scene, "dark_wood", {66, 46, 34});
     materials.steel = add_lambert(scene, "steel", {150, 152, 156});
-    materials.gilt = add_lambert(scene, "gilt", {204, 160, 84});
-    add_gloss(scene, 0.35);
+    materials.gilt = add_lambert(scene, "gilt", {204, 160, 84}, 0.35);
     materials.black_frame = add_lambert(scene, "black_frame", {34, 32, 32});
     materials.white_frame = add_lambert(scene, "white_frame", {240, 236, 226});
 

@@ -2,8 +2,9 @@
 // The parts of the scene `art-gallery`. Metres; the floor is y = 0; the hall is along x, the cabinet behind its far
 // wall.
 
+#include <vector>
+
 #include "engine/scene/scene.h"
-#include "scenes/art-gallery/balls.h"
 
 namespace aleph {
 
@@ -17,6 +18,20 @@ inline constexpr double door_half_width = 1.1, door_height = 2.9;
 
 /// @param textures  folder of the textures, relative to the scene file
 Scene make_art_gallery(const std::string& textures);
+
+inline constexpr double gravity = 9.81;  ///< m/s2
+
+struct BallDrop {
+    double release = 0.0;         ///< s; the ball is at rest before
+    glm::dvec3 position{0.0};     ///< m, of the centre at release
+    glm::dvec3 velocity{0.0};     ///< m/s, at release
+    double radius = 0.1;          ///< m
+    double ground = 0.0;          ///< m, height of the ground
+    double restitution = 0.8;     ///< vertical speed after an impact over that before
+    double grip = 1.0;            ///< horizontal speed after an impact over that before
+    double rolling = 0.08;        ///< m/s2, deceleration of a rolling ball
+    double settled_speed = 0.12;  ///< m/s; slower impacts end the bouncing
+};
 
 /// The balls under the ring, then the two that roll off their plinths.
 std::vector<BallDrop> make_ball_drops();

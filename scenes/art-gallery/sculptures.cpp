@@ -30,21 +30,16 @@ double add_plinth(const Group& parent, const std::string& name, const glm::dvec3
 
 /// Three interlocked rings.
 void add_rings(Scene& scene, const Group& sculptures, const GalleryMaterials& materials) {
-    const int red = add_lambert(scene, "ring_red", {196, 52, 38});
-    add_gloss(scene, 0.3);
-    const int ivory = add_lambert(scene, "ring_ivory", {236, 226, 204});
-    add_gloss(scene, 0.3);
-    const int ink = add_lambert(scene, "ring_ink", {38, 50, 84});
-    add_gloss(scene, 0.3);
+    const int red = add_lambert(scene, "ring_red", {196, 52, 38}, 0.3);
+    const int ivory = add_lambert(scene, "ring_ivory", {236, 226, 204}, 0.3);
+    const int ink = add_lambert(scene, "ring_ink", {38, 50, 84}, 0.3);
 
     const glm::dvec3 rings(4.1, 0.0, -2.55);
     const double top = add_plinth(sculptures, "rings_plinth", rings, 0.5, 0.95, materials.plinth);
-    const int group =
-        add_node(scene, "rings", sculptures, rings + glm::dvec3(0.0, top + 0.36, 0.0), turn({0.0, 1.0, 0.0}, 25.0));
-    Group{scene, group}.add_shape("ring_a", torus(0.28, 0.06, 64), red, {-0.13, 0.0, 0.0}, z_to_up);
-    Group{scene, group}.add_shape("ring_b", torus(0.28, 0.06, 64), ivory, {0.13, 0.0, 0.0},
-                                  turn({1.0, 0.0, 0.0}, 25.0));
-    Group{scene, group}.add_shape("ring_c", torus(0.19, 0.045, 64), ink, {0.0, 0.2, 0.0}, turn({0.0, 0.0, 1.0}, 70.0));
+    const Group group = sculptures.add_group("rings", rings + glm::dvec3(0.0, top + 0.36, 0.0), turn(y_axis, 25.0));
+    group.add_shape("ring_a", torus(0.28, 0.06, 64), red, {-0.13, 0.0, 0.0}, z_to_up);
+    group.add_shape("ring_b", torus(0.28, 0.06, 64), ivory, {0.13, 0.0, 0.0}, turn(x_axis, 25.0));
+    group.add_shape("ring_c", torus(0.19, 0.045, 64), ink, {0.0, 0.2, 0.0}, turn(z_axis, 70.0));
 }
 
 Shape make_amphora() {
@@ -69,10 +64,8 @@ Shape make_bowl() {
 
 void add_vases(Scene& scene, const Group& sculptures, const GalleryMaterials& materials) {
     const int clay = add_textured(scene, "terracotta", "terracotta");
-    const int celadon = add_lambert(scene, "celadon", {142, 180, 160});
-    add_gloss(scene, 0.2);
-    const int cobalt = add_lambert(scene, "cobalt", {30, 62, 150});
-    add_gloss(scene, 0.15);
+    const int celadon = add_lambert(scene, "celadon", {142, 180, 160}, 0.2);
+    const int cobalt = add_lambert(scene, "cobalt", {30, 62, 150}, 0.15);
     const glm::dvec3 places[] = {{-5.45, 0.0, 3.2}, {5.3, 0.0, 3.1}, {-1.1, 0.0, -3.2}};
     const Shape shapes[] = {make_amphora(), make_amphora(), make_bottle()};
     const int glazes[] = {clay, cobalt, celadon};
@@ -92,8 +85,7 @@ void add_vases(Scene& scene, const Group& sculptures, const GalleryMaterials& ma
 void add_knot(Scene& scene, const Group& sculptures, const GalleryMaterials& materials) {
     const glm::dvec3 place(-8.1, 0.0, 0.0);
     const double height = add_plinth(sculptures, "knot_plinth", place, 0.7, 0.72, materials.plinth);
-    const int bronze = add_lambert(scene, "knot_bronze", {214, 148, 70});
-    add_gloss(scene, 0.33);
+    const int bronze = add_lambert(scene, "knot_bronze", {214, 148, 70}, 0.33);
     const CageShape knot = make_closed_tube(
         [](double t) {
             const double a = 2.0 * pi * t;
@@ -101,16 +93,15 @@ void add_knot(Scene& scene, const Group& sculptures, const GalleryMaterials& mat
                                      -1.5 * std::sin(3.0 * a));
         },
         60, 8, {0.13, 0.06}, 3);
-    const int mesh = add_cage(scene, "knot", knot, bronze);
-    const int node = add_mesh_node(scene, "knot", sculptures, mesh, place + glm::dvec3(0.0, height + 0.72, 0.0));
-    AxisRotation spin{.angle = even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * 1.25)};
-    scene.nodes[node].transform.axis_rotation = spin;
+    const int node = add_cage_node(sculptures, "knot", knot, bronze, place + glm::dvec3(0.0, height + 0.72, 0.0));
+    scene.nodes[node].transform.axis_rotation =
+        AxisRotation{.angle = even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * 1.25)};
 }
 
 }  // namespace
 
 void add_sculptures(Scene& scene, const GalleryMaterials& materials) {
-    const Group sculptures{scene, add_node(scene, "sculptures")};
+    const Group sculptures = Group{scene}.add_group("sculptures");
     add_rings(scene, sculptures, materials);
     add_vases(scene, sculptures, materials);
     add_knot(scene, sculptures, materials);

@@ -29,8 +29,8 @@ void add_walking_camera(Scene& scene, const std::vector<CameraStop>& stops, doub
     }
     const int rig = add_node(scene, "camera_rig");
     node_at(scene, rig).transform.translation = eased_track(times, eyes);
-    turn_about(scene, rig, {0.0, 1.0, 0.0}, eased_track(times, yaws));
-    turn_about(scene, add_node(scene, "camera", rig), {1.0, 0.0, 0.0}, eased_track(times, pitches));
+    turn_about(scene, rig, y_axis, eased_track(times, yaws));
+    turn_about(scene, add_node(scene, "camera", rig), x_axis, eased_track(times, pitches));
     hang_camera(scene, fov_degrees);
 }
 

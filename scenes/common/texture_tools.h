@@ -5,11 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "engine/base/sampling.h"
-#include "scenes/common/textures.h"
+#include "scenes/common/generator.h"
 
 namespace aleph {
 
@@ -39,6 +40,12 @@ inline double fractal_noise(const glm::dvec2& uv, glm::i64vec2 cells, int octave
         cells *= 2;
     }
     return sum / total;
+}
+
+inline double distance_to_segment(const glm::dvec2& at, const glm::dvec2& a, const glm::dvec2& b) {
+    const glm::dvec2 along = b - a;
+    const double place = glm::clamp(glm::dot(at - a, along) / std::max(glm::dot(along, along), 1e-12), 0.0, 1.0);
+    return glm::distance(at, a + place * along);
 }
 
 /// Evaluates color(uv), uv in [0, 1), at `samples` x `samples` points of every pixel, and rounds their mean.

@@ -68,12 +68,6 @@ std::array<Digit, 10> make_digits() {
          {wide, nine}}};
 }
 
-double distance_to_segment(const glm::dvec2& at, const glm::dvec2& a, const glm::dvec2& b) {
-    const glm::dvec2 along = b - a;
-    const double place = glm::clamp(glm::dot(at - a, along) / std::max(glm::dot(along, along), 1e-12), 0.0, 1.0);
-    return glm::distance(at, a + place * along);
-}
-
 double distance_to_strokes(const std::vector<Stroke>& strokes, const glm::dvec2& at) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Stroke& stroke : strokes)

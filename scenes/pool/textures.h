@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scenes/common/textures.h"
+#include "scenes/common/generator.h"
 
 namespace aleph {
 
