@@ -224,10 +224,8 @@ class SurfaceCutter {
 
 }  // namespace
 
-std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const AlembicCompound& top) {
-    const AlembicProperty* compound = top.find(".geom");
-    if (compound == nullptr) return {};
-    const AlembicCompound geom = reader.archive.properties(*compound);
+std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const AlembicCompound& top,
+                                   const AlembicCompound& geom) {
     const std::vector<SurfaceRun> runs = read_runs(reader, object, geom);
     const auto uv = find_parameter(reader.archive, geom, "uv", 2);
     std::vector<int> meshes;

@@ -43,16 +43,13 @@ class RayScene {
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 
-    /// Places the instances as in a pose. Only those whose transform, points or visibility changed are touched (all if
-    /// the anchor moved). Instances that are not traceable (a scale of 0, points that are not finite) are left out and
-    /// counted.
+    /// Places the instances as in a pose of the scene that this was made for. Those that cannot move by their tracks
+    /// are skipped, so that the cost follows what moves (all if the anchor moved); of the others only those are touched
+    /// whose transform, points or visibility changed. Instances that are not traceable (a scale of 0, points that are
+    /// not finite) are left out and counted.
     /// @return number of instances touched
     /// @throws std::bad_alloc, also from Embree; after that this can only be destroyed
     std::size_t update(const ScenePose& posed, const glm::dvec3& anchor);
-
-    /// The same, if this pose and that of the last update are both of the scene that this was made for. Instances that
-    /// cannot move by their tracks are skipped, so that the cost follows what moves (all if the anchor moved).
-    std::size_t update_moving(const ScenePose& posed, const glm::dvec3& anchor);
 
     const glm::dvec3& anchor() const;
     /// True where the instance stands still and its triangles are traced in one tree with others, in coordinates
