@@ -87,7 +87,6 @@ TEST(HardScenes, RC07_TheFirstOfCoplanarWins) {
     ASSERT_FALSE(one.empty());
     ASSERT_FALSE(two.empty());
     // In the plane z = 0 the first quad ends at x = 1; the second may be visible only beyond that.
-    const double pixels_per_unit = 18.0 / std::tan(20.0 * std::numbers::pi / 180.0);
     for (const std::size_t i : two) {
         const double x = (static_cast<double>(i % 48) + 0.5 - 24.0) / pixels_per_unit * output.surface.depth.pixels[i];
         EXPECT_GT(x, 1.0 - 1e-6);
@@ -126,8 +125,7 @@ TEST(HardScenes, RC10_WithoutSurfacesOrCameraTheEnvironmentShows) {
                 EXPECT_LT(std::abs(camera.position[k]), 1e3);
                 EXPECT_NEAR(glm::length(camera.axes[k]), 1.0, 1e-12);
             }
-            Sequence sequence(scene, small_settings());
-            const FrameOutput output = sequence.render(0, {.frame = true, .maps = true, .progress = {}});
+            const FrameOutput output = render_hard(scene, 0);
             expect_all_finite(output);
             for (const Rgb& pixel : output.shaded.color.pixels) ASSERT_EQ(pixel, environment);
             for (const float coverage : output.shaded.coverage.pixels) ASSERT_EQ(coverage, 0.0f);

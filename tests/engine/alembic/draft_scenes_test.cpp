@@ -8,14 +8,6 @@
 namespace aleph {
 namespace {
 
-template <class T>
-DraftProperty draft_scalar(const std::string& name, DraftProperty::Type type,
-                           const std::vector<std::vector<T>>& samples) {
-    DraftProperty p = draft_array<T>(name, type, static_cast<std::uint32_t>(samples.front().size()), samples);
-    p.kind = DraftProperty::scalar;
-    return p;
-}
-
 /// Translations that follow one another; every sample has the numbers of all.
 DraftObject draft_moved(const std::string& name, const std::vector<std::vector<double>>& samples,
                         std::vector<DraftObject> children) {
@@ -27,16 +19,8 @@ DraftObject draft_moved(const std::string& name, const std::vector<std::vector<d
             std::move(children)};
 }
 
-/// Where the node stands that is reached by these names.
-glm::dvec3 place_of(const Scene& scene, const std::vector<std::string>& names, double seconds = 0.0) {
-    int node = no_index;
-    for (const std::string& name : names) {
-        const auto found =
-            std::ranges::find_if(scene.nodes, [&](const Node& n) { return n.name == name && n.parent == node; });
-        if (found == scene.nodes.end()) throw std::out_of_range("no node " + name);
-        node = static_cast<int>(found - scene.nodes.begin());
-    }
-    return glm::dvec3(pose(scene, seconds).world.at(static_cast<std::size_t>(node))[3]);
+glm::dvec3 place_of(const Scene& scene, const std::string& path) {
+    return glm::dvec3(pose(scene, 0.0).world.at(static_cast<std::size_t>(find_node(scene, path)))[3]);
 }
 
 /// A cube unfolded: its sides in a strip of ten coordinates, its ends apart. Points on the strip's seam are two
@@ -82,20 +66,18 @@ TEST(AlembicDrafts, AnUnfoldedCubeHasAVertexForEachPointAndCoordinate) {
 
 /// An instance of what holds an instance: two meshes, each four times.
 TEST(AlembicDrafts, InstancesWithinInstances) {
-    const std::vector<float> triangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
-    const auto mesh = [&](const std::string& name) { return draft_mesh(name, {triangle}, {{3}}, {{0, 1, 2}}); };
-    const DraftObject a =
-        draft_moved("a", {{1, 0, 0}}, {mesh("aMesh"), draft_moved("b", {{0, 2, 0}}, {mesh("bMesh")})});
+    const DraftObject a = draft_moved(
+        "a", {{1, 0, 0}}, {draft_triangle("aMesh"), draft_moved("b", {{0, 2, 0}}, {draft_triangle("bMesh")})});
     const DraftObject within = draft_moved("f", {{0, 0, 5}}, {draft_instance("g", "/root/first/a")});
     const Scene scene =
         load({draft_group("root", {draft_group("first", {a, within}),
                                    draft_moved("c", {{100, 0, 0}}, {draft_instance("second", "/root/first")})})});
     EXPECT_EQ(scene.meshes.size(), 2u);
     EXPECT_EQ(list_instances(scene).size(), 8u);
-    EXPECT_EQ(place_of(scene, {"root", "first", "a", "b", "bMesh"}), glm::dvec3(1, 2, 0));
-    EXPECT_EQ(place_of(scene, {"root", "first", "f", "g", "b", "bMesh"}), glm::dvec3(1, 2, 5));
-    EXPECT_EQ(place_of(scene, {"root", "c", "second", "a", "aMesh"}), glm::dvec3(101, 0, 0));
-    EXPECT_EQ(place_of(scene, {"root", "c", "second", "f", "g", "b", "bMesh"}), glm::dvec3(101, 2, 5));
+    EXPECT_EQ(place_of(scene, "/root/first/a/b/bMesh"), glm::dvec3(1, 2, 0));
+    EXPECT_EQ(place_of(scene, "/root/first/f/g/b/bMesh"), glm::dvec3(1, 2, 5));
+    EXPECT_EQ(place_of(scene, "/root/c/second/a/aMesh"), glm::dvec3(101, 0, 0));
+    EXPECT_EQ(place_of(scene, "/root/c/second/f/g/b/bMesh"), glm::dvec3(101, 2, 5));
 }
 
 /// 21 acyclic times, evenly spaced; the transform above has one sample fewer. The film back scales the film's half
@@ -140,8 +122,8 @@ TEST(AlembicDrafts, TranslationsAddUpAndCurvesAreLeftOut) {
     const Scene scene = load(
         {draft_group("asset", {draft_moved("pivot", {{1, 2, 3, 10, 0, 0, -1, -2, -3, 0, 5, 0}}, {curve}), curve})});
     EXPECT_TRUE(has_warning(scene, "AbcGeom_Curve_v2 are not read"));
-    EXPECT_EQ(place_of(scene, {"asset", "pivot", "curve"}), glm::dvec3(10, 5, 0));
-    EXPECT_EQ(place_of(scene, {"asset", "curve"}), glm::dvec3(0));
+    EXPECT_EQ(place_of(scene, "/asset/pivot/curve"), glm::dvec3(10, 5, 0));
+    EXPECT_EQ(place_of(scene, "/asset/curve"), glm::dvec3(0));
     EXPECT_TRUE(list_instances(scene).empty());
 }
 

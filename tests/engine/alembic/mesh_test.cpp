@@ -102,9 +102,8 @@ TEST(AlembicMeshes, EveryScopeOfAParameter) {
 }
 
 TEST(AlembicMeshes, ParametersOfTheWrongLengthAreLeftOut) {
-    const std::vector<float> triangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
     const auto uv = draft_array<float>("uv", DraftProperty::f32, 2, {{0, 0, 1, 1}}, "geoScope=fvr");
-    const Scene scene = load({draft_mesh("m", {triangle}, {{3}}, {{0, 1, 2}}, {uv})});
+    const Scene scene = load({draft_triangle("m", {uv})});
     EXPECT_TRUE(mesh_of(scene, "m").uv[0].empty());
     EXPECT_TRUE(has_warning(scene, "2 values where the surface has 3"));
 }

@@ -2,37 +2,19 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "engine/alembic/camera.h"
-#include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/operations.h"
 #include "engine/scene/points.h"
-#include "tests/support/files/alembic_truth.h"
+#include "tests/engine/alembic/fixture.h"
 #include "tests/support/test.h"
-#include "tests/support/warnings.h"
 
 namespace aleph {
 namespace {
-
-std::string path_of(const Scene& scene, int node) {
-    std::string path;
-    for (int i = node; i != no_index; i = scene.nodes[i].parent) path = "/" + scene.nodes[i].name + path;
-    return path;
-}
-
-int find_node(const Scene& scene, const std::string& path) {
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (path_of(scene, static_cast<int>(i)) == path) return static_cast<int>(i);
-    return no_index;
-}
 
 const Node& node_at(const Scene& scene, const std::string& path) {
     const int node = find_node(scene, path);
     if (node == no_index) throw std::out_of_range("no node " + path);
     return scene.nodes[node];
-}
-
-Scene load_archive(const std::string& name) {
-    return load_scene(archive_path(name));
 }
 
 /// 1e-9 relative, element by element. The truth has rounded sines of right angles where the reader may have 0.
@@ -46,7 +28,7 @@ void expect_matrix(const glm::dmat4& m, const json& truth, const std::string& wh
 class AlembicScene : public AlembicTruth {};
 
 TEST_P(AlembicScene, WorldTransformsAtEveryQueryTime) {
-    const Scene scene = load_archive(GetParam());
+    const Scene scene = load(GetParam());
     const json truth = truth_of(GetParam());
     int compared = 0;
     for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
@@ -73,7 +55,7 @@ TEST_P(AlembicScene, OperationsAndLocalTransforms) {
                                             {"matrix", Kind::matrix},       {"rotate", Kind::rotate},
                                             {"rotateX", Kind::rotate_x},    {"rotateY", Kind::rotate_y},
                                             {"rotateZ", Kind::rotate_z}};
-    const Scene scene = load_archive(GetParam());
+    const Scene scene = load(GetParam());
     const json truth = truth_of(GetParam());
     for (const json& object : truth["objects"]) {
         if (!object.contains("xform")) continue;
@@ -97,7 +79,7 @@ TEST_P(AlembicScene, OperationsAndLocalTransforms) {
 
 /// Every object but face sets and materials is a node at its path, instances expanded; and there is nothing else.
 TEST_P(AlembicScene, PathsOfNodes) {
-    const Scene scene = load_archive(GetParam());
+    const Scene scene = load(GetParam());
     const json truth = truth_of(GetParam());
     std::set<std::string> expected, found;
     for (const json& object : truth["objects"]) {
@@ -110,7 +92,7 @@ TEST_P(AlembicScene, PathsOfNodes) {
 }
 
 TEST_P(AlembicScene, VisibilityAtEveryQueryTime) {
-    const Scene scene = load_archive(GetParam());
+    const Scene scene = load(GetParam());
     const json truth = truth_of(GetParam());
     for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
         const ScenePose frame = pose(scene, truth["query_times"][t]);
@@ -125,7 +107,7 @@ TEST_P(AlembicScene, VisibilityAtEveryQueryTime) {
 
 /// The points of a surface, wherever its meshes have them, at every query time; and each vertex is on its point.
 TEST_P(AlembicScene, PointsAtEveryQueryTime) {
-    const Scene scene = load_archive(GetParam());
+    const Scene scene = load(GetParam());
     const json truth = truth_of(GetParam());
     int surfaces = 0;
     for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
@@ -169,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(All, AlembicScene, testing::ValuesIn(all_archives()),
 
 TEST(AlembicTiming, RateAndRangeAreTheArchives) {
     const auto timing = [](const std::string& name) {
-        const Scene scene = load_archive(name);
+        const Scene scene = load(name);
         return std::pair{scene.film.frame_rate, frame_range(scene)};
     };
     EXPECT_EQ(timing("xform_uniform"), (std::pair{FrameRate{24, 1}, FrameRange{1, 10}}));
@@ -179,7 +161,7 @@ TEST(AlembicTiming, RateAndRangeAreTheArchives) {
 }
 
 TEST(AlembicInstances, ShareMeshesAndPoints) {
-    const Scene scene = load_archive("instances");
+    const Scene scene = load("instances");
     const std::vector<int>& source = node_at(scene, "/prototypes/box/boxShape").meshes;
     ASSERT_EQ(source.size(), 1u);
     for (const char* path : {"/layout/place0/boxInst/boxShape", "/layout/place1/boxInst/boxShape",
@@ -190,7 +172,7 @@ TEST(AlembicInstances, ShareMeshesAndPoints) {
 }
 
 TEST(AlembicVisibility, ExplicitOnesShowBelowAHiddenParent) {
-    const Scene scene = load_archive("xform_uniform");
+    const Scene scene = load("xform_uniform");
     const Track<double>& hand = node_at(scene, "/world/arm/hand").visible;
     EXPECT_EQ(hand.interpolation, Interpolation::nearest);
     EXPECT_EQ(evaluate(hand, 1.0 / 24.0), 2.0);   // stored 1
@@ -200,7 +182,7 @@ TEST(AlembicVisibility, ExplicitOnesShowBelowAHiddenParent) {
 
 /// All 16 numbers interpolate in the archive; the camera of the scene follows from them.
 TEST(AlembicCameras, FieldOfViewAndShiftAtEveryQueryTime) {
-    const Scene scene = load_archive("camera_anim");
+    const Scene scene = load("camera_anim");
     const json truth = truth_of("camera_anim");
     for (const char* path : {"/camRig/shotCam", "/staticCam"}) {
         const json& camera = object_of(truth, path)["camera"];

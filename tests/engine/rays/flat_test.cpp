@@ -85,8 +85,8 @@ TEST(FlatTree, RaysMeetTheSameAsThroughInstances) {
     EXPECT_FALSE(nodes.is_flat(0));
     for (const glm::dvec3 anchor : {glm::dvec3(0.0), glm::dvec3(16.0, -32.0, 48.0)}) {
         for (const double seconds : {0.0, 1.0}) {
-            flat.update_moving(pose(scene, seconds), anchor);
-            nodes.update_moving(pose(scene, seconds), anchor);
+            flat.update(pose(scene, seconds), anchor);
+            nodes.update(pose(scene, seconds), anchor);
             const std::vector<Ray> rays = make_random_rays(8000, glm::vec3(-anchor));
             for (const Blend blend : {Blend::cutout, Blend::random})
                 EXPECT_LT(count_differences(flat, nodes, rays, blend, 1e-4), 2e-4);

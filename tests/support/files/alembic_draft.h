@@ -47,6 +47,14 @@ DraftProperty draft_array(const std::string& name, DraftProperty::Type type, std
     for (const auto& sample : samples) p.samples.push_back(bytes_of(sample));
     return p;
 }
+/// A scalar property; every sample has the numbers of one element.
+template <class T>
+DraftProperty draft_scalar(const std::string& name, DraftProperty::Type type,
+                           const std::vector<std::vector<T>>& samples) {
+    DraftProperty p = draft_array<T>(name, type, static_cast<std::uint32_t>(samples.front().size()), samples);
+    p.kind = DraftProperty::scalar;
+    return p;
+}
 inline DraftProperty draft_text(const std::string& name, const std::string& value) {
     return {name, DraftProperty::scalar, DraftProperty::text, 1, {text_bytes(value)}, 0, "", {}, -1};
 }
@@ -181,6 +189,10 @@ inline DraftObject draft_mesh(const std::string& name, const std::vector<std::ve
     more.push_back(draft_array(".faceCounts", DraftProperty::i32, 1, counts));
     more.push_back(draft_array(".faceIndices", DraftProperty::i32, 1, indices));
     return {name, "schema=AbcGeom_PolyMesh_v1", {draft_compound(".geom", std::move(more))}, {}};
+}
+inline const std::vector<float> draft_points{0, 0, 0, 1, 0, 0, 0, 1, 0};
+inline DraftObject draft_triangle(const std::string& name, std::vector<DraftProperty> more = {}) {
+    return draft_mesh(name, {draft_points}, {{3}}, {{0, 1, 2}}, std::move(more));
 }
 inline DraftObject draft_subd(const std::string& name, const std::vector<std::vector<float>>& points,
                               const std::vector<std::vector<int>>& counts, const std::vector<std::vector<int>>& indices,
