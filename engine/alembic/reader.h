@@ -31,8 +31,11 @@ struct AlembicReader {
     void widen(const AlembicProperty& property);
 
   private:
-    std::vector<std::string> order_;
-    std::map<std::string, std::pair<std::string, int>> warned_;  ///< text -> first place, how often
+    struct Warning {
+        std::string text, place;  ///< the first place
+        int count;
+    };
+    std::vector<Warning> warnings_;
     std::size_t left_out_ = 0;
 };
 

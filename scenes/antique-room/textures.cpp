@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "scenes/antique-room/antique_room.h"
-#include "scenes/common/drawing.h"
+#include "scenes/common/texture_tools.h"
 
 namespace aleph {
 

@@ -1,6 +1,5 @@
 #include "scenes/art-gallery/gallery.h"
 
-#include "scenes/art-gallery/pictures.h"
 #include "scenes/common/build.h"
 #include "scenes/common/generator.h"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "scenes/common/generator.h"
 
 namespace aleph {
 
@@ -51,5 +52,16 @@ void add_top(Scene& scene, const GalleryMaterials& materials);
 void add_kinetic_work(Scene& scene, const GalleryMaterials& materials);
 void add_mobile(Scene& scene, const GalleryMaterials& materials);
 void add_gallery_camera(Scene& scene);
+
+// Drawn from formulas, deterministic.
+/// Fourteen paintings, with the aspect ratios of their frames.
+std::vector<DrawnTexture> make_painted_pictures();   ///< strokes and marks on a ground
+std::vector<DrawnTexture> make_computed_pictures();  ///< a colour for every point
+
+/// "parquet", "marble", "oak", "weave", "terracotta", "top", "ball_0" to "ball_5": all repeat without a seam.
+std::vector<DrawnTexture> make_gallery_surfaces();
+
+/// All of these.
+std::vector<DrawnTexture> make_gallery_textures();
 
 }  // namespace aleph

@@ -8,7 +8,6 @@
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/build.h"
-#include "scenes/common/camera.h"
 #include "scenes/common/keys.h"
 
 namespace aleph {

@@ -6,7 +6,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/common/build.h"
-#include "scenes/common/camera.h"
 #include "scenes/common/generator.h"
 #include "scenes/common/keys.h"
 

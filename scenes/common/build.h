@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "engine/scene/scene.h"
 #include "engine/surface/shapes.h"
@@ -100,5 +101,19 @@ int add_textured(Scene& scene, const std::string& name, const std::string& image
 /// @param image  multiplies the colour; may be empty
 int add_emitter(Scene& scene, const std::string& name, const glm::dvec3& color, double radiance,
                 const std::string& image = "");
+
+/// Adds a camera to the last node. Camera and node are both called "camera"; it looks along the -z of its node.
+/// @param fov_degrees  vertical
+void hang_camera(Scene& scene, double fov_degrees);
+
+/// Position and target of the camera on a frame.
+struct CameraStop {
+    double frame;  ///< 30 frames per second
+    glm::dvec3 eye, target;
+};
+
+/// A camera that moves from stop to stop, eased in between. The node "camera_rig" moves and rotates about y, the node
+/// below it rotates about x.
+void add_walking_camera(Scene& scene, const std::vector<CameraStop>& stops, double fov_degrees);
 
 }  // namespace aleph

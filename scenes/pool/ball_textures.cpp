@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scenes/common/texture_tools.h"
-#include "scenes/pool/textures.h"
+#include "scenes/pool/pool_scene.h"
 
 namespace aleph {
 

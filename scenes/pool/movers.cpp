@@ -4,7 +4,6 @@
 
 #include "scenes/common/build.h"
 #include "scenes/common/keys.h"
-#include "scenes/pool/break.h"
 #include "scenes/pool/pool_scene.h"
 
 namespace aleph {

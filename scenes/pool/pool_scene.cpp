@@ -3,11 +3,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/common/build.h"
-#include "scenes/common/camera.h"
 #include "scenes/common/generator.h"
 #include "scenes/common/keys.h"
-#include "scenes/pool/break.h"
-#include "scenes/pool/textures.h"
 
 namespace aleph {
 

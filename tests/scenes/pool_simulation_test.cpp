@@ -1,7 +1,7 @@
 // The physics of pool: motions and impacts with a closed form, and bad input. The break shot of the scene `pool`:
 // momentum is conserved, energy falls, balls do not overlap.
 
-#include "scenes/pool/break.h"
+#include "scenes/pool/pool_scene.h"
 #include "scenes/pool/simulation.h"
 #include "tests/support/test.h"
 

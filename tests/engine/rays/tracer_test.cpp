@@ -3,7 +3,6 @@
 #include "engine/pose/camera_view.h"
 #include "engine/rays/ray_scene.h"
 #include "engine/surface/shapes.h"
-#include "tests/engine/rays/many_instances.h"
 #include "tests/support/first_hits.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
@@ -11,6 +10,52 @@
 
 namespace aleph {
 namespace {
+
+/// Several instances, two of one mesh, some turned and scaled.
+Scene make_many() {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.5));
+    add_mesh(scene, make_faceted_sphere(1.0, 24, white), {0.0, 0.0, -5.0});
+    add_mesh(scene, make_box({1.0, 2.0, 1.0}, white), {2.0, 0.0, -6.0}, glm::angleAxis(0.5, glm::dvec3(0.0, 1.0, 0.0)));
+    const int squashed = add_node(scene, {-2.0, 0.5, -5.0}, glm::angleAxis(1.0, glm::dvec3(0.0, 0.0, 1.0)));
+    scene.nodes[squashed].meshes = {0};
+    scene.nodes[squashed].transform.scale = glm::dvec3(-0.5, 1.0, 0.3);
+    add_mesh(scene, make_quad(20.0, 20.0, white), {0.0, -2.0, 0.0}, z_to_up);
+    return scene;
+}
+
+class RandomRays {
+  public:
+    float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(engine_); }
+    glm::vec3 in_cube(float half) { return {uniform(-half, half), uniform(-half, half), uniform(-half, half)}; }
+    Ray next() {
+        return {in_cube(8.0f) - glm::vec3(0.0f, 0.0f, 5.0f), in_cube(1.0f), 0.0f,
+                uniform(0.0f, 1.0f) < 0.5f ? float_infinity : 5.0f};
+    }
+    /// A number such as a broken computation gives.
+    float special() {
+        const float values[] = {0.0f,
+                                -0.0f,
+                                1e-45f,
+                                -1e-39f,
+                                1.0f,
+                                -1.0f,
+                                9.9e8f,
+                                1.843e18f,
+                                1.85e18f,
+                                -3.4e38f,
+                                3.4e38f,
+                                float_infinity,
+                                -float_infinity,
+                                float_nan,
+                                uniform(-9.0f, 9.0f),
+                                uniform(-9.0f, 9.0f)};
+        return values[std::uniform_int_distribution<std::size_t>(0, 15)(engine_)];
+    }
+
+  private:
+    std::mt19937 engine_{11};
+};
 
 /// Numbers within the limit, a direction that is not 0, a range of distances from 0 on that is not reversed.
 bool is_traceable_ray(const Ray& ray) {
