@@ -8,15 +8,20 @@
 namespace aleph {
 namespace {
 
-PoolBall resting(double x, double z) {
+/// It slides, without spin.
+PoolBall sliding(double x, double z, const glm::dvec3& velocity) {
     PoolBall ball;
     ball.position = {x, PoolSettings{}.radius, z};
+    ball.velocity = velocity;
     return ball;
 }
 
+PoolBall resting(double x, double z) {
+    return sliding(x, z, glm::dvec3(0.0));
+}
+
 PoolBall rolling(double x, double z, const glm::dvec3& velocity) {
-    PoolBall ball = resting(x, z);
-    ball.velocity = velocity;
+    PoolBall ball = sliding(x, z, velocity);
     ball.angular_velocity = glm::cross(glm::dvec3(0.0, 1.0, 0.0), velocity) / PoolSettings{}.radius;
     return ball;
 }
@@ -49,9 +54,7 @@ TEST(PoolSimulation, BallAtRestStaysAtRest) {
 
 TEST(PoolSimulation, HeadOnElasticCollisionSwapsVelocities) {
     const PoolSettings settings = without_friction();
-    PoolBall a = resting(-0.3, 0.1), b = resting(0.2, 0.1);
-    a.velocity = {1.5, 0.0, 0.0};
-    b.velocity = {-0.5, 0.0, 0.0};
+    const PoolBall a = sliding(-0.3, 0.1, {1.5, 0.0, 0.0}), b = sliding(0.2, 0.1, {-0.5, 0.0, 0.0});
     const PoolRun run = simulate_pool({a, b}, settings, 0.3, 100.0);
     ASSERT_EQ(run.events.size(), 1u);
     EXPECT_NEAR(run.events[0].seconds, (0.5 - 2 * settings.radius) / 2.0, 1e-12);
@@ -62,9 +65,8 @@ TEST(PoolSimulation, HeadOnElasticCollisionSwapsVelocities) {
 TEST(PoolSimulation, ElasticObliqueCollisionPartsAtARightAngle) {
     // Equal masses, one at rest: the final velocities are orthogonal, and their squares add up to that of the first.
     const PoolSettings settings = without_friction();
-    PoolBall a = resting(0.0, 0.0),
+    PoolBall a = sliding(0.0, 0.0, {2.0, 0.0, 0.0}),
              b = resting(2 * settings.radius * std::cos(0.6), 2 * settings.radius * std::sin(0.6));
-    a.velocity = {2.0, 0.0, 0.0};
     collide_pair(a, b, settings);
     EXPECT_NEAR(glm::dot(a.velocity, b.velocity), 0.0, 1e-14);
     EXPECT_NEAR(glm::length(b.velocity), 2.0 * std::cos(0.6), 1e-14);
@@ -73,8 +75,7 @@ TEST(PoolSimulation, ElasticObliqueCollisionPartsAtARightAngle) {
 
 TEST(PoolSimulation, RestitutionSetsTheSpeedOfParting) {
     PoolSettings settings;
-    PoolBall a = resting(0.0, 0.0), b = resting(2 * settings.radius, 0.0);
-    a.velocity = {2.0, 0.0, 0.0};
+    PoolBall a = sliding(0.0, 0.0, {2.0, 0.0, 0.0}), b = resting(2 * settings.radius, 0.0);
     collide_pair(a, b, settings);
     EXPECT_NEAR(b.velocity.x - a.velocity.x, 2.0 * settings.ball_restitution, 1e-14);
     PoolBall c = rolling(1.0, 0.0, {2.0, 0.0, 0.0});
@@ -87,9 +88,8 @@ TEST(PoolSimulation, TwoBallsStruckAtOnceConserveMomentumAndEnergy) {
     // / 5.
     const PoolSettings settings = without_friction();
     const double pitch = 2.0 * settings.radius;
-    std::vector<PoolBall> balls = {resting(0.0, 0.0), resting(pitch * std::sqrt(0.75), 0.5 * pitch),
+    std::vector<PoolBall> balls = {sliding(0.0, 0.0, {3.0, 0.0, 0.0}), resting(pitch * std::sqrt(0.75), 0.5 * pitch),
                                    resting(pitch * std::sqrt(0.75), -0.5 * pitch)};
-    balls[0].velocity = {3.0, 0.0, 0.0};
     collide_balls(balls, {0, 1, 2}, settings);
     EXPECT_NEAR(balls[0].velocity.x, -0.6, 1e-4);
     EXPECT_NEAR(balls[0].velocity.z, 0.0, 1e-14);
@@ -120,8 +120,7 @@ TEST(PoolSimulation, RowOfTouchingBallsPassesTheImpactOn) {
 TEST(PoolSimulation, ContactFrictionTurnsTheOtherBall) {
     // Side spin on a: its surface slides along b at 1.143 m/s, the friction impulse is mu times the normal one.
     const PoolSettings settings;
-    PoolBall a = resting(0.0, 0.0), b = resting(2 * settings.radius, 0.0);
-    a.velocity = {2.0, 0.0, 0.0};
+    PoolBall a = sliding(0.0, 0.0, {2.0, 0.0, 0.0}), b = resting(2 * settings.radius, 0.0);
     a.angular_velocity = {0.0, 40.0, 0.0};
     collide_pair(a, b, settings);
     const double push = 0.5 * (1.0 + settings.ball_restitution) * 2.0;
@@ -135,11 +134,9 @@ TEST(PoolSimulation, ContactFrictionTurnsTheOtherBall) {
 
 TEST(PoolSimulation, StruckBallEndsRollingWithFiveSeventhsOfItsSpeed) {
     PoolSettings settings{.rolling_friction = 0.0};
-    PoolBall ball = resting(-1.0, 0.0);
-    ball.velocity = {2.0, 0.0, 0.0};
     // The ball slides for 2/7 v / (mu g) = .2913 s.
-    const double sliding = 2.0 / 7.0 * 2.0 / (settings.sliding_friction * settings.gravity);
-    const PoolRun run = simulate_pool({ball}, settings, 0.5, 120.0);
+    const double end_of_sliding = 2.0 / 7.0 * 2.0 / (settings.sliding_friction * settings.gravity);
+    const PoolRun run = simulate_pool({sliding(-1.0, 0.0, {2.0, 0.0, 0.0})}, settings, 0.5, 120.0);
     const PoolBall& end = run.samples.back()[0];
     EXPECT_NEAR(end.velocity.x, 10.0 / 7.0, 1e-12);
     EXPECT_NEAR(-end.angular_velocity.z * settings.radius, end.velocity.x, 1e-12);  // v = omega r
@@ -147,7 +144,7 @@ TEST(PoolSimulation, StruckBallEndsRollingWithFiveSeventhsOfItsSpeed) {
     for (std::size_t i = 0; i < run.samples.size(); ++i) {
         const double t = static_cast<double>(i) / 120.0;
         const double slip = glm::length(cloth_slip(run.samples[i][0], settings));
-        EXPECT_NEAR(slip, std::max(0.0, 2.0 * (1.0 - t / sliding)), 1e-10) << t;
+        EXPECT_NEAR(slip, std::max(0.0, 2.0 * (1.0 - t / end_of_sliding)), 1e-10) << t;
     }
 }
 

@@ -26,6 +26,12 @@ AlembicMetadata metadata_of(const json& truth) {
 constexpr std::array type_names{"bool_t",   "uint8_t", "int8_t",    "uint16_t",  "int16_t",   "uint32_t", "int32_t",
                                 "uint64_t", "int64_t", "float16_t", "float32_t", "float64_t", "string",   "wstring"};
 
+template <class T>
+void expect_numbers(const AlembicArchive& archive, const AlembicProperty& property, std::uint64_t index,
+                    const json& truth, const std::string& text) {
+    EXPECT_EQ(archive.numbers<T>(property, index), truth.get<std::vector<T>>()) << text;
+}
+
 void expect_values(const AlembicArchive& archive, const AlembicProperty& property, std::uint64_t index,
                    const json& truth, const std::string& where) {
     const std::string text = where + fmt::format(" sample {}", index);
@@ -35,28 +41,16 @@ void expect_values(const AlembicArchive& archive, const AlembicProperty& propert
             EXPECT_EQ(archive.texts(property, index), truth.get<std::vector<std::string>>()) << text;
             return;
         case PlainType::u64:
-            EXPECT_EQ(archive.numbers<std::uint64_t>(property, index), truth.get<std::vector<std::uint64_t>>()) << text;
-            return;
-        case PlainType::boolean: {
-            std::vector<int> values;
-            for (const bool value : truth) values.push_back(value);
-            EXPECT_EQ(archive.numbers<int>(property, index), values) << text;
-            return;
-        }
-        case PlainType::f64: {
-            const auto values = archive.numbers<double>(property, index);
-            EXPECT_EQ(values, truth.get<std::vector<double>>()) << text;
-            return;
-        }
+            return expect_numbers<std::uint64_t>(archive, property, index, truth, text);
+        case PlainType::boolean:
+            return expect_numbers<int>(archive, property, index, truth, text);
+        case PlainType::f64:
+            return expect_numbers<double>(archive, property, index, truth, text);
         case PlainType::f16:  // printed with the digits of single precision
-        case PlainType::f32: {
-            std::vector<float> values;
-            for (const double value : truth) values.push_back(static_cast<float>(value));
-            EXPECT_EQ(archive.numbers<float>(property, index), values) << text;
-            return;
-        }
+        case PlainType::f32:
+            return expect_numbers<float>(archive, property, index, truth, text);
         default:
-            EXPECT_EQ(archive.numbers<std::int64_t>(property, index), truth.get<std::vector<std::int64_t>>()) << text;
+            return expect_numbers<std::int64_t>(archive, property, index, truth, text);
     }
 }
 
