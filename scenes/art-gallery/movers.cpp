@@ -41,14 +41,6 @@ std::vector<MotionKey<double>> make_lean() {
     return keys;
 }
 
-void add_top_stand(const Group& work, const GalleryMaterials& materials) {
-    const Profile stand_outline = {{0.0, 0.0},    {0.34, 0.0},   {0.34, 0.0},   {0.34, 0.03},  {0.3, 0.06},
-                                   {0.16, 0.09},  {0.09, 0.16},  {0.075, 0.3},  {0.075, 0.62}, {0.1, 0.74},
-                                   {0.22, 0.81},  {0.4, 0.83},   {0.42, 0.845}, {0.42, 0.865}, {0.41, 0.875},
-                                   {0.41, 0.875}, {0.38, 0.868}, {0.15, 0.852}, {0.0, 0.85}};
-    work.add_shape("top_stand", lathe(stand_outline, 80), materials.marble);
-}
-
 struct Vane {
     const char* name;
     glm::dvec3 color;  ///< sRGB, 0..255
@@ -127,7 +119,11 @@ void add_rider(const Group& table, int i, int white, const GalleryMaterials& mat
 
 void add_top(Scene& scene, const GalleryMaterials& materials) {
     const Group work = Group{scene}.add_group("top_work", {2.15, 0.0, -0.95});
-    add_top_stand(work, materials);
+    const Profile stand_outline = {{0.0, 0.0},    {0.34, 0.0},   {0.34, 0.0},   {0.34, 0.03},  {0.3, 0.06},
+                                   {0.16, 0.09},  {0.09, 0.16},  {0.075, 0.3},  {0.075, 0.62}, {0.1, 0.74},
+                                   {0.22, 0.81},  {0.4, 0.83},   {0.42, 0.845}, {0.42, 0.865}, {0.41, 0.875},
+                                   {0.41, 0.875}, {0.38, 0.868}, {0.15, 0.852}, {0.0, 0.85}};
+    work.add_shape("top_stand", lathe(stand_outline, 80), materials.marble);
     const int skin = add_textured(scene, "top", "top", 0.25);
 
     const Group turning = work.add_group("top_precession", {0.0, 0.85, 0.0});

@@ -42,32 +42,57 @@ void add_rings(Scene& scene, const Group& sculptures, const GalleryMaterials& ma
     group.add_shape("ring_c", torus(0.19, 0.045, 64), ink, {0.0, 0.2, 0.0}, turn(z_axis, 70.0));
 }
 
-Shape make_amphora() {
-    const Profile outline = {{0.0, 0.0},   {0.09, 0.0},   {0.09, 0.0},  {0.095, 0.02}, {0.06, 0.045}, {0.075, 0.08},
-                             {0.17, 0.26}, {0.2, 0.4},    {0.17, 0.52}, {0.085, 0.6},  {0.07, 0.66},  {0.075, 0.7},
-                             {0.12, 0.73}, {0.12, 0.745}, {0.1, 0.745}, {0.06, 0.7},   {0.055, 0.64}};
-    return lathe(outline, 72);
-}
-
-Shape make_bottle() {
-    const Profile outline = {{0.0, 0.0},   {0.08, 0.0},   {0.08, 0.0},   {0.13, 0.05}, {0.165, 0.15}, {0.14, 0.26},
-                             {0.06, 0.36}, {0.035, 0.46}, {0.034, 0.56}, {0.05, 0.62}, {0.042, 0.62}, {0.026, 0.55}};
-    return lathe(outline, 64);
-}
-
-Shape make_bowl() {
-    const Profile outline = {{0.0, 0.0},   {0.09, 0.0},  {0.09, 0.0},  {0.085, 0.02},  {0.1, 0.035},
-                             {0.2, 0.1},   {0.26, 0.2},  {0.27, 0.24}, {0.262, 0.245}, {0.245, 0.2},
-                             {0.18, 0.11}, {0.06, 0.06}, {0.0, 0.055}};
-    return lathe(outline, 64);
-}
-
 void add_vases(Scene& scene, const Group& sculptures, const GalleryMaterials& materials) {
     const int clay = add_textured(scene, "terracotta", "terracotta");
     const int celadon = add_lambert(scene, "celadon", {142, 180, 160}, 0.2);
     const int cobalt = add_lambert(scene, "cobalt", {30, 62, 150}, 0.15);
+    const Shape amphora = lathe({{0.0, 0.0},
+                                 {0.09, 0.0},
+                                 {0.09, 0.0},
+                                 {0.095, 0.02},
+                                 {0.06, 0.045},
+                                 {0.075, 0.08},
+                                 {0.17, 0.26},
+                                 {0.2, 0.4},
+                                 {0.17, 0.52},
+                                 {0.085, 0.6},
+                                 {0.07, 0.66},
+                                 {0.075, 0.7},
+                                 {0.12, 0.73},
+                                 {0.12, 0.745},
+                                 {0.1, 0.745},
+                                 {0.06, 0.7},
+                                 {0.055, 0.64}},
+                                72);
+    const Shape bottle = lathe({{0.0, 0.0},
+                                {0.08, 0.0},
+                                {0.08, 0.0},
+                                {0.13, 0.05},
+                                {0.165, 0.15},
+                                {0.14, 0.26},
+                                {0.06, 0.36},
+                                {0.035, 0.46},
+                                {0.034, 0.56},
+                                {0.05, 0.62},
+                                {0.042, 0.62},
+                                {0.026, 0.55}},
+                               64);
+    const Shape bowl = lathe({{0.0, 0.0},
+                              {0.09, 0.0},
+                              {0.09, 0.0},
+                              {0.085, 0.02},
+                              {0.1, 0.035},
+                              {0.2, 0.1},
+                              {0.26, 0.2},
+                              {0.27, 0.24},
+                              {0.262, 0.245},
+                              {0.245, 0.2},
+                              {0.18, 0.11},
+                              {0.06, 0.06},
+                              {0.0, 0.055}},
+                             64);
     const glm::dvec3 places[] = {{-5.45, 0.0, 3.2}, {5.3, 0.0, 3.1}, {-1.1, 0.0, -3.2}};
-    const Shape shapes[] = {make_amphora(), make_amphora(), make_bottle()};
+    const Shape shapes[] = {amphora, amphora, bottle};
     const int glazes[] = {clay, cobalt, celadon};
     for (int i = 0; i < 3; ++i) {
         const std::string name = fmt::format("vase_{}", i);
@@ -76,9 +101,9 @@ void add_vases(Scene& scene, const Group& sculptures, const GalleryMaterials& ma
         sculptures.add_shape(name, shapes[i], glazes[i], places[i] + glm::dvec3(0.0, h, 0.0));
     }
     const double h = add_plinth(sculptures, "bowl_plinth", {0.75, 0.0, -3.1}, 0.46, 0.8, materials.plinth);
-    sculptures.add_shape("bowl", make_bowl(), cobalt, {0.75, h, -3.1});
+    sculptures.add_shape("bowl", bowl, cobalt, {0.75, h, -3.1});
     const double low = add_plinth(sculptures, "cabinet_vase_plinth", {-9.7, 0.0, 2.1}, 0.42, 0.9, materials.plinth);
-    sculptures.add_shape("cabinet_vase", make_amphora(), celadon, {-9.7, low, 2.1});
+    sculptures.add_shape("cabinet_vase", amphora, celadon, {-9.7, low, 2.1});
 }
 
 /// A knot of a flat band that turns slowly in the cabinet.

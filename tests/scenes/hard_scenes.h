@@ -53,6 +53,12 @@ struct HardScene {
         }
         return pixels;
     }
+    /// The same where there must be some.
+    std::vector<std::size_t> seen_on(const FrameOutput& output, const std::string& name) const {
+        std::vector<std::size_t> pixels = pixels_on(output, name);
+        EXPECT_FALSE(pixels.empty()) << name;
+        return pixels;
+    }
 
     Scene scene;
     Sequence sequence;
