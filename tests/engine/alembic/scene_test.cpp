@@ -25,26 +25,32 @@ void expect_matrix(const glm::dmat4& m, const json& truth, const std::string& wh
     }
 }
 
-class AlembicScene : public AlembicTruth {};
-
-TEST_P(AlembicScene, WorldTransformsAtEveryQueryTime) {
-    const Scene scene = load(GetParam());
-    const json truth = truth_of(GetParam());
-    int compared = 0;
-    for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
-        const double seconds = truth["query_times"][t];
-        const ScenePose frame = pose(scene, seconds);
-        for (const json& object : truth["objects"]) {
-            const bool xform = object.contains("xform");
-            if (!xform && !object.contains("world_lerp_ops_at")) continue;
-            const std::string path = object["path"];
-            const int node = find_node(scene, path);
-            ASSERT_NE(node, no_index) << path;
-            const json& world = xform ? object["xform"]["at"][t]["world_lerp_ops"] : object["world_lerp_ops_at"][t];
-            expect_matrix(frame.world[node], world, path + " at " + std::to_string(seconds));
-            ++compared;
+class AlembicScene : public AlembicTruth {
+  protected:
+    /// check(t, frame, object) of the truth's query times and objects.
+    template <class Check>
+    void check_at_every_time(const Check& check) const {
+        for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
+            const ScenePose frame = pose(scene, truth["query_times"][t]);
+            for (const json& object : truth["objects"]) check(t, frame, object);
         }
     }
+
+    const Scene scene = load(GetParam());
+};
+
+TEST_P(AlembicScene, WorldTransformsAtEveryQueryTime) {
+    int compared = 0;
+    check_at_every_time([&](std::size_t t, const ScenePose& frame, const json& object) {
+        const bool xform = object.contains("xform");
+        if (!xform && !object.contains("world_lerp_ops_at")) return;
+        const std::string path = object["path"];
+        const int node = find_node(scene, path);
+        ASSERT_NE(node, no_index) << path;
+        const json& world = xform ? object["xform"]["at"][t]["world_lerp_ops"] : object["world_lerp_ops_at"][t];
+        expect_matrix(frame.world[node], world, fmt::format("{} at time {}", path, t));
+        ++compared;
+    });
     EXPECT_GE(compared, GetParam() == "property_zoo" ? 0 : 4);
 }
 
@@ -55,8 +61,6 @@ TEST_P(AlembicScene, OperationsAndLocalTransforms) {
                                             {"matrix", Kind::matrix},       {"rotate", Kind::rotate},
                                             {"rotateX", Kind::rotate_x},    {"rotateY", Kind::rotate_y},
                                             {"rotateZ", Kind::rotate_z}};
-    const Scene scene = load(GetParam());
-    const json truth = truth_of(GetParam());
     for (const json& object : truth["objects"]) {
         if (!object.contains("xform")) continue;
         const std::string path = object["path"];
@@ -79,8 +83,6 @@ TEST_P(AlembicScene, OperationsAndLocalTransforms) {
 
 /// Every object but face sets and materials is a node at its path, instances expanded; and there is nothing else.
 TEST_P(AlembicScene, PathsOfNodes) {
-    const Scene scene = load(GetParam());
-    const json truth = truth_of(GetParam());
     std::set<std::string> expected, found;
     for (const json& object : truth["objects"]) {
         const std::string schema = object["schema"], path = object["path"];
@@ -92,57 +94,47 @@ TEST_P(AlembicScene, PathsOfNodes) {
 }
 
 TEST_P(AlembicScene, VisibilityAtEveryQueryTime) {
-    const Scene scene = load(GetParam());
-    const json truth = truth_of(GetParam());
-    for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
-        const ScenePose frame = pose(scene, truth["query_times"][t]);
-        for (const json& object : truth["objects"]) {
-            const int node = find_node(scene, object["path"]);
-            if (node == no_index) continue;
-            const bool hidden = object.contains("hidden_at") && object["hidden_at"][t].get<bool>();
-            EXPECT_EQ(frame.visible[node], !hidden) << object["path"] << " " << t;
-        }
-    }
+    check_at_every_time([&](std::size_t t, const ScenePose& frame, const json& object) {
+        const int node = find_node(scene, object["path"]);
+        if (node == no_index) return;
+        const bool hidden = object.contains("hidden_at") && object["hidden_at"][t].get<bool>();
+        EXPECT_EQ(frame.visible[node], !hidden) << object["path"] << " " << t;
+    });
 }
 
 /// The points of a surface, wherever its meshes have them, at every query time; and each vertex is on its point.
 TEST_P(AlembicScene, PointsAtEveryQueryTime) {
-    const Scene scene = load(GetParam());
-    const json truth = truth_of(GetParam());
     int surfaces = 0;
-    for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
+    check_at_every_time([&](std::size_t t, const ScenePose& frame, const json& object) {
         const double seconds = truth["query_times"][t];
-        const ScenePose frame = pose(scene, seconds);
-        for (const json& object : truth["objects"]) {
-            const char* kind = object.contains("polymesh") ? "polymesh" : object.contains("subd") ? "subd" : nullptr;
-            if (kind == nullptr) continue;
-            const json& at = object[kind]["at"][t];
-            const int node = find_node(scene, object["path"]);
-            int shown = 0;
-            for (std::size_t i = 0; i < frame.instances.size(); ++i) {
-                if (frame.instances[i].node != node || !frame.shown[i]) continue;
-                const auto number = static_cast<std::size_t>(frame.instances[i].mesh);
-                const Mesh& mesh = scene.meshes[number];
-                const int cache = mesh.subdivision.cage == no_index ? mesh.deformation.points
-                                                                    : scene.cages[mesh.subdivision.cage].points;
-                const std::vector<glm::dvec3> points = sample_points(scene.point_caches[cache], seconds);
-                ASSERT_EQ(points.size(), at["count"]) << object["path"] << seconds;
-                const json& first6 = at["first6_positions_lerp"];
-                for (std::size_t k = 0; k < first6.size(); ++k)
-                    EXPECT_NEAR(points[k / 3][static_cast<int>(k % 3)], first6[k].get<double>(), 1e-6)
-                        << object["path"] << " at " << seconds << " point " << k / 3;
-                ++shown;
-                if (mesh.subdivision.cage != no_index) continue;
-                const auto& posed = frame.meshes[number].positions;
-                for (std::size_t v = 0; v < mesh.deformation.vertex_points.size(); ++v) {
-                    const glm::dvec3 p = posed.empty() ? glm::dvec3(mesh.positions[v]) : posed[v];
-                    EXPECT_EQ(p, points[mesh.deformation.vertex_points[v]]) << object["path"];
-                }
+        const char* kind = object.contains("polymesh") ? "polymesh" : object.contains("subd") ? "subd" : nullptr;
+        if (kind == nullptr) return;
+        const json& at = object[kind]["at"][t];
+        const int node = find_node(scene, object["path"]);
+        int shown = 0;
+        for (std::size_t i = 0; i < frame.instances.size(); ++i) {
+            if (frame.instances[i].node != node || !frame.shown[i]) continue;
+            const auto number = static_cast<std::size_t>(frame.instances[i].mesh);
+            const Mesh& mesh = scene.meshes[number];
+            const int cache =
+                mesh.subdivision.cage == no_index ? mesh.deformation.points : scene.cages[mesh.subdivision.cage].points;
+            const std::vector<glm::dvec3> points = sample_points(scene.point_caches[cache], seconds);
+            ASSERT_EQ(points.size(), at["count"]) << object["path"] << seconds;
+            const json& first6 = at["first6_positions_lerp"];
+            for (std::size_t k = 0; k < first6.size(); ++k)
+                EXPECT_NEAR(points[k / 3][static_cast<int>(k % 3)], first6[k].get<double>(), 1e-6)
+                    << object["path"] << " at " << seconds << " point " << k / 3;
+            ++shown;
+            if (mesh.subdivision.cage != no_index) continue;
+            const auto& posed = frame.meshes[number].positions;
+            for (std::size_t v = 0; v < mesh.deformation.vertex_points.size(); ++v) {
+                const glm::dvec3 p = posed.empty() ? glm::dvec3(mesh.positions[v]) : posed[v];
+                EXPECT_EQ(p, points[mesh.deformation.vertex_points[v]]) << object["path"];
             }
-            EXPECT_GE(shown, 1) << object["path"] << seconds;
-            ++surfaces;
         }
-    }
+        EXPECT_GE(shown, 1) << object["path"] << seconds;
+        ++surfaces;
+    });
     EXPECT_GE(surfaces, GetParam() == "polymesh_anim" ? 30 : 0);
 }
 
