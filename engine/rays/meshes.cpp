@@ -135,9 +135,13 @@ class ObjectMaker {
         const auto [found, is_new] =
             deforming_.try_emplace({mesh, place}, static_cast<int>(structures_.deforming.size()));
         if (is_new) {
-            const auto m = static_cast<std::size_t>(mesh);
-            structures_.deforming.emplace_back(scene_.meshes[m], mesh, static_cast<int>(place), kinds_[m].changes,
-                                               structures_.cutouts[m].get());
+            const Mesh& of = scene_.meshes[mesh];
+            structures_.deforming.push_back({.mesh = mesh,
+                                             .place = static_cast<int>(place),
+                                             .changes = kinds_[mesh].changes,
+                                             .vertex_count = of.positions.size(),
+                                             .triangles = of.triangles,
+                                             .cutout = structures_.cutouts[mesh].get()});
         }
         return found->second;
     }

@@ -38,16 +38,9 @@ Scene make_antique_room(const std::string& textures) {
     scene.materials.back().double_sided = true;
     materials.porcelain = add_lambert(scene, "porcelain", {196, 214, 228}, 0.12);
 
-    add_antique_shell(scene, materials);
-    add_antique_window(scene, materials);
-    add_fireplace(scene, materials);
-    add_antique_pictures(scene, materials);
-    add_table_and_chairs(scene, materials);
-    add_armchair(scene, materials);
-    add_side_table(scene, materials);
-    add_bookcase(scene, materials);
-    add_tall_clock(scene, materials);
-    add_globe(scene, materials);
+    for (const auto add : {add_antique_shell, add_antique_window, add_fireplace, add_antique_pictures,
+                           add_table_and_chairs, add_armchair, add_side_table, add_bookcase, add_tall_clock, add_globe})
+        add(scene, materials);
     add_antique_camera(scene);
     return scene;
 }

@@ -28,15 +28,9 @@ Scene make_art_gallery(const std::string& textures) {
     materials.black_frame = add_lambert(scene, "black_frame", {34, 32, 32});
     materials.white_frame = add_lambert(scene, "white_frame", {240, 236, 226});
 
-    add_rooms(scene, materials);
-    add_lamps(scene, materials);
-    add_pictures(scene, materials);
-    add_furniture(scene, materials);
-    add_sculptures(scene, materials);
-    add_ball_work(scene, materials);
-    add_top(scene, materials);
-    add_kinetic_work(scene, materials);
-    add_mobile(scene, materials);
+    for (const auto add : {add_rooms, add_lamps, add_pictures, add_furniture, add_sculptures, add_ball_work, add_top,
+                           add_kinetic_work, add_mobile})
+        add(scene, materials);
     add_gallery_camera(scene);
     return scene;
 }
