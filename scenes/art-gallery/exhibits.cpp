@@ -7,6 +7,7 @@
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/build.h"
 #include "scenes/common/cages.h"
+#include "scenes/common/keys.h"
 #include "scenes/common/texture_tools.h"
 
 namespace aleph {
