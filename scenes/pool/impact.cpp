@@ -80,11 +80,6 @@ double largest_approach(const std::vector<PoolBall>& balls, const std::vector<Li
     return approach;
 }
 
-/// Impact of one pair, with the restitution of the settings.
-void collide_pair(Link& link, double approach, const PoolSettings& settings) {
-    link.push = 0.5 * (1.0 + bounce(approach, settings.ball_restitution, settings)) * approach;
-}
-
 /// Several balls press on each other for a fraction of a millisecond, during which they do not move: Hertzian contact,
 /// force = stiffness * depth^1.5 (1 + damping * closing speed), the damping such that a pair would part with the
 /// restitution of the settings (Hunt and Crossley 1975). Ends when no two balls are compressed.
@@ -143,7 +138,7 @@ void collide_balls(std::vector<PoolBall>& balls, const std::vector<int>& members
     const double approach = largest_approach(balls, links);
     if (approach <= 0.0) return;
     if (links.size() == 1) {
-        collide_pair(links.front(), approach, settings);
+        links.front().push = 0.5 * (1.0 + bounce(approach, settings.ball_restitution, settings)) * approach;
     } else {
         collide_cluster(balls, links, approach, settings);
     }
