@@ -60,15 +60,6 @@ TEST(ImageIo, ExrKeepsMetadata) {
     EXPECT_EQ(read_image(folder / "a.exr").metadata, image.metadata);
 }
 
-TEST(ImageIo, CopyingAFilesMetadataIsStable) {
-    const ScratchFolder folder;
-    ChannelImage image = small_image();
-    image.metadata = {{"software", std::string("aleph")}, {"framesPerSecond", std::array{24, 1}}};
-    write_exr(folder / "a.exr", image);
-    write_exr(folder / "b.exr", read_image(folder / "a.exr"));
-    EXPECT_EQ(read_numbers(folder / "a.exr"), read_numbers(folder / "b.exr"));
-}
-
 TEST(ImageIo, TexturesKeepTheirPrecision) {
     const ScratchFolder folder;
     Image<Rgb> image(2, 1, Rgb(0.5f));
