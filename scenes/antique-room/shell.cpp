@@ -124,8 +124,7 @@ void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
     room.add_shape("ceiling", quad(size.x, size.z), materials.ceiling, {middle.x, antique_high.y, middle.z}, z_to_down);
     const int panel =
         add_cage(scene, "panel", make_rectangle_moulding({0.66, 0.58}, panel_profile, false), materials.walnut);
-    const glm::dquat z_to_plus_z(1.0, 0.0, 0.0, 0.0);
-    for (const Wall& wall : {Wall{"wall_fire", {middle.x, 0.0, antique_low.z}, size.x, z_to_plus_z, 7},
+    for (const Wall& wall : {Wall{"wall_fire", {middle.x, 0.0, antique_low.z}, size.x, no_turn, 7},
                              Wall{"wall_back", {middle.x, 0.0, antique_high.z}, size.x, z_to_minus_z, 7},
                              Wall{"wall_window", {antique_low.x, 0.0, middle.z}, size.z, z_to_plus_x, 6},
                              Wall{"wall_right", {antique_high.x, 0.0, middle.z}, size.z, z_to_minus_x, 6}})
@@ -173,7 +172,7 @@ void add_antique_pictures(Scene& scene, const AntiqueMaterials& materials) {
         glm::dquat facing;
     };
     const Group pictures = Group{scene}.add_group("pictures");
-    for (const Hanging& hanging : {Hanging{"ship", {-0.15, 1.98, antique_low.z}, {1.0, 0.75}, {1.0, 0.0, 0.0, 0.0}},
+    for (const Hanging& hanging : {Hanging{"ship", {-0.15, 1.98, antique_low.z}, {1.0, 0.75}, no_turn},
                                    Hanging{"iris", {antique_low.x, 1.72, 1.25}, {0.42, 0.56}, z_to_plus_x},
                                    Hanging{"valley", {antique_high.x, 1.75, -0.2}, {1.1, 0.77}, z_to_minus_x}}) {
         const std::string name = hanging.image;

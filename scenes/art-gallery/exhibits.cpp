@@ -128,7 +128,7 @@ void add_bench(Scene& scene, const std::string& name, const glm::dvec3& place, d
 
 void add_pictures(Scene& scene, const GalleryMaterials& materials) {
     const Group pictures = Group{scene}.add_group("pictures");
-    const glm::dquat facing[] = {{1.0, 0.0, 0.0, 0.0}, z_to_minus_z, z_to_plus_x, z_to_minus_x};
+    const glm::dquat facing[] = {no_turn, z_to_minus_z, z_to_plus_x, z_to_minus_x};
     const int frames[] = {materials.gilt, materials.black_frame, materials.white_frame};
     for (const Hanging& hanging : hangings) {
         const std::string name = hanging.image;

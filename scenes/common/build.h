@@ -10,9 +10,10 @@
 
 namespace aleph {
 
+inline const glm::dquat no_turn(1.0, 0.0, 0.0, 0.0);
+
 inline int add_node(Scene& scene, const std::string& name, int parent = no_index,
-                    const glm::dvec3& translation = glm::dvec3(0.0),
-                    const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
+                    const glm::dvec3& translation = glm::dvec3(0.0), const glm::dquat& rotation = no_turn) {
     scene.nodes.push_back(
         {.name = name, .parent = parent, .transform = {.translation = translation, .rotation = rotation}});
     return static_cast<int>(scene.nodes.size()) - 1;
@@ -72,15 +73,14 @@ struct Group {
     operator int() const { return node; }
     /// Adds a node below this one.
     Group add_group(const std::string& name, const glm::dvec3& translation = glm::dvec3(0.0),
-                    const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) const {
+                    const glm::dquat& rotation = no_turn) const {
         return {scene, add_node(scene, name, node, translation, rotation)};
     }
     /// Adds a node that shows a mesh; several nodes may show the same. Returns its index, as all below.
     int add_mesh(const std::string& name, int mesh, const glm::dvec3& translation = glm::dvec3(0.0),
-                 const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) const;
+                 const glm::dquat& rotation = no_turn) const;
     int add_shape(const std::string& name, const Shape& shape, int material,
-                  const glm::dvec3& translation = glm::dvec3(0.0),
-                  const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) const;
+                  const glm::dvec3& translation = glm::dvec3(0.0), const glm::dquat& rotation = no_turn) const;
     /// A straight round bar between two points.
     int add_rod(const std::string& name, const glm::dvec3& from, const glm::dvec3& to, double radius, int material,
                 int segments = 12) const;

@@ -26,8 +26,7 @@ int add_cage(Scene& scene, const std::string& name, const CageShape& shape, int 
 /// Adds a cage, and a node of its name that shows it.
 /// @return the node
 int add_cage_node(const Group& group, const std::string& name, const CageShape& shape, int material,
-                  const glm::dvec3& translation = glm::dvec3(0.0),
-                  const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0));
+                  const glm::dvec3& translation = glm::dvec3(0.0), const glm::dquat& rotation = no_turn);
 
 /// A profile swept along a path in the plane z = 0, with mitred corners: picture frames, skirtings, cornices.
 /// Profile: x is the distance from the path to its left, y is along z; a repeated point is a sharp edge. List the

@@ -98,7 +98,7 @@ void add_room(Scene& scene) {
     room.add_shape("ceiling", quad(size.x, size.z), ceiling, {middle.x, room_high.y, middle.z}, z_to_down);
     add_wall(room, {"wall_far", {room_low.x, 0.0, middle.z}, size.z, z_to_plus_x}, materials);
     add_wall(room, {"wall_near", {room_high.x, 0.0, middle.z}, size.z, z_to_minus_x}, materials);
-    add_wall(room, {"wall_right", {middle.x, 0.0, room_low.z}, size.x, {1.0, 0.0, 0.0, 0.0}}, materials);
+    add_wall(room, {"wall_right", {middle.x, 0.0, room_low.z}, size.x, no_turn}, materials);
     add_wall(room, {"wall_left", {middle.x, 0.0, room_high.z}, size.x, z_to_minus_z}, materials);
 
     add_painting(room, {"sunset", {room_low.x, 1.55, 0.75}, {1.05, 0.7}, z_to_plus_x, gilt}, mount);

@@ -38,6 +38,7 @@ struct DraftProperty {
     std::string metadata;
     std::vector<DraftProperty> children;  ///< of a compound
     std::int64_t claimed_samples = -1;    ///< in place of the true number
+    std::uint64_t group = 0;              ///< of the draft, in place of one for the samples
 };
 
 template <class T>
@@ -95,7 +96,9 @@ class OgawaDraft {
         std::vector<std::uint64_t> children;
         DraftBytes headers;
         for (const DraftProperty& p : properties) {
-            children.push_back(p.kind == DraftProperty::compound ? add_compound(p.children) : add_samples(p));
+            children.push_back(p.group != 0                        ? p.group
+                               : p.kind == DraftProperty::compound ? add_compound(p.children)
+                                                                   : add_samples(p));
             const std::uint64_t info =
                 p.kind | 2u << 2 | static_cast<std::uint32_t>(p.type) << 4 | 0x100u | p.extent << 12 | 255u << 20;
             put(headers, info, 4);
