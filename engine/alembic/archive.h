@@ -98,7 +98,7 @@ class AlembicArchive {
     AlembicCompound properties(const AlembicCompound& compound, std::string_view name) const;
 
     // One sample; an index beyond the last means the last.
-    /// T: float, double (from any number), int, std::int64_t, std::uint64_t (from whole numbers and booleans).
+    /// T: float, double (from any number), int (from whole numbers and booleans).
     template <class T>
     std::vector<T> numbers(const AlembicProperty& property, std::uint64_t sample) const;
     std::vector<std::string> texts(const AlembicProperty& property, std::uint64_t sample) const;

@@ -61,23 +61,6 @@ bool is_text(PlainType type) {
     return width_of(type) == 0;
 }
 
-void append_utf8(std::string& text, std::uint32_t code) {
-    if (code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) code = 0xfffd;
-    const auto tail = [&](int shift) { text += static_cast<char>(0x80 | (code >> shift & 63)); };
-    if (code < 0x80) {
-        text += static_cast<char>(code);
-    } else if (code < 0x800) {
-        text += static_cast<char>(0xc0 | code >> 6);
-        tail(0);
-    } else if (code < 0x10000) {
-        text += static_cast<char>(0xe0 | code >> 12);
-        tail(6), tail(0);
-    } else {
-        text += static_cast<char>(0xf0 | code >> 18);
-        tail(12), tail(6), tail(0);
-    }
-}
-
 /// Position among the stored samples, of which there is at least one.
 std::uint64_t slot_of(const AlembicProperty& property, std::uint64_t sample) {
     const std::uint64_t i = std::min(sample, property.sample_count - 1);
@@ -207,38 +190,24 @@ std::vector<T> AlembicArchive::numbers(const AlembicProperty& property, std::uin
 template std::vector<float> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
 template std::vector<double> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
 template std::vector<int> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
-template std::vector<std::int64_t> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
-template std::vector<std::uint64_t> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
 
 std::vector<std::string> AlembicArchive::texts(const AlembicProperty& property, std::uint64_t sample) const {
-    if (!is_text(property.type)) fail(property, "it holds numbers, expected text");
+    if (property.type != PlainType::text) fail(property, "it does not hold text of single bytes");
     const OgawaData data = sample_data(property, sample);
     std::uint64_t count = property.extent;
     for (const std::uint64_t size : dimensions(property, sample)) count *= size;
-    const bool wide = property.type == PlainType::wide_text;
-    const std::size_t unit = wide ? 4 : 1;
-    if (count > data.bytes.size() / unit)  // each ends with a zero
+    if (count > data.bytes.size())  // each ends with a zero
         fail(property, fmt::format("sample {} claims {} texts in {} bytes", sample, count, data.bytes.size()));
     budget_.charge(count, sizeof(std::string));
     budget_.charge(data.bytes.size());
     std::vector<std::string> texts;
     texts.reserve(count);
-    std::size_t position = 0;
+    auto position = data.bytes.begin();
     while (texts.size() < count) {
-        std::string text;
-        for (;; position += unit) {
-            if (data.bytes.size() - position < unit)
-                fail(property, fmt::format("sample {}: a text does not end", sample));
-            const std::uint64_t code = decode_little_endian(data.bytes.subspan(position, unit));
-            if (code == 0) break;
-            if (wide) {
-                append_utf8(text, static_cast<std::uint32_t>(code));
-            } else {
-                text += static_cast<char>(code);
-            }
-        }
-        position += unit;
-        texts.push_back(std::move(text));
+        const auto end = std::find(position, data.bytes.end(), 0);
+        if (end == data.bytes.end()) fail(property, fmt::format("sample {}: a text does not end", sample));
+        texts.emplace_back(position, end);
+        position = end + 1;
     }
     return texts;
 }

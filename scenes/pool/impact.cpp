@@ -121,18 +121,6 @@ glm::dvec3 cloth_slip(const PoolBall& ball, const PoolSettings& settings) {
     return surface_velocity(ball, -settings.radius * up);
 }
 
-double kinetic_energy(const PoolBall& ball, const PoolSettings& settings) {
-    const double inertia = 0.4 * settings.mass * settings.radius * settings.radius;
-    return 0.5 * settings.mass * glm::dot(ball.velocity, ball.velocity) +
-           0.5 * inertia * glm::dot(ball.angular_velocity, ball.angular_velocity);
-}
-
-double kinetic_energy(const std::vector<PoolBall>& balls, const PoolSettings& settings) {
-    double sum = 0.0;
-    for (const PoolBall& ball : balls) sum += kinetic_energy(ball, settings);
-    return sum;
-}
-
 void collide_balls(std::vector<PoolBall>& balls, const std::vector<int>& members, const PoolSettings& settings) {
     std::vector<Link> links = find_links(balls, members, settings);
     const double approach = largest_approach(balls, links);

@@ -1,4 +1,4 @@
-// The physics of pool: motions and impacts with a closed form, and bad input. The break shot of the scene `pool`:
+// The physics of pool: motions and impacts with a closed form. The break shot of the scene `pool`:
 // momentum is conserved, energy falls, balls do not overlap.
 
 #include "scenes/pool/pool_scene.h"
@@ -26,6 +26,16 @@ PoolBall rolling(double x, double z, const glm::dvec3& velocity) {
     return ball;
 }
 
+/// Kinetic energy of translation and rotation, J.
+double kinetic_energy(const std::vector<PoolBall>& balls, const PoolSettings& settings) {
+    const double inertia = 0.4 * settings.mass * settings.radius * settings.radius;
+    double sum = 0.0;
+    for (const PoolBall& ball : balls)
+        sum += 0.5 * settings.mass * glm::dot(ball.velocity, ball.velocity) +
+               0.5 * inertia * glm::dot(ball.angular_velocity, ball.angular_velocity);
+    return sum;
+}
+
 void collide_pair(PoolBall& a, PoolBall& b, const PoolSettings& settings) {
     std::vector<PoolBall> balls = {a, b};
     collide_balls(balls, {0, 1}, settings);
@@ -44,7 +54,6 @@ PoolSettings without_friction() {
 
 TEST(PoolSimulation, BallAtRestStaysAtRest) {
     const PoolRun run = simulate_pool({resting(0.3, -0.2), resting(0.3 + 2 * 0.028575, -0.2)}, {}, 1.0, 60.0);
-    EXPECT_TRUE(run.events.empty());
     for (const auto& balls : run.samples) {
         EXPECT_EQ(balls[0].position, run.samples[0][0].position);
         EXPECT_EQ(balls[1].position, run.samples[0][1].position);
@@ -56,8 +65,8 @@ TEST(PoolSimulation, HeadOnElasticCollisionSwapsVelocities) {
     const PoolSettings settings = without_friction();
     const PoolBall a = sliding(-0.3, 0.1, {1.5, 0.0, 0.0}), b = sliding(0.2, 0.1, {-0.5, 0.0, 0.0});
     const PoolRun run = simulate_pool({a, b}, settings, 0.3, 100.0);
-    ASSERT_EQ(run.events.size(), 1u);
-    EXPECT_NEAR(run.events[0].seconds, (0.5 - 2 * settings.radius) / 2.0, 1e-12);
+    const double met = (0.5 - 2 * settings.radius) / 2.0;  // s
+    EXPECT_NEAR(run.samples.back()[0].position.x, -0.3 + 1.5 * met - 0.5 * (0.3 - met), 1e-12);
     EXPECT_NEAR(run.samples.back()[0].velocity.x, -0.5, 1e-14);
     EXPECT_NEAR(run.samples.back()[1].velocity.x, 1.5, 1e-14);
 }
@@ -195,24 +204,11 @@ TEST(PoolSimulation, MirroredBreakRunsMirrored) {
         ball.angular_velocity.y = -ball.angular_velocity.y;
     }
     const PoolRun mirrored = simulate_pool(balls, {}, 1.0, 60.0);
-    ASSERT_GT(run.events.size(), 1u);
-    ASSERT_EQ(run.events.size(), mirrored.events.size());
     for (std::size_t i = 0; i < balls.size(); ++i) {
+        EXPECT_NE(run.samples.back()[i].position, run.samples.front()[i].position);
         EXPECT_NEAR(run.samples.back()[i].position.x, mirrored.samples.back()[i].position.x, 1e-9);
         EXPECT_NEAR(run.samples.back()[i].position.z, -mirrored.samples.back()[i].position.z, 1e-9);
     }
-}
-
-TEST(PoolSimulation, RefusesBadInput) {
-    const PoolBall good = resting(0.0, 0.0);
-    PoolBall broken = good;
-    broken.velocity.x = not_a_number;
-    EXPECT_THROW(simulate_pool({broken}, {}, 1.0, 60.0), InputError);
-    EXPECT_THROW(simulate_pool({good, resting(0.01, 0.0)}, {}, 1.0, 60.0), InputError);
-    EXPECT_THROW(simulate_pool({resting(2.0, 0.0)}, {}, 1.0, 60.0), InputError);
-    EXPECT_THROW(simulate_pool({good}, {}, 1.0, 0.0), InputError);
-    PoolSettings settings{.ball_restitution = 1.5};
-    EXPECT_THROW(simulate_pool({good}, settings, 1.0, 60.0), InputError);
 }
 
 /// The simulation behind the scene `pool`.
@@ -221,30 +217,29 @@ const PoolRun& break_run() {
     return run;
 }
 
-TEST(PoolBreak, HasARackAndACueBallAndManyCollisions) {
-    const PoolRun& run = break_run();
-    EXPECT_EQ(run.samples.size(), 361u);
-    EXPECT_EQ(run.samples.front().size(), 16u);
-    const auto cushions = std::ranges::count(run.events, true, &PoolEvent::cushion);
-    EXPECT_GT(cushions, 12);
-    EXPECT_GT(std::ssize(run.events) - cushions, 6);
-    EXPECT_EQ(run.events.front().balls.size(), 16u);  // the whole rack takes part in the first impact
-}
-
-TEST(PoolBreak, MomentumIsConservedInEveryBallCollision) {
-    for (const PoolEvent& event : break_run().events) {
-        if (event.cushion) continue;
-        const double size = std::max(glm::length(event.momentum_before), 1e-3);
-        EXPECT_LE(glm::length(event.momentum_after - event.momentum_before), 1e-15 * size)
-            << event.balls.size() << " balls at " << event.seconds;
+/// The cue ball at the apex: all sixteen take part, in one impact.
+TEST(PoolBreak, MomentumIsConservedInTheImpactOfTheWholeRack) {
+    const PoolSettings settings;
+    std::vector<PoolBall> balls = make_rack(settings);
+    balls[cue_ball].position = balls[1].position - glm::dvec3(2.0 * settings.radius, 0.0, 0.0);
+    std::vector<int> all(16);
+    std::iota(all.begin(), all.end(), 0);
+    const double energy = kinetic_energy(balls, settings);
+    const glm::dvec3 momentum = balls[cue_ball].velocity;
+    collide_balls(balls, all, settings);
+    glm::dvec3 sum(0.0);
+    for (const PoolBall& ball : balls) {
+        sum += ball.velocity;
+        EXPECT_GT(glm::length(ball.velocity), 1e-3);
     }
+    EXPECT_LE(glm::length(sum - momentum), 1e-15 * glm::length(momentum));
+    EXPECT_LT(kinetic_energy(balls, settings), energy);
 }
 
 TEST(PoolBreak, EnergyNeverRises) {
     const PoolSettings settings;
     const PoolRun& run = break_run();
-    for (const PoolEvent& event : run.events)
-        EXPECT_LE(event.energy_after, event.energy_before * (1.0 + 4e-16)) << event.seconds;
+    EXPECT_EQ(run.samples.size(), 361u);
     double before = infinity;
     for (const auto& balls : run.samples) {
         const double now = kinetic_energy(balls, settings);
