@@ -92,11 +92,10 @@ class Tracer {
     Hit intersect(const Ray& ray, glm::vec3* normal = nullptr);
     bool occluded(const Ray& ray);
 
-    /// In packets, one hit per ray.
-    /// @param coherent  neighbouring rays have similar origins and directions
+    /// In packets, one hit per ray; quick where neighbouring rays have similar origins and directions.
     /// @param normals   if given, set to the true normals of what is hit: across the triangle, as long as twice its
     ///                  area, on either side; in the object's space, or the world's where RayScene::is_flat
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent, std::span<glm::vec3> normals = {});
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<glm::vec3> normals = {});
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked);
 
   private:

@@ -186,10 +186,10 @@ bool Tracer::occluded(const Ray& ray) {
     return lane.blocked;
 }
 
-void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent, std::span<glm::vec3> normals) {
+void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<glm::vec3> normals) {
     ALEPH_CHECK(rays.size() == hits.size() && (normals.empty() || normals.size() == hits.size()),
                 fmt::format("{} rays, {} hits, {} normals", rays.size(), hits.size(), normals.size()));
-    const int width = coherent ? state_.meshes->packet_width : 1;
+    const int width = state_.meshes->packet_width;
     if (width == 1) {
         for (std::size_t i = 0; i < rays.size(); ++i)
             hits[i] = intersect(rays[i], normals.empty() ? nullptr : &normals[i]);

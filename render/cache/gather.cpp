@@ -296,7 +296,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     const int most = divide_cells(strata, options.divided, scratch);
     place_rays(strata, make_basis(point.normal), point, numbers, most, scratch);
     scratch.strata = strata;
-    task.tracer.intersect(scratch.rays, scratch.hits, true, scratch.normals);
+    task.tracer.intersect(scratch.rays, scratch.hits, scratch.normals);
     task.counts.gather += scratch.rays.size();
     light_hits(
         {context, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});

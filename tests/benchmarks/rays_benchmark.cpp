@@ -75,7 +75,7 @@ std::size_t trace(const RayScene& scene, std::span<const Ray> rays, Way way, boo
             tracer.occluded(rays.subspan(begin, count), std::span(blocked.data(), count));
             for (std::size_t i = 0; i < count; ++i) met += blocked[i];
         } else {
-            tracer.intersect(rays.subspan(begin, count), std::span(hits.data(), count), way == Way::coherent);
+            tracer.intersect(rays.subspan(begin, count), std::span(hits.data(), count));
             for (std::size_t i = 0; i < count; ++i) met += hits[i].instance != no_index;
         }
     }
@@ -217,12 +217,10 @@ void run(const Scene& scene, const PosedView& posed) {
         measure(name, rays, way, occlusion, flat, nodes, raw);
     };
     row("primary, coherent", sets.primary, Way::coherent, false);
-    row("primary, incoherent", sets.primary, Way::packets, false);
     row("primary, single", sets.primary, Way::single, false);
     row("gather, coherent", sets.gather, Way::coherent, false);
-    row("gather, incoherent", sets.gather, Way::packets, false);
     row("gather, single", sets.gather, Way::single, false);
-    row("scattered, incoherent", sets.scattered, Way::packets, false);
+    row("scattered, packets", sets.scattered, Way::packets, false);
     row("scattered, single", sets.scattered, Way::single, false);
     row("shadow, packets", sets.shadow, Way::packets, true);
     row("shadow, single", sets.shadow, Way::single, true);

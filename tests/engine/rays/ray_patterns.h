@@ -20,10 +20,16 @@ inline RayScene place(const Scene& scene, double seconds = 0.0) {
     return rays;
 }
 
-inline std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays, bool coherent = false,
+/// In packets, or one by one.
+inline std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays, bool in_packets = true,
                               Blend blend = Blend::cutout) {
     std::vector<Hit> hits(rays.size());
-    Tracer(scene, blend).intersect(rays, hits, coherent);
+    Tracer tracer(scene, blend);
+    if (in_packets) {
+        tracer.intersect(rays, hits);
+    } else {
+        std::ranges::transform(rays, hits.begin(), [&](const Ray& ray) { return tracer.intersect(ray); });
+    }
     return hits;
 }
 
@@ -33,8 +39,7 @@ inline int instance_at(const RayScene& scene, float x, float y) {
     const std::vector<Ray> rays(17, ray_down(x, y));
     const int alone = tracer.intersect(rays[0]).instance;
     EXPECT_EQ(tracer.occluded(rays[0]), alone != no_index);
-    for (const bool coherent : {false, true})
-        for (const Hit& hit : trace(scene, rays, coherent)) EXPECT_EQ(hit.instance, alone);
+    for (const Hit& hit : trace(scene, rays)) EXPECT_EQ(hit.instance, alone);
     std::vector<std::uint8_t> blocked(rays.size());
     tracer.occluded(rays, blocked);
     for (const std::uint8_t b : blocked) EXPECT_EQ(b != 0, alone != no_index);

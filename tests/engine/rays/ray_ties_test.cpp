@@ -60,13 +60,13 @@ TEST(RayTies, RC07_RefitsFreshBuildsPacketsAndSingleRaysAgree) {
     const RayScene fresh = place(scene, 1.0);
     for (const double seconds : {0.0, 0.2, 0.5, 0.9, 1.0}) refitted.update(pose(scene, seconds), glm::dvec3(0.0));
     for (const std::vector<Ray>& rays : {make_rays(20000, 1.1f), make_edge_rays(8), make_edge_rays(5)}) {
-        const std::vector<Hit> expected = trace(fresh, rays);
+        const std::vector<Hit> expected = trace(fresh, rays, false);
         std::size_t met = 0;
         for (const Hit& hit : expected) met += hit.instance != no_index;
         EXPECT_GT(met, rays.size() / 2);
-        EXPECT_EQ(count_differences(trace(fresh, rays, true), expected), 0u);
-        for (const bool coherent : {false, true})
-            EXPECT_EQ(count_differences(trace(refitted, rays, coherent), expected), 0u) << coherent;
+        EXPECT_EQ(count_differences(trace(fresh, rays), expected), 0u);
+        for (const bool in_packets : {false, true})
+            EXPECT_EQ(count_differences(trace(refitted, rays, in_packets), expected), 0u) << in_packets;
     }
 }
 
@@ -89,8 +89,8 @@ TEST(RayTies, RC07_TheLowestInstanceAndPrimitiveOfEqualSurfacesWins) {
         }
         RayScene rays = place(scene);
         EXPECT_EQ(rays.skipped_instances(), 0u);  // node 0 is hidden, not left out
-        for (const bool coherent : {false, true}) {
-            for (const Hit& hit : trace(rays, make_rays(4000, 0.99f), coherent)) {
+        for (const bool in_packets : {false, true}) {
+            for (const Hit& hit : trace(rays, make_rays(4000, 0.99f), in_packets)) {
                 ASSERT_EQ(hit.instance, 2);
                 ASSERT_LT(hit.primitive, 32);
             }
@@ -122,8 +122,8 @@ TEST(RayTies, RC06_TheNearSideOfAThinWallIsMetFromAfar) {
                 ray.origin = glm::vec3(30.0f, 20.0f, 1000.0f * side);
                 ray.direction = target - ray.origin;
             }
-            for (const bool coherent : {false, true}) {
-                for (const Hit& hit : trace(placed, rays, coherent)) {
+            for (const bool in_packets : {false, true}) {
+                for (const Hit& hit : trace(placed, rays, in_packets)) {
                     ASSERT_EQ(hit.instance, 0);
                     ASSERT_EQ(hit.primitive >= static_cast<int>(half), side > 0.0f);
                 }

@@ -87,7 +87,7 @@ TEST(RayScene, RC01_BadRaysAreMissesAndCounted) {
                 for (int c = 0; c < changes; ++c)
                     *numbers[static_cast<std::size_t>(random.uniform(0.0f, 7.999f))] = random.special();
             }
-            tracer.intersect(rays, hits, round % 2 == 0);
+            tracer.intersect(rays, hits);
             tracer.occluded(rays, blocked);
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const Ray& r = rays[i];

@@ -71,7 +71,7 @@ TEST(LambertHit, PacketsFindTheNormalsOfSingleRays) {
     Tracer tracer(stage.rays);
     std::vector<Hit> hits(rays.size());
     std::vector<glm::vec3> normals(rays.size());
-    tracer.intersect(rays, hits, true, normals);
+    tracer.intersect(rays, hits, normals);
     int met[2] = {};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         glm::vec3 normal(0.0f);
