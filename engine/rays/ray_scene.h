@@ -96,7 +96,6 @@ class Tracer {
     /// @param normals   if given, set to the true normals of what is hit: across the triangle, as long as twice its
     ///                  area, on either side; in the object's space, or the world's where RayScene::is_flat
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<glm::vec3> normals = {});
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked);
 
   private:
     RayScene::State& state_;

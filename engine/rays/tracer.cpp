@@ -201,10 +201,4 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span
     invalid_ += invalid;
 }
 
-void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
-    ALEPH_CHECK(rays.size() == blocked.size(),
-                std::to_string(rays.size()) + " rays, " + std::to_string(blocked.size()));
-    for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]) ? 1 : 0;
-}
-
 }  // namespace aleph

@@ -257,7 +257,7 @@ void add_unshadowed(const LightingContext& context, RayTask& task, const GatherO
     const std::size_t count = scratch.shadow_rays.size();
     if (!context.shading.has_thin_glass) {
         scratch.blocked.resize(count);
-        task.tracer.occluded(scratch.shadow_rays, scratch.blocked);
+        for (std::size_t s = 0; s < count; ++s) scratch.blocked[s] = task.tracer.occluded(scratch.shadow_rays[s]);
         task.counts.shadow += count;
     }
     for (std::size_t s = 0; s < count; ++s) {

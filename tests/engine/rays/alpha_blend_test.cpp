@@ -104,8 +104,7 @@ TEST(AlphaBlend, ShadowsArePartial) {
     const RayScene two = place(make_blended(0.4, 2));
     EXPECT_TRUE(holds([&](Trial& trial) {
         const std::vector<Ray> rays = make_rays(trial);
-        std::vector<std::uint8_t> blocked(rays.size());
-        Tracer(two, Blend::random).occluded(rays, blocked);
+        const std::vector<std::uint8_t> blocked = find_blocked(two, rays, Blend::random);
         trial.counts(static_cast<double>(std::ranges::count(blocked, 0)), static_cast<double>(rays.size()), 0.36);
     }));
 }
@@ -166,9 +165,8 @@ TEST(AlphaBlend, OneRayHasOneAnswer) {
     EXPECT_EQ(cast(placed, rays), hits);
     const std::vector<Ray> rest(rays.begin() + 3, rays.end());
     const std::vector<Hit> shifted = cast(placed, rest);
-    std::vector<std::uint8_t> blocked(rays.size());
+    const std::vector<std::uint8_t> blocked = find_blocked(placed, rays, Blend::random);
     Tracer tracer(placed, Blend::random);
-    tracer.occluded(rays, blocked);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Hit alone = tracer.intersect(rays[i]);
         ASSERT_EQ(hits[i].instance, alone.instance) << i;

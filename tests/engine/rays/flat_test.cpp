@@ -65,9 +65,8 @@ double count_differences(const RayScene& a, const RayScene& b, const std::vector
                      std::abs(x.v - y.v) > 0.05f;
     }
     EXPECT_GT(met, rays.size() / 3);
-    std::vector<std::uint8_t> blocked(rays.size()), others_blocked(rays.size());
-    Tracer(a, blend).occluded(rays, blocked);
-    Tracer(b, blend).occluded(rays, others_blocked);
+    const std::vector<std::uint8_t> blocked = find_blocked(a, rays, blend),
+                                    others_blocked = find_blocked(b, rays, blend);
     for (std::size_t i = 0; i < rays.size(); ++i) different += blocked[i] != others_blocked[i];
     return static_cast<double>(different) / static_cast<double>(2 * rays.size());
 }

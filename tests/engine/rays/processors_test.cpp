@@ -54,9 +54,7 @@ struct Answers {
 Answers ask(const Scene& scene, const std::vector<Ray>& rays, const char* configuration) {
     RayScene placed = make_ray_scene(scene, std::make_unique<EmbreeDevice>(configuration));
     placed.update(pose(scene, 0.0), glm::dvec3(0.0));
-    Answers answers{trace(placed, rays), trace(placed, rays, false), std::vector<std::uint8_t>(rays.size())};
-    Tracer(placed).occluded(rays, answers.blocked);
-    return answers;
+    return {trace(placed, rays), trace(placed, rays, false), find_blocked(placed, rays)};
 }
 
 TEST(Processors, RC15_AllBitsOfHitsAreTheSame) {
