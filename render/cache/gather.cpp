@@ -254,18 +254,9 @@ void light_hits(const Lighting& lighting) {
 /// Casts the shadow rays and adds the light that is not in shadow.
 void add_unshadowed(const LightingContext& context, RayTask& task, const GatherOptions& options,
                     GatherScratch& scratch) {
-    const std::size_t count = scratch.shadow_rays.size();
-    if (!context.shading.has_thin_glass) {
-        scratch.blocked.resize(count);
-        for (std::size_t s = 0; s < count; ++s) scratch.blocked[s] = task.tracer.occluded(scratch.shadow_rays[s]);
-        task.counts.shadow += count;
-    }
-    for (std::size_t s = 0; s < count; ++s) {
-        const ShadowSample& sample = scratch.shadow_samples[s];
-        const Rgb passed = context.shading.has_thin_glass ? find_transmittance(context, task, scratch.shadow_rays[s])
-                                                          : Rgb(scratch.blocked[s] ? 0.0f : 1.0f);
-        add_arrived(sample, passed, options, scratch);
-    }
+    for (std::size_t s = 0; s < scratch.shadow_rays.size(); ++s)
+        add_arrived(scratch.shadow_samples[s], find_transmittance(context, task, scratch.shadow_rays[s]), options,
+                    scratch);
 }
 
 /// From what the rays found to the radiance and the distance of every cell.
