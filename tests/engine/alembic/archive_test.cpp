@@ -34,6 +34,8 @@ void expect_values(const AlembicArchive& archive, const AlembicProperty& propert
         EXPECT_EQ(archive.texts(property, index), truth.get<std::vector<std::string>>()) << text;
     } else if (property.type == PlainType::f16 || property.type == PlainType::f32) {  // printed as single precision
         EXPECT_EQ(archive.numbers<float>(property, index), truth.get<std::vector<float>>()) << text;
+    } else if (property.type == PlainType::boolean) {
+        EXPECT_EQ(archive.numbers<int>(property, index), truth.get<std::vector<int>>()) << text;
     } else {
         EXPECT_EQ(archive.numbers<double>(property, index), truth.get<std::vector<double>>()) << text;
     }
