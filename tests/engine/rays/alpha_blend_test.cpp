@@ -181,8 +181,8 @@ TEST(AlphaBlend, OneRayHasOneAnswer) {
         std::vector<Hit> parallel(rays.size());
         parallel_for(rays.size(), 100, [&](std::size_t begin, std::size_t end) {
             Tracer mine(placed, Blend::random);
-            mine.intersect(std::span(rays).subspan(begin, end - begin), std::span(parallel).subspan(begin, end - begin),
-                           true);
+            mine.intersect(std::span(rays).subspan(begin, end - begin),
+                           std::span(parallel).subspan(begin, end - begin));
         });
         for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_EQ(parallel[i].instance, hits[i].instance) << i;
     }
