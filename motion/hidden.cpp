@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <glm/geometric.hpp>
 #include <numeric>
-#include <span>
 #include <vector>
 
 #include "engine/base/errors.h"
@@ -42,8 +40,6 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const PosedVie
     const int columns = (hits.width + block - 1) / block, rows = (hits.height + block - 1) / block;
     std::vector<std::uint64_t> rays_of_row(static_cast<std::size_t>(rows), 0);
     const auto mark_block = [&](Tracer& tracer, int left, int top) -> std::size_t {
-        std::array<Ray, block * block> rays;
-        std::array<std::size_t, block * block> pixels;
         std::size_t count = 0;
         int last = no_index;  // neighbours are mostly of one instance
         CameraFromObject map;
@@ -56,14 +52,10 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const PosedVie
                 if (hit.instance != last) map = make_camera_from_object(other.view, other.pose.world[node]);
                 last = hit.instance;
                 const glm::dvec3 point = triangle_point(scene.meshes[mesh], other.pose.meshes[mesh], hit);
-                rays[count] = make_visibility_ray(other.view, other_rays.anchor(), map(point));
-                pixels[count++] = pixel;
+                ++count;
+                if (tracer.occluded(make_visibility_ray(other.view, other_rays.anchor(), map(point))))
+                    field.validity.pixels[pixel] = MotionValidity::hidden;
             }
-        }
-        std::array<std::uint8_t, block * block> blocked{};
-        tracer.occluded(std::span(rays).first(count), std::span(blocked).first(count));
-        for (std::size_t i = 0; i < count; ++i) {
-            if (blocked[i] != 0) field.validity.pixels[pixels[i]] = MotionValidity::hidden;
         }
         return count;
     };

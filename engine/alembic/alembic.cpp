@@ -24,22 +24,19 @@ AlembicReader::AlembicReader(const AlembicArchive& source) : archive(source) {
 }
 
 void AlembicReader::warn(int object, const std::string& text) {
-    if (order_.size() >= max_warnings && !warned_.contains(text)) {
+    const auto known = std::ranges::find(warnings_, text, &Warning::text);
+    if (known != warnings_.end()) {
+        ++known->count;
+    } else if (warnings_.size() < max_warnings) {
+        warnings_.push_back({text, printable(archive.path(object), 200), 1});
+    } else {
         ++left_out_;
-        return;
     }
-    const auto [found, is_new] = warned_.try_emplace(text);
-    if (is_new) {
-        order_.push_back(text);
-        found->second.first = printable(archive.path(object), 200);
-    }
-    ++found->second.second;
 }
 
 std::vector<std::string> AlembicReader::list_warnings() const {
     std::vector<std::string> warnings;
-    for (const std::string& text : order_) {
-        const auto& [place, count] = warned_.at(text);
+    for (const auto& [text, place, count] : warnings_) {
         warnings.push_back(fmt::format("{}: {}{}: {}", archive.file(), place,
                                        count > 1 ? fmt::format(" and {} more", count - 1) : "", text));
     }

@@ -25,9 +25,7 @@ std::string_view as_text(const OgawaData& data) {
     return {reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size()};
 }
 
-}  // namespace
-
-AlembicMetadata parse_alembic_metadata(std::string_view text) {
+AlembicMetadata parse_metadata(std::string_view text) {
     AlembicMetadata metadata;
     while (!text.empty()) {
         const std::string_view piece = text.substr(0, text.find(';'));
@@ -39,6 +37,8 @@ AlembicMetadata parse_alembic_metadata(std::string_view text) {
     return metadata;
 }
 
+}  // namespace
+
 const std::string& metadata_value(const AlembicMetadata& metadata, std::string_view key) {
     static const std::string none;
     const auto found = metadata.find(key);
@@ -48,6 +48,11 @@ const std::string& metadata_value(const AlembicMetadata& metadata, std::string_v
 const AlembicProperty* AlembicCompound::find(std::string_view name) const {
     const auto found = std::ranges::find(properties, name, &AlembicProperty::name);
     return found == properties.end() ? nullptr : &*found;
+}
+
+const AlembicProperty* AlembicCompound::find_sampled(std::string_view name) const {
+    const AlembicProperty* found = find(name);
+    return found != nullptr && found->sample_count > 0 ? found : nullptr;
 }
 
 std::string AlembicObject::schema() const {
@@ -68,7 +73,7 @@ AlembicArchive::AlembicArchive(std::vector<std::uint8_t> bytes, const std::strin
     OgawaCursor(ogawa_.data(root, 1).bytes, file, "library version").take_unsigned(4);
     const OgawaData text = ogawa_.data(root, 3), times = ogawa_.data(root, 4), table = ogawa_.data(root, 5);
     budget_.charge(text.bytes.size() + times.bytes.size() + table.bytes.size(), 4);
-    metadata_ = parse_alembic_metadata(as_text(text));
+    metadata_ = parse_metadata(as_text(text));
     read_time_samplings(times);
     read_indexed_metadata(table);
     read_objects();
@@ -76,6 +81,10 @@ AlembicArchive::AlembicArchive(std::vector<std::uint8_t> bytes, const std::strin
 
 void AlembicArchive::fail(int object, const std::string& reason) const {
     throw InputError(file(), printable(path(object), 200), reason);
+}
+
+void AlembicArchive::fail(const AlembicProperty& property, const std::string& reason) const {
+    throw InputError(file(), printable(property.name), reason);
 }
 
 void AlembicArchive::read_time_samplings(const OgawaData& table) {
@@ -120,8 +129,7 @@ void AlembicArchive::read_time_samplings(const OgawaData& table) {
 void AlembicArchive::read_indexed_metadata(const OgawaData& table) {
     indexed_metadata_.emplace_back();  // number 0 is not stored
     OgawaCursor cursor(table.bytes, file(), "metadata table");
-    while (!cursor.at_end())
-        indexed_metadata_.push_back(parse_alembic_metadata(cursor.take_text(cursor.take_unsigned(1))));
+    while (!cursor.at_end()) indexed_metadata_.push_back(parse_metadata(cursor.take_text(cursor.take_unsigned(1))));
 }
 
 const AlembicMetadata& AlembicArchive::metadata_number(std::uint64_t number, const OgawaCursor& cursor) const {
@@ -170,9 +178,8 @@ void AlembicArchive::read_objects() {
             object.name = cursor.take_text(cursor.take_unsigned(4));
             if (object.name.empty()) cursor.fail("a child has no name");
             const std::uint64_t number = cursor.take_unsigned(1);
-            object.metadata = number == inline_metadata
-                                  ? parse_alembic_metadata(cursor.take_text(cursor.take_unsigned(4)))
-                                  : metadata_number(number, cursor);
+            object.metadata = number == inline_metadata ? parse_metadata(cursor.take_text(cursor.take_unsigned(4)))
+                                                        : metadata_number(number, cursor);
             object.group = ogawa_.group(group, children.size() + 1);
             for (int i = parent; i >= 0; i = objects_[i].parent) {
                 if (object.group.offset != 0 && objects_[i].group == object.group)
@@ -195,15 +202,18 @@ AlembicCompound AlembicArchive::properties(int object) const {
     try {
         return read_properties(ogawa_.group(group, 0));
     } catch (const InputError& error) {
-        throw InputError(file(), printable(path(object), 200),
-                         error.place().empty() ? error.reason() : error.place() + ": " + error.reason());
+        fail(object, error.place().empty() ? error.reason() : error.place() + ": " + error.reason());
     }
 }
 
 AlembicCompound AlembicArchive::properties(const AlembicProperty& compound) const {
-    if (compound.kind != AlembicProperty::Kind::compound)
-        throw InputError(file(), printable(compound.name), "it is one property, expected a compound");
+    if (compound.kind != AlembicProperty::Kind::compound) fail(compound, "it is one property, expected a compound");
     return read_properties(compound.group);
+}
+
+AlembicCompound AlembicArchive::properties(const AlembicCompound& compound, std::string_view name) const {
+    const AlembicProperty* member = compound.find(name);
+    return member == nullptr ? AlembicCompound{} : properties(*member);
 }
 
 AlembicCompound AlembicArchive::read_properties(const OgawaGroup& group) const {
@@ -248,9 +258,8 @@ AlembicCompound AlembicArchive::read_properties(const OgawaGroup& group) const {
         property.name = cursor.take_text(cursor.take_unsigned(width));
         if (property.name.empty()) cursor.fail("a property has no name");
         const std::uint64_t number = info >> 20 & 255;
-        property.metadata = number == inline_metadata
-                                ? parse_alembic_metadata(cursor.take_text(cursor.take_unsigned(width)))
-                                : metadata_number(number, cursor);
+        property.metadata = number == inline_metadata ? parse_metadata(cursor.take_text(cursor.take_unsigned(width)))
+                                                      : metadata_number(number, cursor);
         property.group = ogawa_.group(group, compound.properties.size());
         budget_.charge(1, sizeof(AlembicProperty) + 64 * property.metadata.size());
         compound.properties.push_back(std::move(property));

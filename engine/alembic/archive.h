@@ -21,8 +21,6 @@ inline constexpr std::size_t max_alembic_objects = 250000;
 /// "key=value;key=value"; on a repeated key the first wins.
 using AlembicMetadata = std::map<std::string, std::string, std::less<>>;
 
-AlembicMetadata parse_alembic_metadata(std::string_view text);
-
 /// The value of a key; empty where there is none.
 const std::string& metadata_value(const AlembicMetadata& metadata, std::string_view key);
 
@@ -55,6 +53,8 @@ struct AlembicCompound {
 
     /// Null where there is no property of that name.
     const AlembicProperty* find(std::string_view name) const;
+    /// The same where it has samples.
+    const AlembicProperty* find_sampled(std::string_view name) const;
 };
 
 struct AlembicObject {
@@ -94,9 +94,11 @@ class AlembicArchive {
     /// Properties of an object, and of a compound property. @throws InputError, as all below
     AlembicCompound properties(int object) const;
     AlembicCompound properties(const AlembicProperty& compound) const;
+    /// Those of the compound's member of a name; none where it has no such member.
+    AlembicCompound properties(const AlembicCompound& compound, std::string_view name) const;
 
     // One sample; an index beyond the last means the last.
-    /// T: float, double (from any number), int, std::int64_t, std::uint64_t (from whole numbers and booleans).
+    /// T: float, double (from any number), int (from whole numbers and booleans).
     template <class T>
     std::vector<T> numbers(const AlembicProperty& property, std::uint64_t sample) const;
     std::vector<std::string> texts(const AlembicProperty& property, std::uint64_t sample) const;
@@ -112,6 +114,7 @@ class AlembicArchive {
     /// Charge it before memory is taken for what was read.
     ReadBudget& budget() const { return budget_; }
     [[noreturn]] void fail(int object, const std::string& reason) const;
+    [[noreturn]] void fail(const AlembicProperty& property, const std::string& reason) const;
 
   private:
     void read_time_samplings(const OgawaData& table);

@@ -79,15 +79,14 @@ Track<double> make_fov_track(const AlembicSamples& samples, const std::vector<st
 }
 
 glm::dmat3 read_film_back(AlembicReader& reader, int object, const AlembicCompound& geom) {
-    const AlembicProperty* operations = geom.find(".filmBackOps");
-    const AlembicProperty* channels = geom.find(".filmBackChannels");
-    if (operations == nullptr || operations->sample_count == 0) return glm::dmat3(1.0);
+    const AlembicProperty* operations = geom.find_sampled(".filmBackOps");
+    const AlembicProperty* channels = geom.find_sampled(".filmBackChannels");
+    if (operations == nullptr) return glm::dmat3(1.0);
     if (channels != nullptr && !channels->is_constant())
         reader.warn(object, "its film back changes over time; its first state is used");
     try {
-        const std::vector<double> values = channels == nullptr || channels->sample_count == 0
-                                               ? std::vector<double>{}
-                                               : reader.archive.numbers<double>(*channels, 0);
+        std::vector<double> values;
+        if (channels != nullptr) values = reader.archive.numbers<double>(*channels, 0);
         return film_back_matrix(reader.archive.texts(*operations, 0), values);
     } catch (const std::invalid_argument& error) {
         reader.archive.fail(object, error.what());
@@ -131,10 +130,9 @@ glm::dmat3 film_back_matrix(const std::vector<std::string>& operations, std::spa
 int read_camera(AlembicReader& reader, int object, const AlembicCompound& top) {
     const AlembicArchive& archive = reader.archive;
     if (const auto known = reader.camera_of.find(object); known != reader.camera_of.end()) return known->second;
-    const AlembicProperty* compound = top.find(".geom");
-    const AlembicCompound geom = compound == nullptr ? AlembicCompound{} : archive.properties(*compound);
-    const AlembicProperty* property = geom.find(".core");
-    if (property == nullptr || property->sample_count == 0) archive.fail(object, "the camera has no .core");
+    const AlembicCompound geom = archive.properties(top, ".geom");
+    const AlembicProperty* property = geom.find_sampled(".core");
+    if (property == nullptr) archive.fail(object, "the camera has no .core");
     if (property->extent != camera_channel_count) {
         archive.fail(object, fmt::format("the camera has {} numbers, expected {}", property->extent,
                                          static_cast<int>(camera_channel_count)));

@@ -65,10 +65,7 @@ void collect_parameters(AlembicReader& reader, int object, const AlembicCompound
 /// Parameters of the material's shaders and of the nodes of its network.
 void collect_material(AlembicReader& reader, int object, Found& found) {
     const AlembicArchive& archive = reader.archive;
-    const AlembicCompound top = archive.properties(object);
-    const AlembicProperty* compound = top.find(".material");
-    if (compound == nullptr) return;
-    for (const AlembicProperty& property : archive.properties(*compound).properties) {
+    for (const AlembicProperty& property : archive.properties(archive.properties(object), ".material").properties) {
         if (property.kind != AlembicProperty::Kind::compound) continue;
         const AlembicCompound content = archive.properties(property);
         if (property.name.ends_with(".params")) collect_parameters(reader, object, content, found);

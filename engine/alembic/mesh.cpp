@@ -28,8 +28,8 @@ struct RunNormals {
 struct RunSurface {
     const SurfaceRun& run;
     const std::vector<glm::vec3>& points;  ///< first sample
-    std::optional<RunNormals> normals;
-    std::optional<ParameterSample> uv;
+    std::optional<RunNormals> normals{};
+    std::optional<ParameterSample> uv{};
     GeometryScope uv_scope = GeometryScope::constant;
     bool clockwise = true;  ///< faces as stored
 
@@ -38,17 +38,13 @@ struct RunSurface {
     }
 };
 
-bool are_indices_fixed(const GeometryParameter& parameter) {
-    return parameter.indices && parameter.indices->is_constant();
-}
-
 std::optional<RunNormals> read_normals(AlembicReader& reader, int object, const AlembicCompound& geom,
                                        const SurfaceRun& run, bool single_run) {
     const auto parameter = find_parameter(reader.archive, geom, "N", 3);
     if (!parameter) return std::nullopt;
     RunNormals normals;
     normals.scope = parameter->scope;
-    normals.fixed_indices = are_indices_fixed(*parameter);
+    normals.fixed_indices = parameter->indices && parameter->indices->is_constant();
     std::vector<double> times{run.begin};
     if (!is_constant(*parameter)) {
         // Under their own times; where the topology changes, under those of this topology's points.
@@ -224,21 +220,16 @@ class SurfaceCutter {
 
 }  // namespace
 
-std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const AlembicCompound& top) {
-    const AlembicProperty* compound = top.find(".geom");
-    if (compound == nullptr) return {};
-    const AlembicCompound geom = reader.archive.properties(*compound);
+std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const AlembicCompound& top,
+                                   const AlembicCompound& geom) {
     const std::vector<SurfaceRun> runs = read_runs(reader, object, geom);
     const auto uv = find_parameter(reader.archive, geom, "uv", 2);
     std::vector<int> meshes;
     std::uint64_t effort = polygon_effort;
     for (const SurfaceRun& run : runs) {
-        RunSurface surface{run,
-                           reader.part.point_caches[run.points].positions.front(),
-                           read_normals(reader, object, geom, run, runs.size() == 1),
-                           {},
-                           {},
-                           {}};
+        RunSurface surface{.run = run,
+                           .points = reader.part.point_caches[run.points].positions.front(),
+                           .normals = read_normals(reader, object, geom, run, runs.size() == 1)};
         if (uv) {
             surface.uv = read_fitting(reader, object, *uv, run, run.begin, "its texture coordinates");
             surface.uv_scope = uv->scope;

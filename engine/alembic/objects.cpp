@@ -71,12 +71,11 @@ class TreeReader {
     int add_node(int object, int name_of, int parent, const std::string& schema) {
         Node node{.name = object_at(reader_, name_of).name, .parent = parent};
         const AlembicCompound top = reader_.archive.properties(object);
-        if (const AlembicProperty* visible = top.find("visible"); visible != nullptr && visible->sample_count > 0) {
+        if (const AlembicProperty* visible = top.find_sampled("visible")) {
             // Node::visible: 0 hidden, 1 as the parent, 2 shown in any case.
             node.visible = read_whole_track(reader_, *visible, Interpolation::nearest, [](int v) {
                 return v == 0 ? 0.0 : v < 0 ? 1.0 : 2.0;
             });
-            reader_.widen(*visible);
         }
         if (schema == "AbcGeom_Xform_v3") {
             read_transform(reader_, object, top, node);
@@ -96,8 +95,10 @@ class TreeReader {
     const std::vector<int>& meshes_of(int object, const AlembicCompound& top, const std::string& schema) {
         const auto known = reader_.meshes_of.find(object);
         if (known != reader_.meshes_of.end()) return known->second;
-        return reader_.meshes_of[object] = schema == "AbcGeom_SubD_v1" ? read_subdivision(reader_, object, top)
-                                                                       : read_polygon_mesh(reader_, object, top);
+        const AlembicProperty* geom = top.find(".geom");
+        if (geom == nullptr) return reader_.meshes_of[object];
+        const auto read = schema == "AbcGeom_SubD_v1" ? read_subdivision : read_polygon_mesh;
+        return reader_.meshes_of[object] = read(reader_, object, top, reader_.archive.properties(*geom));
     }
 
     AlembicReader& reader_;
@@ -134,8 +135,8 @@ int find_object(const AlembicReader& reader, const std::string& path) {
 }
 
 std::string read_text(const AlembicReader& reader, const AlembicCompound& compound, std::string_view name) {
-    const AlembicProperty* property = compound.find(name);
-    if (property == nullptr || property->sample_count == 0) return {};
+    const AlembicProperty* property = compound.find_sampled(name);
+    if (property == nullptr) return {};
     const std::vector<std::string> texts = reader.archive.texts(*property, 0);
     return texts.empty() ? std::string() : texts.front();
 }

@@ -19,56 +19,23 @@ GeometryScope scope_of(const AlembicMetadata& metadata) {
     return GeometryScope::constant;
 }
 
-}  // namespace
-
-std::optional<GeometryParameter> find_parameter(const AlembicArchive& archive, const AlembicCompound& compound,
-                                                std::string_view name, std::size_t extent) {
-    const AlembicProperty* property = compound.find(name);
-    if (property == nullptr) return std::nullopt;
-    GeometryParameter parameter;
-    parameter.scope = scope_of(property->metadata);
-    if (property->kind == AlembicProperty::Kind::compound) {
-        const AlembicCompound indexed = archive.properties(*property);
-        const AlembicProperty* values = indexed.find(".vals");
-        const AlembicProperty* indices = indexed.find(".indices");
-        if (values == nullptr) return std::nullopt;
-        parameter.values = *values;
-        if (indices != nullptr && indices->sample_count > 0) parameter.indices = *indices;
-    } else {
-        parameter.values = *property;
-    }
-    const bool fits = parameter.values.extent >= extent && is_real(parameter.values.type);
-    if (parameter.values.sample_count == 0 || !fits) return std::nullopt;
-    return parameter;
-}
-
-ParameterSample read_parameter(const AlembicArchive& archive, const GeometryParameter& parameter,
-                               std::uint64_t value_sample, std::uint64_t index_sample) {
+/// @throws InputError where an index is out of range
+ParameterSample read_parameter(const AlembicArchive& archive, const GeometryParameter& parameter, double seconds) {
     ParameterSample sample;
     sample.extent = parameter.values.extent;
-    sample.values = archive.numbers<float>(parameter.values, value_sample);
+    sample.values = archive.numbers<float>(parameter.values, sample_at(archive, parameter.values, seconds));
     if (!parameter.indices) return sample;
-    sample.indices = archive.numbers<int>(*parameter.indices, index_sample);
+    sample.indices = archive.numbers<int>(*parameter.indices, sample_at(archive, *parameter.indices, seconds));
     const std::size_t elements = sample.values.size() / sample.extent;
     for (const int index : sample.indices) {
-        if (index < 0 || static_cast<std::size_t>(index) >= elements) {
-            throw InputError(archive.file(), printable(parameter.values.name),
-                             fmt::format("index {} is beyond the {} values", index, elements));
-        }
+        if (index < 0 || static_cast<std::size_t>(index) >= elements)
+            archive.fail(parameter.values, fmt::format("index {} is beyond the {} values", index, elements));
     }
     if (sample.indices.empty()) sample.values.clear();  // indexed, without items
     return sample;
 }
 
-ParameterSample read_parameter_at(const AlembicArchive& archive, const GeometryParameter& parameter, double seconds) {
-    return read_parameter(archive, parameter, sample_at(archive, parameter.values, seconds),
-                          parameter.indices ? sample_at(archive, *parameter.indices, seconds) : 0);
-}
-
-bool is_constant(const GeometryParameter& parameter) {
-    return parameter.values.is_constant() && (!parameter.indices || parameter.indices->is_constant());
-}
-
+/// Items that a scope has on a surface.
 std::size_t scope_count(GeometryScope scope, const SurfaceRun& run) {
     switch (scope) {
         case GeometryScope::constant:
@@ -81,6 +48,32 @@ std::size_t scope_count(GeometryScope scope, const SurfaceRun& run) {
             return run.corner_count();
     }
     return 0;
+}
+
+}  // namespace
+
+std::optional<GeometryParameter> find_parameter(const AlembicArchive& archive, const AlembicCompound& compound,
+                                                std::string_view name, std::size_t extent) {
+    const AlembicProperty* property = compound.find(name);
+    if (property == nullptr) return std::nullopt;
+    GeometryParameter parameter;
+    parameter.scope = scope_of(property->metadata);
+    if (property->kind == AlembicProperty::Kind::compound) {
+        const AlembicCompound indexed = archive.properties(*property);
+        const AlembicProperty* values = indexed.find(".vals");
+        if (values == nullptr) return std::nullopt;
+        parameter.values = *values;
+        if (const AlembicProperty* indices = indexed.find_sampled(".indices")) parameter.indices = *indices;
+    } else {
+        parameter.values = *property;
+    }
+    const bool fits = parameter.values.extent >= extent && is_real(parameter.values.type);
+    if (parameter.values.sample_count == 0 || !fits) return std::nullopt;
+    return parameter;
+}
+
+bool is_constant(const GeometryParameter& parameter) {
+    return parameter.values.is_constant() && (!parameter.indices || parameter.indices->is_constant());
 }
 
 std::size_t scope_item(GeometryScope scope, const SurfaceRun& run, std::size_t face, std::size_t corner) {
@@ -101,7 +94,7 @@ std::optional<ParameterSample> read_fitting(AlembicReader& reader, int object, c
                                             const SurfaceRun& run, double seconds, std::string_view name) {
     std::optional<ParameterSample> sample;
     try {
-        sample = read_parameter_at(reader.archive, parameter, seconds);
+        sample = read_parameter(reader.archive, parameter, seconds);
     } catch (const InputError& error) {
         reader.warn(object, fmt::format("{} are left out: {}", name, error.reason()));
         return std::nullopt;

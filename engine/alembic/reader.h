@@ -31,8 +31,11 @@ struct AlembicReader {
     void widen(const AlembicProperty& property);
 
   private:
-    std::vector<std::string> order_;
-    std::map<std::string, std::pair<std::string, int>> warned_;  ///< text -> first place, how often
+    struct Warning {
+        std::string text, place;  ///< the first place
+        int count;
+    };
+    std::vector<Warning> warnings_;
     std::size_t left_out_ = 0;
 };
 
@@ -42,8 +45,11 @@ void read_objects(AlembicReader& reader);
 void read_transform(AlembicReader& reader, int object, const AlembicCompound& top, Node& node);
 
 /// Meshes of a polygon mesh or of a subdivision surface, one for each topology and material.
-std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const AlembicCompound& top);
-std::vector<int> read_subdivision(AlembicReader& reader, int object, const AlembicCompound& top);
+/// @param geom  the properties in ".geom"
+std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const AlembicCompound& top,
+                                   const AlembicCompound& geom);
+std::vector<int> read_subdivision(AlembicReader& reader, int object, const AlembicCompound& top,
+                                  const AlembicCompound& geom);
 
 int read_camera(AlembicReader& reader, int object, const AlembicCompound& top);
 
@@ -60,8 +66,9 @@ std::string read_text(const AlembicReader& reader, const AlembicCompound& compou
 
 /// A step or nearest track of a scalar property, each value passed through `convert`.
 template <class Convert>
-Track<double> read_whole_track(const AlembicReader& reader, const AlembicProperty& property,
-                               Interpolation interpolation, const Convert& convert) {
+Track<double> read_whole_track(AlembicReader& reader, const AlembicProperty& property, Interpolation interpolation,
+                               const Convert& convert) {
+    reader.widen(property);
     const AlembicSamples samples = reader.archive.samples(property);
     Track<double> track;
     track.sampling = samples.sampling;

@@ -1,4 +1,4 @@
-// Samples of an archive's properties: where they are stored, and their values.
+// Samples of an archive's properties: when they lie, where they are stored, and their values.
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <limits>
 #include <type_traits>
 
@@ -17,24 +18,13 @@ namespace {
 
 constexpr std::size_t digest_bytes = 16;  // before the values of every sample
 constexpr std::uint64_t max_rank = 64;    // dimensions of one array
+constexpr double reached = 1e-5;          // s; a sample this near after a time counts as reached
 
 /// Bytes of one plain value, in the order of PlainType; text has none.
 constexpr std::array<std::size_t, 14> widths{1, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8, 0, 0};
 
 std::size_t width_of(PlainType type) {
     return widths[static_cast<std::size_t>(type)];
-}
-
-/// IEEE 754 half precision.
-double decode_half(std::uint64_t bits) {
-    const double sign = bits & 0x8000 ? -1.0 : 1.0;
-    const auto exponent = static_cast<int>(bits >> 10 & 31);
-    const auto mantissa = static_cast<double>(bits & 1023);
-    if (exponent == 0) return sign * std::ldexp(mantissa, -24);
-    if (exponent == 31)
-        return mantissa == 0.0 ? sign * std::numeric_limits<double>::infinity()
-                               : std::numeric_limits<double>::quiet_NaN();
-    return sign * std::ldexp(1024.0 + mantissa, exponent - 25);
 }
 
 template <class T>
@@ -52,7 +42,7 @@ T decode_number(PlainType type, const std::uint8_t* bytes) {
         case PlainType::i64:
             return static_cast<T>(static_cast<std::int64_t>(bits));
         case PlainType::f16:
-            return static_cast<T>(decode_half(bits));
+            return static_cast<T>(glm::unpackHalf1x16(static_cast<std::uint16_t>(bits)));
         case PlainType::f32:
             return static_cast<T>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
         case PlainType::f64:
@@ -71,23 +61,6 @@ bool is_text(PlainType type) {
     return width_of(type) == 0;
 }
 
-void append_utf8(std::string& text, std::uint32_t code) {
-    if (code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) code = 0xfffd;
-    const auto tail = [&](int shift) { text += static_cast<char>(0x80 | (code >> shift & 63)); };
-    if (code < 0x80) {
-        text += static_cast<char>(code);
-    } else if (code < 0x800) {
-        text += static_cast<char>(0xc0 | code >> 6);
-        tail(0);
-    } else if (code < 0x10000) {
-        text += static_cast<char>(0xe0 | code >> 12);
-        tail(6), tail(0);
-    } else {
-        text += static_cast<char>(0xf0 | code >> 18);
-        tail(12), tail(6), tail(0);
-    }
-}
-
 /// Position among the stored samples, of which there is at least one.
 std::uint64_t slot_of(const AlembicProperty& property, std::uint64_t sample) {
     const std::uint64_t i = std::min(sample, property.sample_count - 1);
@@ -96,30 +69,72 @@ std::uint64_t slot_of(const AlembicProperty& property, std::uint64_t sample) {
     return i >= last ? last - first + 1 : i - first + 1;
 }
 
-[[noreturn]] void fail_at(const std::string& file, const AlembicProperty& property, const std::string& reason) {
-    throw InputError(file, printable(property.name), reason);
-}
-
 }  // namespace
 
+AlembicSamples AlembicArchive::samples(const AlembicProperty& property) const {
+    AlembicSamples samples;
+    if (property.sample_count == 0) return samples;
+    if (property.is_constant()) {
+        samples.indices = {0};
+        return samples;
+    }
+    const TimeSampling& sampling = time_samplings_[property.time_sampling];
+    const std::uint64_t begin = property.first_changed - 1, end = property.last_changed + 1;
+    // A sample is one child of the group, or two for arrays: the header may claim more than there are.
+    if (end - begin > property.group.size)
+        fail(property, fmt::format("it claims {} samples and holds {}", end - begin, property.group.size));
+    if (sampling.kind == TimeSampling::Kind::acyclic && sampling.times.size() < end)
+        fail(property, fmt::format("{} samples but only {} times", end, sampling.times.size()));
+    budget_.charge(end - begin, 16);
+
+    const bool whole_shutter = sampling.kind == TimeSampling::Kind::cyclic &&
+                               sampling.times.back() - sampling.times.front() >= sampling.period * (1.0 - 1e-6);
+    if (sampling.kind == TimeSampling::Kind::uniform) {
+        samples.sampling = sampling;
+        samples.sampling.start = sample_time(sampling, begin);
+        for (std::uint64_t i = begin; i < end; ++i) samples.indices.push_back(i);
+    } else if (sampling.kind == TimeSampling::Kind::cyclic && begin == 0 && !whole_shutter) {
+        samples.sampling = sampling;
+        for (std::uint64_t i = begin; i < end; ++i) samples.indices.push_back(i);
+    } else {
+        // A shutter as long as the frame ends when the next one begins: the first of the two samples is kept.
+        samples.sampling.kind = TimeSampling::Kind::acyclic;
+        std::vector<double>& times = samples.sampling.times;
+        for (std::uint64_t i = begin; i < end; ++i) {
+            const double time = sample_time(sampling, i);
+            if (whole_shutter && !times.empty() && time - times.back() < 1e-6 * sampling.period) continue;
+            times.push_back(time);
+            samples.indices.push_back(i);
+        }
+    }
+    validate(samples.sampling, samples.indices.size(), file(), printable(property.name));
+    return samples;
+}
+
+std::size_t alembic_floor(const TimeSampling& sampling, std::size_t count, double seconds) {
+    std::size_t floor = find_samples(sampling, count, seconds).floor;
+    const bool reaches_next = floor + 1 < count && seconds > sample_time(sampling, 0) &&
+                              sample_time(sampling, floor + 1) - seconds <= reached;
+    return reaches_next ? floor + 1 : floor;
+}
+
 OgawaData AlembicArchive::sample_data(const AlembicProperty& property, std::uint64_t sample) const {
-    if (property.kind == AlembicProperty::Kind::compound) fail_at(file(), property, "it is a compound without values");
-    if (property.sample_count == 0) fail_at(file(), property, "it has no samples");
+    if (property.kind == AlembicProperty::Kind::compound) fail(property, "it is a compound without values");
+    if (property.sample_count == 0) fail(property, "it has no samples");
     const std::uint64_t slot = slot_of(property, sample);
     const bool array = property.kind == AlembicProperty::Kind::array;
     const std::uint64_t child = array ? 2 * slot : slot;
     if (slot > property.group.size || child >= property.group.size)
-        fail_at(file(), property, fmt::format("sample {} is missing from the file", sample));
+        fail(property, fmt::format("sample {} is missing from the file", sample));
     OgawaData data = ogawa_.data(property.group, child);
     if (data.bytes.empty() && array) return data;
     if (data.bytes.size() < digest_bytes)
-        fail_at(file(), property, fmt::format("sample {} has {} bytes, too few", sample, data.bytes.size()));
+        fail(property, fmt::format("sample {} has {} bytes, too few", sample, data.bytes.size()));
     data.bytes = data.bytes.subspan(digest_bytes);
     if (const std::size_t value = width_of(property.type); value != 0 && !array) {
         if (data.bytes.size() != property.extent * value) {
-            fail_at(
-                file(), property,
-                fmt::format("sample {} has {} bytes, expected {}", sample, data.bytes.size(), property.extent * value));
+            fail(property, fmt::format("sample {} has {} bytes, expected {}", sample, data.bytes.size(),
+                                       property.extent * value));
         }
     }
     return data;
@@ -135,7 +150,7 @@ std::vector<std::uint64_t> AlembicArchive::dimensions(const AlembicProperty& pro
     std::vector<std::uint64_t> sizes;
     const OgawaData table = ogawa_.data(property.group, 2 * slot_of(property, sample) + 1);
     if (table.bytes.size() / 8 > max_rank)
-        fail_at(file(), property, fmt::format("an array of {} dimensions", table.bytes.size() / 8));
+        fail(property, fmt::format("an array of {} dimensions", table.bytes.size() / 8));
     OgawaCursor cursor(table.bytes, file(), printable(property.name) + ": dimensions");
     while (!cursor.at_end()) sizes.push_back(cursor.take_unsigned(8));
 
@@ -149,7 +164,7 @@ std::vector<std::uint64_t> AlembicArchive::dimensions(const AlembicProperty& pro
     }
     if (is_text(property.type)) {
         if (!fits && !sizes.empty())
-            fail_at(file(), property, fmt::format("sample {} claims more text than it has bytes", sample));
+            fail(property, fmt::format("sample {} claims more text than it has bytes", sample));
         return sizes.empty() ? std::vector<std::uint64_t>{0} : sizes;
     }
     const std::uint64_t stored = data.bytes.size() / (width_of(property.type) * property.extent);
@@ -158,8 +173,8 @@ std::vector<std::uint64_t> AlembicArchive::dimensions(const AlembicProperty& pro
 
 template <class T>
 std::vector<T> AlembicArchive::numbers(const AlembicProperty& property, std::uint64_t sample) const {
-    if (is_text(property.type)) fail_at(file(), property, "it holds text, expected numbers");
-    if (std::is_integral_v<T> && is_real(property.type)) fail_at(file(), property, "expected whole numbers");
+    if (is_text(property.type)) fail(property, "it holds text, expected numbers");
+    if (std::is_integral_v<T> && is_real(property.type)) fail(property, "expected whole numbers");
     const OgawaData data = sample_data(property, sample);
     const std::size_t width = width_of(property.type);
     const std::size_t elements = data.bytes.size() / (width * property.extent);  // whole ones
@@ -175,39 +190,24 @@ std::vector<T> AlembicArchive::numbers(const AlembicProperty& property, std::uin
 template std::vector<float> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
 template std::vector<double> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
 template std::vector<int> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
-template std::vector<std::int64_t> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
-template std::vector<std::uint64_t> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
 
 std::vector<std::string> AlembicArchive::texts(const AlembicProperty& property, std::uint64_t sample) const {
-    if (!is_text(property.type)) fail_at(file(), property, "it holds numbers, expected text");
+    if (property.type != PlainType::text) fail(property, "it does not hold text of single bytes");
     const OgawaData data = sample_data(property, sample);
     std::uint64_t count = property.extent;
     for (const std::uint64_t size : dimensions(property, sample)) count *= size;
-    const bool wide = property.type == PlainType::wide_text;
-    const std::size_t unit = wide ? 4 : 1;
-    if (count > data.bytes.size() / unit)  // each ends with a zero
-        fail_at(file(), property,
-                fmt::format("sample {} claims {} texts in {} bytes", sample, count, data.bytes.size()));
+    if (count > data.bytes.size())  // each ends with a zero
+        fail(property, fmt::format("sample {} claims {} texts in {} bytes", sample, count, data.bytes.size()));
     budget_.charge(count, sizeof(std::string));
     budget_.charge(data.bytes.size());
     std::vector<std::string> texts;
     texts.reserve(count);
-    std::size_t position = 0;
+    auto position = data.bytes.begin();
     while (texts.size() < count) {
-        std::string text;
-        for (;; position += unit) {
-            if (data.bytes.size() - position < unit)
-                fail_at(file(), property, fmt::format("sample {}: a text does not end", sample));
-            const std::uint64_t code = decode_little_endian(data.bytes.subspan(position, unit));
-            if (code == 0) break;
-            if (wide) {
-                append_utf8(text, static_cast<std::uint32_t>(code));
-            } else {
-                text += static_cast<char>(code);
-            }
-        }
-        position += unit;
-        texts.push_back(std::move(text));
+        const auto end = std::find(position, data.bytes.end(), 0);
+        if (end == data.bytes.end()) fail(property, fmt::format("sample {}: a text does not end", sample));
+        texts.emplace_back(position, end);
+        position = end + 1;
     }
     return texts;
 }

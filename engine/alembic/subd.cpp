@@ -20,8 +20,8 @@ constexpr std::size_t many_faces = 30000;       // a finer cage begins at level 
 template <class T>
 std::vector<T> read_optional(const AlembicReader& reader, const AlembicCompound& geom, const char* name,
                              double seconds) {
-    const AlembicProperty* property = geom.find(name);
-    if (property == nullptr || property->sample_count == 0) return {};
+    const AlembicProperty* property = geom.find_sampled(name);
+    if (property == nullptr) return {};
     return reader.archive.numbers<T>(*property, sample_at(reader.archive, *property, seconds));
 }
 
@@ -151,11 +151,9 @@ void tessellate(AlembicReader& reader, int object, int number) {
 
 }  // namespace
 
-std::vector<int> read_subdivision(AlembicReader& reader, int object, const AlembicCompound& top) {
+std::vector<int> read_subdivision(AlembicReader& reader, int object, const AlembicCompound& top,
+                                  const AlembicCompound& geom) {
     const AlembicArchive& archive = reader.archive;
-    const AlembicProperty* compound = top.find(".geom");
-    if (compound == nullptr) return {};
-    const AlembicCompound geom = archive.properties(*compound);
     const std::vector<SurfaceRun> runs = read_runs(reader, object, geom);
     const std::string& name = archive.objects()[object].name;
     std::vector<int> meshes;

@@ -33,8 +33,8 @@ struct Sampled {
 /// None where the property is missing or has no samples.
 std::optional<Sampled> find_sampled(AlembicReader& reader, int object, const AlembicCompound& geom, const char* name,
                                     std::uint32_t extent) {
-    const AlembicProperty* property = geom.find(name);
-    if (property == nullptr || property->sample_count == 0) return std::nullopt;
+    const AlembicProperty* property = geom.find_sampled(name);
+    if (property == nullptr) return std::nullopt;
     if (property->extent != extent)
         reader.archive.fail(object,
                             fmt::format("{} has {} values to an element, expected {}", name, property->extent, extent));
@@ -105,8 +105,8 @@ void read_point_cache(AlembicReader& reader, int object, const AlembicCompound& 
                 archive.fail(object, fmt::format("point {} of sample {} is not finite", i, sample));
         }
     }
-    const AlembicProperty* velocities = geom.find(".velocities");
-    if (velocities != nullptr && velocities->extent == 3 && velocities->sample_count > 0) {
+    const AlembicProperty* velocities = geom.find_sampled(".velocities");
+    if (velocities != nullptr && velocities->extent == 3) {
         for (std::size_t i = 0; i < run.point_samples.size(); ++i) {
             const double seconds = run.point_samples.size() > 1 ? sample_time(run.sampling, i) : run.begin;
             std::vector<glm::vec3> sample =
@@ -254,11 +254,10 @@ SurfaceParts read_parts(AlembicReader& reader, int object, const AlembicCompound
         if (archive.objects()[child].schema() != "AbcGeom_FaceSet_v1") continue;
         const AlembicCompound child_top = archive.properties(child);
         const std::string assigned = read_text(reader, child_top, ".material.assign");
-        const AlembicProperty* compound = child_top.find(".faceset");
-        if (assigned.empty() || compound == nullptr) continue;
-        const AlembicCompound face_set = archive.properties(*compound);
-        const AlembicProperty* faces = face_set.find(".faces");
-        if (faces == nullptr || faces->sample_count == 0) continue;
+        if (assigned.empty()) continue;
+        const AlembicCompound face_set = archive.properties(child_top, ".faceset");
+        const AlembicProperty* faces = face_set.find_sampled(".faces");
+        if (faces == nullptr) continue;
         if (!faces->is_constant())
             reader.warn(child, "the face set changes over time; its first state is used until the topology changes");
         const int material = read_material(reader, child, assigned);

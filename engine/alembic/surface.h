@@ -53,15 +53,7 @@ struct ParameterSample {
 std::optional<GeometryParameter> find_parameter(const AlembicArchive& archive, const AlembicCompound& compound,
                                                 std::string_view name, std::size_t extent);
 
-/// Sample numbers count separately for values and indices. @throws InputError where an index is out of range
-ParameterSample read_parameter(const AlembicArchive& archive, const GeometryParameter& parameter,
-                               std::uint64_t value_sample, std::uint64_t index_sample);
-ParameterSample read_parameter_at(const AlembicArchive& archive, const GeometryParameter& parameter, double seconds);
-
 bool is_constant(const GeometryParameter& parameter);
-
-/// Items that a scope has on a surface.
-std::size_t scope_count(GeometryScope scope, const SurfaceRun& run);
 
 /// The item of a scope at a corner.
 std::size_t scope_item(GeometryScope scope, const SurfaceRun& run, std::size_t face, std::size_t corner);

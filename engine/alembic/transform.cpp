@@ -61,23 +61,19 @@ void append_defaults(OperationStack& stack) {
 
 void read_transform(AlembicReader& reader, int object, const AlembicCompound& top, Node& node) {
     const AlembicArchive& archive = reader.archive;
-    const AlembicProperty* compound = top.find(".xform");
-    if (compound == nullptr) return;
-    const AlembicCompound xform = archive.properties(*compound);
-    if (const AlembicProperty* inherits = xform.find(".inherits"); inherits != nullptr && inherits->sample_count > 0) {
+    const AlembicCompound xform = archive.properties(top, ".xform");
+    if (const AlembicProperty* inherits = xform.find_sampled(".inherits"))
         node.inherits = read_whole_track(reader, *inherits, Interpolation::step, [](int v) { return v ? 1.0 : 0.0; });
-        reader.widen(*inherits);
-    }
-    const AlembicProperty* operations = xform.find(".ops");
-    if (operations == nullptr || operations->sample_count == 0) return;
+    const AlembicProperty* operations = xform.find_sampled(".ops");
+    if (operations == nullptr) return;
 
     OperationStack stack;
     for (const int code : archive.numbers<int>(*operations, 0))
         stack.operations.push_back(kind_of(reader, object, code));
     const std::size_t count = channel_count(stack);
     if (count == 0) return;
-    const AlembicProperty* channels = xform.find(".vals");
-    if (channels == nullptr || channels->sample_count == 0) {
+    const AlembicProperty* channels = xform.find_sampled(".vals");
+    if (channels == nullptr) {
         append_defaults(stack);
     } else {
         const AlembicSamples samples = archive.samples(*channels);

@@ -44,7 +44,8 @@ FileState file_state(const fs::path& path) {
             found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
 }
 
-Bytes read_regular_file(const fs::path& path, const std::string& file, const std::string& place) {
+Bytes read_regular_file(const fs::path& path, const std::string& file, const std::string& place,
+                        std::uint64_t max_bytes) {
     note_read_file(path);
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
@@ -57,9 +58,8 @@ Bytes read_regular_file(const fs::path& path, const std::string& file, const std
     const std::streamoff end = stream ? std::streamoff(stream.tellg()) : -1;
     if (end < 0) throw InputError(file, place, fmt::format("cannot read {}", name));
     const std::uintmax_t size = static_cast<std::uintmax_t>(end);
-    if (size > max_file_bytes) {
-        throw InputError(file, place, fmt::format("{} has {} bytes, more than {}", name, size, max_file_bytes));
-    }
+    if (size > max_bytes)
+        throw InputError(file, place, fmt::format("{} has {} bytes, more than {}", name, size, max_bytes));
     Bytes bytes(static_cast<std::size_t>(size));
     stream.seekg(0);
     stream.read(reinterpret_cast<char*>(bytes.data()), end);

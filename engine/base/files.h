@@ -14,10 +14,11 @@ using Bytes = std::vector<std::uint8_t>;
 /// Size of the largest file that is read, bytes: 2 GiB less one, so that sizes fit in 31 bits.
 inline constexpr std::uint64_t max_file_bytes = 0x7fffffff;
 
-/// Reads a regular file (not a folder or a device) of at most max_file_bytes.
+/// Reads a regular file (not a folder or a device) of at most so many bytes.
 /// @param file, place  what an error message names
 /// @throws InputError
-Bytes read_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place);
+Bytes read_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place,
+                        std::uint64_t max_bytes = max_file_bytes);
 
 /// The state of a file: device, number, size, and the time of its last change in s and ns. All 0: there is no
 /// file.

@@ -21,7 +21,7 @@ int half_size(int n) {
 /// The kernel down the columns at row y, into `out` (padded on both sides for the pass along the row).
 /// @param row  (y) -> const float*, the image's row
 template <class Row>
-void filter_columns(const Row& row, LevelSize size, int y, float* out) {
+void filter_columns(Row& row, LevelSize size, int y, float* out) {
     const int w = size.width;
     const float* const center = row(y);
     if (size.height == 1) {
@@ -43,16 +43,6 @@ void filter_columns(const Row& row, LevelSize size, int y, float* out) {
 
 float filter_at(const float* row, int x) {
     return kernel_far * (row[x - 2] + row[x + 2]) + kernel_near * (row[x - 1] + row[x + 1]) + kernel_center * row[x];
-}
-
-/// The even samples of a filtered row.
-void take_even_samples(const float* filtered, int width, float* out) {
-    if (width == 1) {
-        out[0] = filtered[0];
-        return;
-    }
-    const int count = half_size(width);
-    for (int x = 0; x < count; ++x) out[x] = filter_at(filtered, 2 * x);
 }
 
 /// The rows around the current one, which moves down an image; each is fetched once.
@@ -79,6 +69,35 @@ class RowCache {
     std::vector<float> values_;
     std::vector<int> held_;
 };
+
+auto rows_of(const Image<float>& image) {
+    return [&](int y) { return image.row(y); };
+}
+
+/// Every `step`-th row of an image after the kernel down the columns: write(index, filtered), from many threads.
+/// @param make_rows  () -> (y) -> const float*, for each thread
+template <class MakeRows, class Write>
+void filter_rows(LevelSize size, int step, const MakeRows& make_rows, const Write& write) {
+    parallel_rows((size.height + step - 1) / step, rows_per_chunk, [&](int begin, int end) {
+        auto rows = make_rows();
+        std::vector<float> columns(size.width + 2 * padding);
+        float* const filtered = columns.data() + padding;
+        for (int y = begin; y < end; ++y) {
+            filter_columns(rows, size, step * y, filtered);
+            write(y, filtered);
+        }
+    });
+}
+
+template <class MakeRows>
+Image<float> reduce_rows(LevelSize size, const MakeRows& make_rows) {
+    Image<float> out(half_size(size.width), half_size(size.height));
+    filter_rows(size, 2, make_rows, [&](int y, const float* filtered) {
+        float* const row = out.row(y);
+        for (int x = 0; x < out.width; ++x) row[x] = size.width == 1 ? filtered[0] : filter_at(filtered, 2 * x);
+    });
+    return out;
+}
 
 /// Index of coarse sample i reflected at the borders of the finer axis: fine position 2i stays even.
 int reflect_coarse(int i, int fine) {
@@ -160,49 +179,21 @@ std::vector<LevelSize> pyramid_sizes(int width, int height, int count) {
 
 Image<float> low_pass(const Image<float>& image) {
     Image<float> out(image.width, image.height);
-    const LevelSize size{image.width, image.height};
-    parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
-        std::vector<float> columns(image.width + 2 * padding);
-        float* const filtered = columns.data() + padding;
-        for (int y = begin; y < end; ++y) {
-            filter_columns([&](int row) { return image.row(row); }, size, y, filtered);
+    filter_rows(
+        {image.width, image.height}, 1, [&] { return rows_of(image); },
+        [&](int y, const float* filtered) {
             float* const row = out.row(y);
-            if (image.width == 1) {
-                row[0] = filtered[0];
-                continue;
-            }
-            for (int x = 0; x < out.width; ++x) row[x] = filter_at(filtered, x);
-        }
-    });
+            for (int x = 0; x < out.width; ++x) row[x] = out.width == 1 ? filtered[0] : filter_at(filtered, x);
+        });
     return out;
 }
 
 Image<float> reduce(const Image<float>& image) {
-    Image<float> out(half_size(image.width), half_size(image.height));
-    const LevelSize size{image.width, image.height};
-    parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
-        std::vector<float> columns(image.width + 2 * padding);
-        float* const filtered = columns.data() + padding;
-        for (int y = begin; y < end; ++y) {
-            filter_columns([&](int row) { return image.row(row); }, size, 2 * y, filtered);
-            take_even_samples(filtered, size.width, out.row(y));
-        }
-    });
-    return out;
+    return reduce_rows({image.width, image.height}, [&] { return rows_of(image); });
 }
 
 Image<float> reduce(LevelSize size, const RowSource& source) {
-    Image<float> out(half_size(size.width), half_size(size.height));
-    parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
-        RowCache rows(size, source);
-        std::vector<float> columns(size.width + 2 * padding);
-        float* const filtered = columns.data() + padding;
-        for (int y = begin; y < end; ++y) {
-            filter_columns(std::ref(rows), size, 2 * y, filtered);
-            take_even_samples(filtered, size.width, out.row(y));
-        }
-    });
-    return out;
+    return reduce_rows(size, [&] { return RowCache(size, source); });
 }
 
 Image<float> expand(const Image<float>& image, LevelSize fine) {

@@ -93,15 +93,13 @@ void check_channels(const ChannelImage& image) {
     check_size(first.width, first.height, "");
     std::set<std::string> names;
     for (const Channel& channel : image.channels) {
-        const std::string name = printable(channel.name);
+        const std::string place = fmt::format("channel '{}'", printable(channel.name));
         if (channel.name.empty() || channel.name.size() > 255 || channel.name.find('\0') != std::string::npos) {
-            throw InputError("", fmt::format("channel '{}'", name),
-                             "the name must have 1 to 255 bytes, none of them 0");
+            throw InputError("", place, "the name must have 1 to 255 bytes, none of them 0");
         }
-        if (!names.insert(channel.name).second)
-            throw InputError("", fmt::format("channel '{}'", name), "is there twice");
+        if (!names.insert(channel.name).second) throw InputError("", place, "is there twice");
         if (!same_size(channel.values, first)) {
-            throw InputError("", fmt::format("channel '{}'", name),
+            throw InputError("", place,
                              fmt::format("is {}x{}, the first channel is {}x{}", channel.values.width,
                                          channel.values.height, first.width, first.height));
         }

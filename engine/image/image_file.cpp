@@ -1,9 +1,6 @@
 #include "engine/image/image_file.h"
 
-#include <fmt/format.h>
-
-#include <fstream>
-#include <system_error>
+#include <algorithm>
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
@@ -15,7 +12,7 @@ namespace aleph {
 namespace {
 
 /// Largest file that is read, bytes.
-constexpr std::uintmax_t max_image_file_bytes = std::uintmax_t{1} << 32;
+constexpr std::uint64_t max_image_file_bytes = std::uint64_t{1} << 32;
 
 std::string display_name(const std::filesystem::path& path) {
     return printable(path.string(), 4096);
@@ -31,30 +28,16 @@ std::string encode_for(const std::filesystem::path& path, const Encode& encode) 
     }
 }
 
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
-    const std::string name = display_name(path);
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw InputError(name, "", "there is no such file");
-    if (!std::filesystem::is_regular_file(status)) throw InputError(name, "", "this is not a file");
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) throw InputError(name, "", error.message());
-    if (size > max_image_file_bytes) throw InputError(name, "", "the file is larger than 4 GiB");
-    std::vector<std::uint8_t> bytes(size);
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw InputError(name, "", "cannot open the file");
-    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (file.gcount() != static_cast<std::streamsize>(size)) throw InputError(name, "", "cannot read the whole file");
-    return bytes;
+Bytes read_bytes(const std::filesystem::path& path) {
+    const ReadFiles apart;  // pictures are noted by those who read them for a scene
+    return read_regular_file(path, display_name(path), "", max_image_file_bytes);
 }
 
 }  // namespace
 
 const Image<float>* ChannelImage::find(const std::string& name) const {
-    for (const Channel& channel : channels) {
-        if (channel.name == name) return &channel.values;
-    }
-    return nullptr;
+    const auto found = std::ranges::find(channels, name, &Channel::name);
+    return found == channels.end() ? nullptr : &found->values;
 }
 
 void write_exr(const std::filesystem::path& path, const ChannelImage& image) {
@@ -78,7 +61,7 @@ std::size_t write_hdr(const std::filesystem::path& path, const Image<Rgb>& linea
 std::optional<std::string> read_picture_text(const std::filesystem::path& path, const std::string& key) {
     try {
         if (lower_extension(path) == ".exr") return find_exr_text(path, key);
-        const std::vector<std::uint8_t> bytes = read_bytes(path);
+        const Bytes bytes = read_bytes(path);
         const std::optional<ImageFormat> format = detect_format(bytes);
         if (format == ImageFormat::png) return find_png_text(bytes, key);
         if (format == ImageFormat::hdr) return find_hdr_text(bytes, key);

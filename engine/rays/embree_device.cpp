@@ -76,8 +76,8 @@ EmbreeScene EmbreeDevice::make_scene(RTCSceneFlags flags, RTCBuildQuality qualit
     return scene;
 }
 
-EmbreeGeometry EmbreeDevice::make_geometry(RTCGeometryType type) const {
-    EmbreeGeometry geometry(rtcNewGeometry(device_, type));
+EmbreeGeometry EmbreeDevice::make_geometry() const {
+    EmbreeGeometry geometry(rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER));
     if (geometry == nullptr) fail();
     return geometry;
 }

@@ -36,7 +36,7 @@ class EmbreeDevice {
     RTCDevice handle() const { return device_; }
 
     EmbreeScene make_scene(RTCSceneFlags flags, RTCBuildQuality quality) const;
-    EmbreeGeometry make_geometry(RTCGeometryType type) const;
+    EmbreeGeometry make_geometry() const;  ///< of boxes that call back
 
     EmbreeBvh make_bvh() const;
 

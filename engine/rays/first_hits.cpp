@@ -31,7 +31,7 @@ void cast_rays(const RayScene& scene, const std::function<CameraRay(int x, int y
                         rays[count++].origin = glm::vec3(ray.origin - scene.anchor());
                     }
                 }
-                tracer.intersect(std::span(rays.data(), count), std::span(found.data(), count), true);
+                tracer.intersect(std::span(rays.data(), count), std::span(found.data(), count));
                 count = 0;
                 for (int y = y0; y < y1; ++y) {
                     for (int x = x0; x < x1; ++x) hits(x, y) = found[count++];

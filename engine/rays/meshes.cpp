@@ -83,37 +83,24 @@ std::unique_ptr<TriangleTree> build_flat_tree(const EmbreeDevice& device, const 
 /// takes almost no time, while a second top-level scene makes every ray a tenth slower.
 constexpr std::size_t max_still_beside_moving = 256;
 
-/// How each mesh of the scene is handled.
-struct MeshKinds {
-    MeshKinds(const Scene& scene, const PosePlan& plan)
-        : deforms(scene.meshes.size(), 0), changes(scene.meshes.size(), 0), comes_and_goes(scene.meshes.size(), 0) {
-        for (const Deformer& deformer : plan.deformers) {
-            deforms[deformer.mesh] = 1;
-            changes[deformer.mesh] = deformer.changes;
-        }
-        // A mesh that is never present must not share an object with others either.
-        for (std::size_t m = 0; m < scene.meshes.size(); ++m) comes_and_goes[m] = !is_always_present(scene.meshes[m]);
-    }
-    std::vector<std::uint8_t> deforms, changes, comes_and_goes;
-};
-
 /// Gathers the scene's meshes into objects, one node after the other.
 class ObjectMaker {
   public:
     ObjectMaker(MeshStructures& structures, const Scene& scene, const PosePlan& plan, const FlatPlan& flat)
-        : structures_(structures), scene_(scene), plan_(plan), flat_(flat), kinds_(scene, plan_) {
+        : structures_(structures), scene_(scene), plan_(plan), flat_(flat), kinds_(scene.meshes.size()) {
         structures_.flat.tree = build_flat_tree(*structures_.device, scene_, flat_, structures_.cutouts);
+        for (const Deformer& deformer : plan.deformers) kinds_[deformer.mesh] = {true, deformer.changes};
+        for (std::size_t m = 0; m < kinds_.size(); ++m) kinds_[m].comes_and_goes = !is_always_present(scene.meshes[m]);
     }
 
     void add_node(int node) {
         const std::vector<int>& meshes = scene_.nodes[node].meshes;
         std::vector<unsigned> rigid;
         for (unsigned place = 0; place < meshes.size(); ++place) {
-            const auto mesh = static_cast<std::size_t>(meshes[place]);
-            if (kinds_.deforms[mesh] != 0) {
-                add(node, place, kinds_.changes[mesh] != 0 || kinds_.comes_and_goes[mesh] != 0).deforming =
-                    deforming(meshes[place], place);
-            } else if (kinds_.comes_and_goes[mesh] != 0) {
+            const MeshKind& kind = kinds_[meshes[place]];
+            if (kind.deforms) {
+                add(node, place, kind.changes || kind.comes_and_goes).deforming = deforming(meshes[place], place);
+            } else if (kind.comes_and_goes) {
                 add(node, place, true).tree = rigid_tree(meshes, {place});
             } else if (const int i = first_instance_ + static_cast<int>(place);
                        flat_.flat[i] == 0 && flat_.shown[i] != 0) {
@@ -132,6 +119,11 @@ class ObjectMaker {
     }
 
   private:
+    struct MeshKind {
+        bool deforms = false, changes = false;
+        bool comes_and_goes = false;  ///< or is never there: it must not share an object with others either
+    };
+
     MeshStructures::Object& add(int node, unsigned place, bool changes) {
         const bool moves = changes || plan_.moving[node] != 0;
         std::vector<MeshStructures::Object>& objects = moves ? structures_.objects : still_;
@@ -143,9 +135,13 @@ class ObjectMaker {
         const auto [found, is_new] =
             deforming_.try_emplace({mesh, place}, static_cast<int>(structures_.deforming.size()));
         if (is_new) {
-            const auto m = static_cast<std::size_t>(mesh);
-            structures_.deforming.emplace_back(scene_.meshes[m], mesh, static_cast<int>(place), kinds_.changes[m] != 0,
-                                               structures_.cutouts[m].get());
+            const Mesh& of = scene_.meshes[mesh];
+            structures_.deforming.push_back({.mesh = mesh,
+                                             .place = static_cast<int>(place),
+                                             .changes = kinds_[mesh].changes,
+                                             .vertex_count = of.positions.size(),
+                                             .triangles = of.triangles,
+                                             .cutout = structures_.cutouts[mesh].get()});
         }
         return found->second;
     }
@@ -163,7 +159,7 @@ class ObjectMaker {
     const Scene& scene_;
     const PosePlan& plan_;
     const FlatPlan& flat_;
-    MeshKinds kinds_;
+    std::vector<MeshKind> kinds_;  ///< per mesh of the scene
     int first_instance_ = 0;
     std::vector<MeshStructures::Object> still_;
     std::map<std::pair<int, unsigned>, int> deforming_;

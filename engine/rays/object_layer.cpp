@@ -58,7 +58,7 @@ bool is_below(const Bounds& bounds, double limit) {
 
 ObjectLayer::ObjectLayer(const EmbreeDevice& device, std::size_t count) : device_(device), placements_(count) {
     scene_ = device.make_scene(RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM);
-    geometry_ = device.make_geometry(RTC_GEOMETRY_TYPE_USER);
+    geometry_ = device.make_geometry();
     rtcSetGeometryUserPrimitiveCount(geometry_.get(), static_cast<unsigned>(count));
     rtcSetGeometryUserData(geometry_.get(), this);
     rtcSetGeometryBoundsFunction(geometry_.get(), write_object_bounds, nullptr);

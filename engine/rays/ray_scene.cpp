@@ -28,28 +28,22 @@ void note_alpha(RayScene::State& state, const ScenePose& posed) {
     for (const MaterialValues& material : posed.materials) state.alpha.push_back(material.alpha);
 }
 
-/// Objects of a layer that follow each other, from the layer's first.
-struct LayerObjects {
-    ObjectLayer& layer;
-    std::span<const MeshStructures::Object> objects;
-};
-
+/// Places the first objects of a layer.
 /// @return how many changed
-std::size_t place_objects(const LayerObjects& part, const RayScene::State& state,
-                          const std::vector<RefitMesh::Change>& changes, const ScenePose& posed,
-                          const glm::dvec3& anchor) {
+std::size_t place_objects(ObjectLayer& layer, std::span<const MeshStructures::Object> objects,
+                          const RayScene::State& state, const std::vector<RefitMesh::Change>& changes,
+                          const ScenePose& posed, const glm::dvec3& anchor) {
     std::size_t touched = 0;
-    for (std::size_t i = 0; i < part.objects.size(); ++i) {
-        const MeshStructures::Object& object = part.objects[i];
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const MeshStructures::Object& object = objects[i];
         const bool deforms = object.deforming != no_index;
         const RefitMesh::Change change = deforms ? changes[object.deforming] : RefitMesh::Change::none;
         const TriangleTree* const tree = deforms ? state.refits[object.deforming]->tree() : object.tree;
         const bool usable = change != RefitMesh::Change::unusable && tree != nullptr;
         const ObjectState now{posed.shown[object.instance] != 0, usable, change == RefitMesh::Change::moved};
-        const bool moved = part.layer.place(i, {tree, object.first_instance}, posed.world[object.node], anchor, now);
-        touched += moved ? 1 : 0;
+        touched += layer.place(i, {tree, object.first_instance}, posed.world[object.node], anchor, now);
     }
-    if (touched > 0) part.layer.commit();
+    if (touched > 0) layer.commit();
     return touched;
 }
 
@@ -91,27 +85,19 @@ RayScene RayScene::share_meshes() const {
 
 std::size_t RayScene::update(const ScenePose& posed, const glm::dvec3& anchor) {
     const FlushDenormals flush;
-    note_alpha(*state_, posed);
-    const std::vector<RefitMesh::Change> changes = refit_meshes(*state_, posed);
-    const std::span<const MeshStructures::Object> objects(state_->meshes->objects);
-    const std::size_t first = state_->moving->size();
-    std::size_t touched = place_objects({*state_->moving, objects.first(first)}, *state_, changes, posed, anchor);
-    touched += place_objects({*state_->still, objects.subspan(first)}, *state_, changes, posed, anchor);
-    if (!state_->placed || anchor != state_->anchor) touched += state_->meshes->flat.count;
-    state_->anchor = anchor;
-    state_->flat_shift = anchor - state_->meshes->flat.origin;
-    state_->placed = true;
-    return touched;
-}
-
-std::size_t RayScene::update_moving(const ScenePose& posed, const glm::dvec3& anchor) {
-    if (!state_->placed || anchor != state_->anchor) return update(posed, anchor);
-    const FlushDenormals flush;
-    note_alpha(*state_, posed);
-    const std::vector<RefitMesh::Change> changes = refit_meshes(*state_, posed);
-    const std::span<const MeshStructures::Object> objects(state_->meshes->objects);
-    return place_objects({*state_->moving, objects.first(state_->meshes->moving_count)}, *state_, changes, posed,
-                         anchor);
+    State& state = *state_;
+    note_alpha(state, posed);
+    const std::vector<RefitMesh::Change> changes = refit_meshes(state, posed);
+    const std::span<const MeshStructures::Object> objects(state.meshes->objects);
+    if (state.placed && anchor == state.anchor)
+        return place_objects(*state.moving, objects.first(state.meshes->moving_count), state, changes, posed, anchor);
+    const std::size_t first = state.moving->size();
+    std::size_t touched = place_objects(*state.moving, objects.first(first), state, changes, posed, anchor);
+    touched += place_objects(*state.still, objects.subspan(first), state, changes, posed, anchor);
+    state.anchor = anchor;
+    state.flat_shift = anchor - state.meshes->flat.origin;
+    state.placed = true;
+    return touched + state.meshes->flat.count;
 }
 
 const glm::dvec3& RayScene::anchor() const {

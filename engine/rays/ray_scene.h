@@ -43,16 +43,13 @@ class RayScene {
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 
-    /// Places the instances as in a pose. Only those whose transform, points or visibility changed are touched (all if
-    /// the anchor moved). Instances that are not traceable (a scale of 0, points that are not finite) are left out and
-    /// counted.
+    /// Places the instances as in a pose of the scene that this was made for. Those that cannot move by their tracks
+    /// are skipped, so that the cost follows what moves (all if the anchor moved); of the others only those are touched
+    /// whose transform, points or visibility changed. Instances that are not traceable (a scale of 0, points that are
+    /// not finite) are left out and counted.
     /// @return number of instances touched
     /// @throws std::bad_alloc, also from Embree; after that this can only be destroyed
     std::size_t update(const ScenePose& posed, const glm::dvec3& anchor);
-
-    /// The same, if this pose and that of the last update are both of the scene that this was made for. Instances that
-    /// cannot move by their tracks are skipped, so that the cost follows what moves (all if the anchor moved).
-    std::size_t update_moving(const ScenePose& posed, const glm::dvec3& anchor);
 
     const glm::dvec3& anchor() const;
     /// True where the instance stands still and its triangles are traced in one tree with others, in coordinates
@@ -95,12 +92,10 @@ class Tracer {
     Hit intersect(const Ray& ray, glm::vec3* normal = nullptr);
     bool occluded(const Ray& ray);
 
-    /// In packets, one hit per ray.
-    /// @param coherent  neighbouring rays have similar origins and directions
+    /// In packets, one hit per ray; quick where neighbouring rays have similar origins and directions.
     /// @param normals   if given, set to the true normals of what is hit: across the triangle, as long as twice its
     ///                  area, on either side; in the object's space, or the world's where RayScene::is_flat
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent, std::span<glm::vec3> normals = {});
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked);
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<glm::vec3> normals = {});
 
   private:
     RayScene::State& state_;

@@ -57,14 +57,6 @@ std::vector<std::uint32_t> sort_neighbours(const std::vector<glm::uvec3>& triang
 
 }  // namespace
 
-DeformingMesh::DeformingMesh(const Mesh& of, int index, int place_in_node, bool can_change, const AlphaCutout* holes)
-    : mesh(index),
-      place(place_in_node),
-      changes(can_change),
-      vertex_count(of.positions.size()),
-      triangles(of.triangles),
-      cutout(holes) {}
-
 RefitMesh::RefitMesh(const EmbreeDevice& device, const DeformingMesh& mesh) : device_(device), mesh_(mesh) {}
 
 RefitMesh::Change RefitMesh::update(const std::vector<glm::dvec3>& positions) {

@@ -12,8 +12,6 @@ namespace aleph {
 
 /// The parts of a deforming mesh that stay when its points move.
 struct DeformingMesh {
-    DeformingMesh(const Mesh& mesh, int index, int place_in_node, bool can_change, const AlphaCutout* holes);
-
     int mesh;      ///< into Scene::meshes
     int place;     ///< among its node's meshes
     bool changes;  ///< false: posed once

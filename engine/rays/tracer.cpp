@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "engine/base/errors.h"
 #include "engine/rays/ray_scene.h"
@@ -49,21 +50,8 @@ void trace_lane(const RayScene::State& state, Blend blend, bool occlusion, RayLa
     }
 }
 
-/// Embree's packet types by width.
-template <int Width>
-struct Packet;
-template <>
-struct Packet<8> {
-    using RayHits = RTCRayHit8;
-    static constexpr auto intersect = rtcIntersect8;
-};
-template <>
-struct Packet<16> {
-    using RayHits = RTCRayHit16;
-    static constexpr auto intersect = rtcIntersect16;
-};
-
 /// A packet on its way through the trees, one after the other.
+/// @tparam Width  8 or 16
 template <int Width>
 class PacketTracer {
   public:
@@ -130,7 +118,11 @@ class PacketTracer {
         }
         if (!any) return;
         Traversal traversal(state_, lanes_, blend_, false);
-        Packet<Width>::intersect(active_, scene, &traversal.embree, &packet_);
+        if constexpr (Width == 8) {
+            rtcIntersect8(active_, scene, &traversal.embree, &packet_);
+        } else {
+            rtcIntersect16(active_, scene, &traversal.embree, &packet_);
+        }
     }
 
     const RayScene::State& state_;
@@ -138,7 +130,7 @@ class PacketTracer {
     int count_ = 0;
     bool valid_[Width];
     alignas(64) int active_[Width];
-    alignas(64) typename Packet<Width>::RayHits packet_;
+    alignas(64) std::conditional_t<Width == 8, RTCRayHit8, RTCRayHit16> packet_;
     RayLane lanes_[Width];
 };
 
@@ -194,10 +186,10 @@ bool Tracer::occluded(const Ray& ray) {
     return lane.blocked;
 }
 
-void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent, std::span<glm::vec3> normals) {
+void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<glm::vec3> normals) {
     ALEPH_CHECK(rays.size() == hits.size() && (normals.empty() || normals.size() == hits.size()),
                 fmt::format("{} rays, {} hits, {} normals", rays.size(), hits.size(), normals.size()));
-    const int width = coherent ? state_.meshes->packet_width : 1;
+    const int width = state_.meshes->packet_width;
     if (width == 1) {
         for (std::size_t i = 0; i < rays.size(); ++i)
             hits[i] = intersect(rays[i], normals.empty() ? nullptr : &normals[i]);
@@ -207,12 +199,6 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool cohe
                                               : intersect_packets<8>(state_, blend_, rays, hits, normals);
     traced_ += rays.size() - invalid;
     invalid_ += invalid;
-}
-
-void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
-    ALEPH_CHECK(rays.size() == blocked.size(),
-                std::to_string(rays.size()) + " rays, " + std::to_string(blocked.size()));
-    for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]) ? 1 : 0;
 }
 
 }  // namespace aleph

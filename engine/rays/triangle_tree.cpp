@@ -156,7 +156,7 @@ TriangleTree::TriangleTree(const EmbreeDevice& device, std::span<const TreeMesh>
     const bool still = kind == Kind::still;
     scene_ = device.make_scene(still ? RTC_SCENE_FLAG_NONE : RTC_SCENE_FLAG_DYNAMIC,
                                still ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_LOW);
-    geometry_ = device.make_geometry(RTC_GEOMETRY_TYPE_USER);
+    geometry_ = device.make_geometry();
     rtcSetGeometryBuildQuality(geometry_.get(), still ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_REFIT);
     rtcSetGeometryUserPrimitiveCount(geometry_.get(), static_cast<unsigned>(blocks_.size()));
     rtcSetGeometryUserData(geometry_.get(), this);

@@ -254,18 +254,9 @@ void light_hits(const Lighting& lighting) {
 /// Casts the shadow rays and adds the light that is not in shadow.
 void add_unshadowed(const LightingContext& context, RayTask& task, const GatherOptions& options,
                     GatherScratch& scratch) {
-    const std::size_t count = scratch.shadow_rays.size();
-    if (!context.shading.has_thin_glass) {
-        scratch.blocked.resize(count);
-        task.tracer.occluded(scratch.shadow_rays, scratch.blocked);
-        task.counts.shadow += count;
-    }
-    for (std::size_t s = 0; s < count; ++s) {
-        const ShadowSample& sample = scratch.shadow_samples[s];
-        const Rgb passed = context.shading.has_thin_glass ? find_transmittance(context, task, scratch.shadow_rays[s])
-                                                          : Rgb(scratch.blocked[s] ? 0.0f : 1.0f);
-        add_arrived(sample, passed, options, scratch);
-    }
+    for (std::size_t s = 0; s < scratch.shadow_rays.size(); ++s)
+        add_arrived(scratch.shadow_samples[s], find_transmittance(context, task, scratch.shadow_rays[s]), options,
+                    scratch);
 }
 
 /// From what the rays found to the radiance and the distance of every cell.
@@ -296,7 +287,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     const int most = divide_cells(strata, options.divided, scratch);
     place_rays(strata, make_basis(point.normal), point, numbers, most, scratch);
     scratch.strata = strata;
-    task.tracer.intersect(scratch.rays, scratch.hits, true, scratch.normals);
+    task.tracer.intersect(scratch.rays, scratch.hits, scratch.normals);
     task.counts.gather += scratch.rays.size();
     light_hits(
         {context, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});

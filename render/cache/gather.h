@@ -140,7 +140,6 @@ struct GatherScratch : GatheredRays {
     // One for every shadow ray.
     std::vector<Ray> shadow_rays;
     std::vector<ShadowSample> shadow_samples;
-    std::vector<std::uint8_t> blocked;
     std::vector<PlainHit> plain_hits;
     // Buffers of the summary.
     std::vector<float> sorted;

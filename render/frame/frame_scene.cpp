@@ -22,7 +22,7 @@ void FrameScene::pose(const PosedView& given) {
 
 std::size_t FrameScene::update_rays() {
     if (!rays_) rays_ = meshes_->rays().share_meshes();
-    return rays_->update_moving(posed_->pose, compute_anchor(posed_->view));
+    return rays_->update(posed_->pose, compute_anchor(posed_->view));
 }
 
 std::size_t FrameScene::prepare() {

@@ -82,7 +82,7 @@ Rgb average_light_seen(const SampleScene& scene, ShadingTask& task, const Sample
         rays[i].origin = glm::vec3(ray.origin - scene.lighting.rays.anchor());
         rays[i].direction = glm::vec3(ray.direction);
     }
-    task.tracer.intersect(rays, hits, true);
+    task.tracer.intersect(rays, hits);
     task.counts.primary += rays_of_a_sample;
     Rgb sum(0.0f);
     for (int i = 0; i < rays_of_a_sample; ++i) sum += light_seen(scene, place, hits[i], rays[i].direction, pixel);

@@ -30,7 +30,7 @@ class SamplePacket {
     template <class Shade>
     void finish(const Shade& shade) {
         std::array<Hit, capacity> hits;
-        task_.tracer.intersect(std::span(rays_.data(), uncast_count_), std::span(hits.data(), uncast_count_), true);
+        task_.tracer.intersect(std::span(rays_.data(), uncast_count_), std::span(hits.data(), uncast_count_));
         task_.counts.primary += uncast_count_;
         for (std::size_t i = 0; i < uncast_count_; ++i) entries_[uncast_[i]].hit = hits[i];
         for (std::size_t i = 0; i < size_; ++i) {

@@ -1,7 +1,6 @@
 #include "scenes/antique-room/antique_room.h"
 
 #include "scenes/common/build.h"
-#include "scenes/common/camera.h"
 #include "scenes/common/generator.h"
 
 namespace aleph {
@@ -21,38 +20,27 @@ Scene make_antique_room(const std::string& textures) {
     Scene scene = begin_scene("antique-room", antique_last_frame, 3.0, textures, make_antique_textures());
 
     AntiqueMaterials materials{};
-    const auto glossy = [&](int material, double roughness) {
-        add_gloss(scene, roughness);
-        return material;
-    };
     materials.paper = add_textured(scene, "paper", "damask");
-    materials.panel = glossy(add_textured(scene, "panel", "walnut"), 0.3);
-    materials.walnut = glossy(add_textured(scene, "walnut", "walnut"), 0.2);
-    materials.mahogany = glossy(add_lambert(scene, "mahogany", {122, 56, 34}), 0.15);
-    materials.boards = glossy(add_textured(scene, "boards", "boards"), 0.16);
+    materials.panel = add_textured(scene, "panel", "walnut", 0.3);
+    materials.walnut = add_textured(scene, "walnut", "walnut", 0.2);
+    materials.mahogany = add_lambert(scene, "mahogany", {122, 56, 34}, 0.15);
+    materials.boards = add_textured(scene, "boards", "boards", 0.16);
     materials.ceiling = add_lambert(scene, "ceiling", {232, 224, 206});
-    materials.stone = glossy(add_textured(scene, "stone", "stone"), 0.25);
-    materials.brass = glossy(add_lambert(scene, "brass", {198, 152, 66}), 0.2);
-    materials.gilt = glossy(add_lambert(scene, "gilt", {196, 150, 74}), 0.3);
+    materials.stone = add_textured(scene, "stone", "stone", 0.25);
+    materials.brass = add_lambert(scene, "brass", {198, 152, 66}, 0.2);
+    materials.gilt = add_lambert(scene, "gilt", {196, 150, 74}, 0.3);
     materials.cloth = add_textured(scene, "velvet", "velvet");
     scene.materials.back().base_color = glm::dvec3(0.16, 0.3, 0.2);
-    materials.leather = glossy(add_lambert(scene, "leather", {122, 40, 28}), 0.28);
+    materials.leather = add_lambert(scene, "leather", {122, 40, 28}, 0.28);
     materials.ivory = add_lambert(scene, "ivory", {238, 228, 204});
     materials.black = add_lambert(scene, "iron", {36, 34, 36});
     materials.green = add_lambert(scene, "stem", {76, 112, 56});
     scene.materials.back().double_sided = true;
-    materials.porcelain = glossy(add_lambert(scene, "porcelain", {196, 214, 228}), 0.12);
+    materials.porcelain = add_lambert(scene, "porcelain", {196, 214, 228}, 0.12);
 
-    add_antique_shell(scene, materials);
-    add_antique_window(scene, materials);
-    add_fireplace(scene, materials);
-    add_antique_pictures(scene, materials);
-    add_table_and_chairs(scene, materials);
-    add_armchair(scene, materials);
-    add_side_table(scene, materials);
-    add_bookcase(scene, materials);
-    add_tall_clock(scene, materials);
-    add_globe(scene, materials);
+    for (const auto add : {add_antique_shell, add_antique_window, add_fireplace, add_antique_pictures,
+                           add_table_and_chairs, add_armchair, add_side_table, add_bookcase, add_tall_clock, add_globe})
+        add(scene, materials);
     add_antique_camera(scene);
     return scene;
 }

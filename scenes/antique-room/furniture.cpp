@@ -28,47 +28,42 @@ Shape turned_leg(double height, double radius) {
 
 void add_chair(Scene& scene, const std::string& name, const glm::dvec3& place, double degrees, int seat,
                const AntiqueMaterials& materials) {
-    const Group chair{scene, add_node(scene, name, no_index, place, turn({0.0, 1.0, 0.0}, degrees))};
+    const Group chair = Group{scene}.add_group(name, place, turn(y_axis, degrees));
     const int wood = materials.mahogany;
     const Shape leg = turned_leg(0.43, 0.026), spindle = turned_leg(0.4, 0.014);
-    for (const double x : {-1.0, 1.0}) {
-        const char* which = x < 0.0 ? "a" : "b";
-        chair.add_shape(fmt::format("{}_leg_front_{}", name, which), leg, wood, {x * 0.2, 0.0, 0.19});
-        chair.add_rod(fmt::format("{}_leg_back_{}", name, which), {x * 0.19, 0.0, -0.22}, {x * 0.18, 0.44, -0.19},
-                      0.019, wood, 20);
-        chair.add_rod(fmt::format("{}_post_{}", name, which), {x * 0.18, 0.44, -0.19}, {x * 0.19, 0.98, -0.27}, 0.018,
-                      wood, 20);
-        chair.add_shape(fmt::format("{}_knob_{}", name, which), sphere(0.026), wood, {x * 0.19, 0.995, -0.272});
-        chair.add_rod(fmt::format("{}_stretcher_{}", name, which), {x * 0.2, 0.16, 0.19}, {x * 0.188, 0.16, -0.21},
-                      0.011, wood, 16);
+    for (const auto& [x, letter] : both_sides) {
+        chair.add_shape(name + "_leg_front_" + letter, leg, wood, {x * 0.2, 0.0, 0.19});
+        chair.add_rod(name + "_leg_back_" + letter, {x * 0.19, 0.0, -0.22}, {x * 0.18, 0.44, -0.19}, 0.019, wood, 20);
+        chair.add_rod(name + "_post_" + letter, {x * 0.18, 0.44, -0.19}, {x * 0.19, 0.98, -0.27}, 0.018, wood, 20);
+        chair.add_shape(name + "_knob_" + letter, sphere(0.026), wood, {x * 0.19, 0.995, -0.272});
+        chair.add_rod(name + "_stretcher_" + letter, {x * 0.2, 0.16, 0.19}, {x * 0.188, 0.16, -0.21}, 0.011, wood, 16);
     }
     chair.add_rod(name + "_stretcher", {-0.195, 0.16, 0.0}, {0.195, 0.16, 0.0}, 0.011, wood, 16);
     chair.add_shape(name + "_frame", box({0.46, 0.055, 0.44}), wood, {0.0, 0.43, 0.0});
-    add_mesh_node(scene, name + "_seat", chair, seat, {0.0, 0.475, 0.0});
+    chair.add_mesh(name + "_seat", seat, {0.0, 0.475, 0.0});
     const double lean = -std::atan2(0.08, 0.54) * 180.0 / pi;
     for (int i = 0; i < 4; ++i)
         chair.add_shape(fmt::format("{}_spindle_{}", name, i), spindle, wood, {-0.108 + 0.072 * i, 0.53, -0.2},
-                        turn({1.0, 0.0, 0.0}, lean));
+                        turn(x_axis, lean));
     chair.add_shape(name + "_rail_low", box({0.36, 0.035, 0.02}), wood, {0.0, 0.53, -0.2});
-    chair.add_shape(name + "_rail_high", box({0.37, 0.09, 0.022}), wood, {0.0, 0.94, -0.262},
-                    turn({1.0, 0.0, 0.0}, lean));
+    chair.add_shape(name + "_rail_high", box({0.37, 0.09, 0.022}), wood, {0.0, 0.94, -0.262}, turn(x_axis, lean));
 }
 
 void add_table(Scene& scene, const Group& table, const AntiqueMaterials& materials) {
     const Profile top_outline = {{0.0, 0.71},   {0.5, 0.71},  {0.54, 0.715}, {0.56, 0.725}, {0.565, 0.735},
                                  {0.56, 0.745}, {0.55, 0.75}, {0.55, 0.75},  {0.0, 0.75}};
-    table.add_shape("table_top", lathe(top_outline, 96, {4.0, 1.0}), materials.walnut, glm::dvec3(0.0));
+    table.add_shape("table_top", lathe(top_outline, 96, {4.0, 1.0}), materials.walnut);
     const Profile column_outline = {{0.0, 0.12},   {0.05, 0.12},  {0.1, 0.15}, {0.11, 0.2},  {0.08, 0.26}, {0.05, 0.29},
                                     {0.065, 0.31}, {0.045, 0.33}, {0.05, 0.4}, {0.085, 0.5}, {0.09, 0.54}, {0.05, 0.6},
                                     {0.07, 0.62},  {0.05, 0.64},  {0.1, 0.69}, {0.2, 0.71}};
-    table.add_shape("table_column", lathe(column_outline, 56), materials.mahogany, glm::dvec3(0.0));
+    table.add_shape("table_column", lathe(column_outline, 56), materials.mahogany);
     const int foot =
         add_cage(scene, "table_foot", make_cushion({0.07, 0.09, 0.44}, 0.03, {0.0, 0.02, 0.0}, 2), materials.mahogany);
     for (int i = 0; i < 3; ++i) {
         const double angle = 120.0 * i + 20.0, a = angle * pi / 180.0;
-        add_mesh_node(scene, fmt::format("table_foot_{}", i), table, foot,
-                      to_millionth(glm::dvec3(0.25 * std::sin(a), 0.125, 0.25 * std::cos(a))),
-                      turn({0.0, 1.0, 0.0}, angle) * turn({1.0, 0.0, 0.0}, 20.0));
+        table.add_mesh(fmt::format("table_foot_{}", i), foot,
+                       to_millionth(glm::dvec3(0.25 * std::sin(a), 0.125, 0.25 * std::cos(a))),
+                       turn(y_axis, angle) * turn(x_axis, 20.0));
     }
 }
 
@@ -90,12 +85,11 @@ void add_irises(Scene& scene, const Group& table, const AntiqueMaterials& materi
         table.add_rod(fmt::format("iris_stem_{}", i), root, tip, 0.005, materials.green, 8);
         for (int k = 0; k < 6; ++k) {
             const double lean = k % 2 == 0 ? 88.0 : 22.0;
-            add_mesh_node(scene, fmt::format("iris_{}_petal_{}", i, k), table, petal, tip,
-                          turn({0.0, 1.0, 0.0}, 60.0 * k + 20.0 * i) * turn({1.0, 0.0, 0.0}, lean));
+            table.add_mesh(fmt::format("iris_{}_petal_{}", i, k), petal, tip,
+                           turn(y_axis, 60.0 * k + 20.0 * i) * turn(x_axis, lean));
         }
-        add_mesh_node(
-            scene, fmt::format("iris_blade_{}", i), table, blade, root,
-            turn({0.0, 1.0, 0.0}, std::fmod(around + 60.0, 360.0)) * turn({1.0, 0.0, 0.0}, 18.0 + 4.0 * (i % 4)));
+        table.add_mesh(fmt::format("iris_blade_{}", i), blade, root,
+                       turn(y_axis, std::fmod(around + 60.0, 360.0)) * turn(x_axis, 18.0 + 4.0 * (i % 4)));
     }
 }
 
@@ -112,7 +106,7 @@ void add_tea(const Group& table, const AntiqueMaterials& materials) {
         table.add_shape(fmt::format("saucer_{}", i), saucer, materials.porcelain, cups[i]);
         table.add_shape(fmt::format("cup_{}", i), cup, materials.porcelain, cups[i] + glm::dvec3(0.0, 0.007, 0.0));
         table.add_shape(fmt::format("cup_handle_{}", i), torus(0.016, 0.004, 32), materials.porcelain,
-                        cups[i] + glm::dvec3(0.05, 0.037, 0.0), turn({1.0, 0.0, 0.0}, 90.0));
+                        cups[i] + glm::dvec3(0.05, 0.037, 0.0), turn(x_axis, 90.0));
     }
 }
 
@@ -120,14 +114,13 @@ void add_tea(const Group& table, const AntiqueMaterials& materials) {
 
 void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
     const glm::dvec3 place(-0.35, 0.012, 0.15);
-    const Group table{scene, add_node(scene, "table", no_index, place)};
+    const Group table = Group{scene}.add_group("table", place);
     add_table(scene, table, materials);
     add_irises(scene, table, materials);
     add_tea(table, materials);
     table.add_shape("table_book_a", box({0.19, 0.035, 0.26}), materials.leather, {0.12, 0.768, 0.34},
-                    turn({0.0, 1.0, 0.0}, 24.0));
-    table.add_shape("table_book_b", box({0.15, 0.028, 0.21}), materials.cloth, {0.125, 0.8, 0.335},
-                    turn({0.0, 1.0, 0.0}, 41.0));
+                    turn(y_axis, 24.0));
+    table.add_shape("table_book_b", box({0.15, 0.028, 0.21}), materials.cloth, {0.125, 0.8, 0.335}, turn(y_axis, 41.0));
 
     const int seat =
         add_cage(scene, "chair_seat", make_cushion({0.44, 0.07, 0.42}, 0.03, {0.0, 0.025, 0.0}, 2), materials.cloth);
@@ -137,45 +130,39 @@ void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
 }
 
 void add_armchair(Scene& scene, const AntiqueMaterials& materials) {
-    const Group chair{scene, add_node(scene, "armchair", no_index, {1.55, 0.0, -0.95}, turn({0.0, 1.0, 0.0}, -52.0))};
+    const Group chair = Group{scene}.add_group("armchair", {1.55, 0.0, -0.95}, turn(y_axis, -52.0));
     const int leather = materials.leather;
-    const auto add = [&](const char* name, const CageShape& shape, const glm::dvec3& at,
-                         const glm::dquat& turned = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
-        add_mesh_node(scene, std::string("armchair_") + name, chair,
-                      add_cage(scene, std::string("armchair_") + name, shape, leather), at, turned);
-    };
-    add("base", make_cushion({0.72, 0.2, 0.7}, 0.04, {0.0, 0.0, 0.01}), {0.0, 0.24, 0.0});
-    add("seat", make_cushion({0.56, 0.16, 0.62}, 0.05, {0.01, 0.04, 0.02}, 2), {0.0, 0.41, 0.05});
-    add("back", make_cushion({0.7, 0.86, 0.18}, 0.07, {0.01, 0.04, 0.035}, 2), {0.0, 0.72, -0.3},
-        turn({1.0, 0.0, 0.0}, -12.0));
+    add_cage_node(chair, "armchair_base", make_cushion({0.72, 0.2, 0.7}, 0.04, {0.0, 0.0, 0.01}), leather,
+                  {0.0, 0.24, 0.0});
+    add_cage_node(chair, "armchair_seat", make_cushion({0.56, 0.16, 0.62}, 0.05, {0.01, 0.04, 0.02}, 2), leather,
+                  {0.0, 0.41, 0.05});
+    add_cage_node(chair, "armchair_back", make_cushion({0.7, 0.86, 0.18}, 0.07, {0.01, 0.04, 0.035}, 2), leather,
+                  {0.0, 0.72, -0.3}, turn(x_axis, -12.0));
     const int wing =
         add_cage(scene, "armchair_wing", make_cushion({0.1, 0.46, 0.26}, 0.045, {0.015, 0.02, 0.03}, 2), leather);
     const int arm =
         add_cage(scene, "armchair_arm", make_cushion({0.15, 0.36, 0.66}, 0.05, {0.015, 0.01, 0.02}, 2), leather);
-    for (const double side : {-1.0, 1.0}) {
-        const char* which = side < 0.0 ? "a" : "b";
-        add_mesh_node(scene, fmt::format("armchair_arm_{}", which), chair, arm, {side * 0.355, 0.46, 0.02});
-        chair.add_shape(fmt::format("armchair_roll_{}", which), cylinder(0.085, 0.66, 40), leather,
-                        {side * 0.37, 0.64, 0.03}, turn({1.0, 0.0, 0.0}, 90.0));
-        add_mesh_node(scene, fmt::format("armchair_wing_{}", which), chair, wing, {side * 0.34, 0.9, -0.24},
-                      turn({1.0, 0.0, 0.0}, -12.0));
-        for (const double end : {-1.0, 1.0})
-            chair.add_shape(fmt::format("armchair_foot_{}{}", which, end < 0.0 ? "a" : "b"), turned_leg(0.15, 0.032),
-                            materials.mahogany, {side * 0.31, 0.0, end * 0.29});
+    for (const auto& [side, letter] : both_sides) {
+        chair.add_mesh("armchair_arm_" + letter, arm, {side * 0.355, 0.46, 0.02});
+        chair.add_shape("armchair_roll_" + letter, cylinder(0.085, 0.66, 40), leather, {side * 0.37, 0.64, 0.03},
+                        turn(x_axis, 90.0));
+        chair.add_mesh("armchair_wing_" + letter, wing, {side * 0.34, 0.9, -0.24}, turn(x_axis, -12.0));
+        for (const auto& [end, end_letter] : both_sides)
+            chair.add_shape("armchair_foot_" + letter + end_letter, turned_leg(0.15, 0.032), materials.mahogany,
+                            {side * 0.31, 0.0, end * 0.29});
     }
-    add("pillow", make_cushion({0.38, 0.3, 0.07}, 0.03, {-0.02, -0.015, 0.09}, 2), {0.02, 0.62, -0.1},
-        turn({1.0, 0.0, 0.0}, -20.0));
-    scene.meshes.back().material = materials.cloth;
+    add_cage_node(chair, "armchair_pillow", make_cushion({0.38, 0.3, 0.07}, 0.03, {-0.02, -0.015, 0.09}, 2),
+                  materials.cloth, {0.02, 0.62, -0.1}, turn(x_axis, -20.0));
 }
 
 void add_side_table(Scene& scene, const AntiqueMaterials& materials) {
-    const Group table{scene, add_node(scene, "side_table", no_index, {2.2, 0.0, -1.85})};
+    const Group table = Group{scene}.add_group("side_table", {2.2, 0.0, -1.85});
     const Profile top_outline = {{0.0, 0.6},   {0.26, 0.6},  {0.28, 0.61}, {0.28, 0.62},
                                  {0.27, 0.63}, {0.27, 0.63}, {0.0, 0.63}};
-    table.add_shape("side_table_top", lathe(top_outline, 64), materials.mahogany, glm::dvec3(0.0));
-    table.add_shape("side_table_stem", turned_leg(0.6, 0.05), materials.mahogany, glm::dvec3(0.0));
+    table.add_shape("side_table_top", lathe(top_outline, 64), materials.mahogany);
+    table.add_shape("side_table_stem", turned_leg(0.6, 0.05), materials.mahogany);
     const Profile base_outline = {{0.0, 0.0}, {0.22, 0.0}, {0.22, 0.0}, {0.21, 0.025}, {0.1, 0.045}, {0.0, 0.05}};
-    table.add_shape("side_table_base", lathe(base_outline, 48), materials.mahogany, glm::dvec3(0.0));
+    table.add_shape("side_table_base", lathe(base_outline, 48), materials.mahogany);
     const int shade = add_lambert(scene, "lamp_shade", {226, 196, 142});
     scene.materials.back().double_sided = true;
     const int glow = add_emitter(scene, "lamp_glow", {1.0, 0.76, 0.46}, 60.0);
@@ -185,11 +172,11 @@ void add_side_table(Scene& scene, const AntiqueMaterials& materials) {
     table.add_rod("lamp_stem", {0.0, 0.93, 0.0}, {0.0, 1.1, 0.0}, 0.008, materials.brass, 16);
     Shape cone = lathe({{0.21, 0.94}, {0.12, 1.22}}, 64);
     cone.smooth = false;
-    table.add_shape("lamp_shade", cone, shade, glm::dvec3(0.0));
+    table.add_shape("lamp_shade", cone, shade);
     table.add_shape("lamp_down", quad(0.09, 0.09), glow, {0.0, 1.06, 0.0}, z_to_down);
     table.add_shape("lamp_up", quad(0.09, 0.09), glow, {0.0, 1.105, 0.0}, z_to_up);
     table.add_shape("side_table_book", box({0.14, 0.03, 0.2}), materials.cloth, {-0.14, 0.645, 0.1},
-                    turn({0.0, 1.0, 0.0}, 30.0));
+                    turn(y_axis, 30.0));
 }
 
 }  // namespace aleph

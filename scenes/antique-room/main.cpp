@@ -1,5 +1,5 @@
 // Writes the scene `antique-room` and its textures: make_antique_room OUTPUT_FOLDER (usually scenes).
-// Deterministic: tests/scenes/room_scenes_test.cpp compares the bytes.
+// Deterministic: tests/scenes/scenes_test.cpp compares the bytes.
 
 #include "scenes/antique-room/antique_room.h"
 #include "scenes/common/generator.h"

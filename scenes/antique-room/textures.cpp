@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "scenes/antique-room/antique_room.h"
-#include "scenes/common/drawing.h"
+#include "scenes/common/texture_tools.h"
 
 namespace aleph {
 
@@ -95,12 +95,6 @@ glm::dvec3 color_rug(const glm::dvec2& uv) {
     return color + 26.0 * wool;
 }
 
-/// Distance from a segment.
-double from_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
-    const double t = std::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
-    return glm::distance(p, glm::mix(a, b, t));
-}
-
 /// Ten past ten; strokes for hours, dots for minutes.
 glm::dvec3 color_dial(const glm::dvec2& uv) {
     const glm::dvec2 p = (uv - 0.5) * 2.0;
@@ -108,10 +102,10 @@ glm::dvec3 color_dial(const glm::dvec2& uv) {
     const auto hand = [](double turn, double length) { return length * glm::dvec2(std::sin(turn), -std::cos(turn)); };
     const glm::dvec3 ink = hex(0x1c1a22), cream = hex(0xf3ead2), brass = hex(0xb8863c);
     if (reach > 0.97) return brass;
-    if (from_segment(p, hand(2.0 * pi * (10.0 + 1.0 / 6.0) / 12.0, -0.1),
-                     hand(2.0 * pi * (10.0 + 1.0 / 6.0) / 12.0, 0.42)) < 0.03)
+    if (distance_to_segment(p, hand(2.0 * pi * (10.0 + 1.0 / 6.0) / 12.0, -0.1),
+                            hand(2.0 * pi * (10.0 + 1.0 / 6.0) / 12.0, 0.42)) < 0.03)
         return ink;
-    if (from_segment(p, hand(2.0 * pi / 6.0, -0.12), hand(2.0 * pi / 6.0, 0.66)) < 0.02) return ink;
+    if (distance_to_segment(p, hand(2.0 * pi / 6.0, -0.12), hand(2.0 * pi / 6.0, 0.66)) < 0.02) return ink;
     if (reach < 0.05) return brass;
     const double hour = std::round(angle * 6.0 / pi), minute = std::round(angle * 30.0 / pi);
     const double from_hour = std::abs(angle - hour * pi / 6.0) * reach;

@@ -1,4 +1,6 @@
-// Balls that fall under a ring, and those that roll off their plinths.
+// Balls that fall under a ring, and those that roll off their plinths: they fall, bounce and come to rest. Between
+// impacts the path is a parabola, which a cubic track through the positions and velocities at the impacts represents
+// exactly.
 
 #include <fmt/format.h>
 
@@ -24,6 +26,63 @@ constexpr int ring_balls = 9;
 glm::dvec3 ring_point(int i) {
     const double angle = 2.0 * pi * i / ring_balls;
     return ring_place + ring_radius * glm::dvec3(std::sin(angle), 0.0, std::cos(angle));
+}
+
+/// Keys at release, impacts and rest; between two keys the acceleration is constant.
+/// @param until  s; the last key, if the ball is not at rest before
+std::vector<MotionKey<glm::dvec3>> simulate_drop(const BallDrop& drop, double until) {
+    const glm::dvec3 down(0.0, -gravity, 0.0);
+    const double rest = drop.ground + drop.radius;
+    std::vector<MotionKey<glm::dvec3>> keys;
+    keys.push_back({drop.release, glm::dvec3(0.0), drop.position, drop.velocity});
+    while (true) {
+        const MotionKey<glm::dvec3>& last = keys.back();
+        const double v = last.after.y;
+        const double flight = (v + std::sqrt(v * v + 2.0 * gravity * (last.value.y - rest))) / gravity;
+        if (last.seconds + flight >= until) {
+            const double t = until - last.seconds;
+            const glm::dvec3 velocity = last.after + down * t;
+            keys.push_back({until, velocity, last.value + last.after * t + 0.5 * t * t * down, velocity});
+            return keys;
+        }
+        MotionKey<glm::dvec3> impact;
+        impact.seconds = last.seconds + flight;
+        impact.before = last.after + down * flight;
+        impact.value = last.value + last.after * flight + 0.5 * flight * flight * down;
+        impact.value.y = rest;
+        impact.after = impact.before * glm::dvec3(drop.grip, -drop.restitution, drop.grip);
+        const bool settled = impact.after.y < drop.settled_speed;
+        if (settled) impact.after.y = 0.0;
+        keys.push_back(impact);
+        if (settled) break;
+    }
+    const MotionKey<glm::dvec3> last = keys.back();
+    const double speed = glm::length(last.after), time = speed / drop.rolling;
+    if (speed == 0.0) return keys;
+    const double t = std::min(time, until - last.seconds);
+    const glm::dvec3 slowing = -drop.rolling * last.after / speed;
+    const glm::dvec3 velocity = t < time ? last.after + slowing * t : glm::dvec3(0.0);
+    keys.push_back({last.seconds + t, velocity, last.value + last.after * t + 0.5 * t * t * slowing, velocity});
+    return keys;
+}
+
+/// Angle about the axis of rolling along the path, radians: the spin is constant in the air, and becomes that of
+/// rolling at every impact.
+std::vector<MotionKey<double>> simulate_spin(const BallDrop& drop, const std::vector<MotionKey<glm::dvec3>>& path) {
+    const auto rolling = [&](const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z) / drop.radius; };
+    std::vector<MotionKey<double>> keys;
+    double angle = 0.0;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        MotionKey<double> key{path[i].seconds, 0.0, 0.0, rolling(path[i].after)};
+        if (i > 0) {
+            const bool flies = path[i].before.y != 0.0;
+            key.before = flies ? keys.back().after : rolling(path[i].before);
+            angle += 0.5 * (keys.back().after + key.before) * (path[i].seconds - path[i - 1].seconds);
+        }
+        key.value = angle;
+        keys.push_back(key);
+    }
+    return keys;
 }
 
 }  // namespace
@@ -62,7 +121,7 @@ std::vector<BallDrop> make_ball_drops() {
 }
 
 void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
-    const Group work{scene, add_node(scene, "ball_work")};
+    const Group work = Group{scene}.add_group("ball_work");
     const Profile base_outline = {{0.0, 0.0},    {1.3, 0.0},         {1.3, 0.0},         {1.3, 0.05},
                                   {1.29, 0.072}, {1.265, ring_base}, {1.265, ring_base}, {0.0, ring_base}};
     work.add_shape("ball_base", lathe(base_outline, 96), materials.plinth, ring_place);
@@ -80,15 +139,14 @@ void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
         work.add_rod(fmt::format("ball_holder_{}", i), at - glm::dvec3(0.0, 0.11, 0.0), at, 0.02, materials.steel, 16);
     }
 
-    const Group balls{scene, add_node(scene, "balls")};
+    const Group balls = Group{scene}.add_group("balls");
     const std::vector<BallDrop> drops = make_ball_drops();
     for (std::size_t i = 0; i < drops.size(); ++i) {
         const std::string name = fmt::format("ball_{}", i);
         const bool rolls = glm::length(drops[i].velocity) > 0.0;
         const int texture = rolls ? (i % 2 == 1 ? 0 : 2) : static_cast<int>(i) % 5 + 1;
-        const int material = add_textured(scene, name, fmt::format("ball_{}", texture));
-        add_gloss(scene, 0.3);
-        const int index = balls.add_shape(name, sphere(drops[i].radius), material, glm::dvec3(0.0));
+        const int material = add_textured(scene, name, fmt::format("ball_{}", texture), 0.3);
+        const int index = balls.add_shape(name, sphere(drops[i].radius), material);
         const auto path = simulate_drop(drops[i], gallery_seconds);
         node_at(scene, index).transform.translation = cubic_track(path);
         if (rolls) {

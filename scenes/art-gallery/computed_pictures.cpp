@@ -4,8 +4,8 @@
 #include <complex>
 #include <numbers>
 
-#include "scenes/art-gallery/pictures.h"
-#include "scenes/common/drawing.h"
+#include "scenes/art-gallery/gallery.h"
+#include "scenes/common/texture_tools.h"
 
 namespace aleph {
 

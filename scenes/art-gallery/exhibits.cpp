@@ -7,6 +7,7 @@
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/build.h"
 #include "scenes/common/cages.h"
+#include "scenes/common/keys.h"
 #include "scenes/common/texture_tools.h"
 
 namespace aleph {
@@ -53,12 +54,12 @@ struct PlantParts {
 };
 
 /// Long leaves on thin stems in a pot.
-void add_plant(Scene& scene, int parent, const std::string& name, const glm::dvec3& place, const PlantParts& parts,
+void add_plant(const Group& plants, const std::string& name, const glm::dvec3& place, const PlantParts& parts,
                std::uint32_t seed) {
-    const Group plant{scene, add_node(scene, name, parent, place)};
+    const Group plant = plants.add_group(name, place);
     const Profile pot_outline = {{0.0, 0.0},   {0.17, 0.0},   {0.17, 0.0},    {0.19, 0.06}, {0.235, 0.3}, {0.25, 0.38},
                                  {0.265, 0.4}, {0.265, 0.42}, {0.245, 0.425}, {0.235, 0.4}, {0.23, 0.36}};
-    plant.add_shape(name + "_pot", lathe(pot_outline, 48), parts.pot, glm::dvec3(0.0));
+    plant.add_shape(name + "_pot", lathe(pot_outline, 48), parts.pot);
     plant.add_shape(name + "_earth", cylinder(0.231, 0.02, 32), parts.earth, {0.0, 0.37, 0.0});
     for (int i = 0; i < 34; ++i) {
         const double around = i * 137.508, high = lattice_value(i, 0, seed), wide = lattice_value(i, 1, seed);
@@ -68,8 +69,8 @@ void add_plant(Scene& scene, int parent, const std::string& name, const glm::dve
         const glm::dvec3 tip = to_millionth(glm::dvec3(0.0, top, 0.0) + (0.06 + reach) * out);
         plant.add_rod(fmt::format("{}_stem_{}", name, i), foot, tip, 0.006, parts.stem, 6);
         const double lean = 38.0 + 55.0 * wide * (1.2 - 0.5 * high);
-        add_mesh_node(scene, fmt::format("{}_leaf_{}", name, i), plant, parts.leaf, tip,
-                      turn({0.0, 1.0, 0.0}, std::fmod(around, 360.0)) * turn({1.0, 0.0, 0.0}, lean));
+        plant.add_mesh(fmt::format("{}_leaf_{}", name, i), parts.leaf, tip,
+                       turn(y_axis, std::fmod(around, 360.0)) * turn(x_axis, lean));
     }
 }
 
@@ -82,11 +83,10 @@ void add_couch(Scene& scene, const GalleryMaterials& materials) {
     for (const int material : {cloth, pillow_cloth})
         scene.materials[material].textures[TextureSlot::base_color].uv_scale = glm::dvec2(tile);
 
-    const int couch = add_node(scene, "couch", no_index, {1.2, 0.0, 3.05}, turn({0.0, 1.0, 0.0}, 180.0));
-    const int base = add_cage(scene, "couch_base", make_cushion({2.0, 0.2, 0.84}, 0.03, {0.0, 0.0, 0.0}), cloth);
-    add_mesh_node(scene, "couch_base", couch, base, {0.0, 0.24, 0.0});
-    const int back = add_cage(scene, "couch_back", make_cushion({2.04, 0.62, 0.22}, 0.07, {0.0, 0.03, 0.01}), cloth);
-    add_mesh_node(scene, "couch_back", couch, back, {0.0, 0.5, -0.36}, turn({1.0, 0.0, 0.0}, -9.0));
+    const Group couch = Group{scene}.add_group("couch", {1.2, 0.0, 3.05}, turn(y_axis, 180.0));
+    add_cage_node(couch, "couch_base", make_cushion({2.0, 0.2, 0.84}, 0.03, {0.0, 0.0, 0.0}), cloth, {0.0, 0.24, 0.0});
+    add_cage_node(couch, "couch_back", make_cushion({2.04, 0.62, 0.22}, 0.07, {0.0, 0.03, 0.01}), cloth,
+                  {0.0, 0.5, -0.36}, turn(x_axis, -9.0));
     const int arm = add_cage(scene, "couch_arm", make_cushion({0.22, 0.5, 0.88}, 0.07, {0.015, 0.01, 0.01}), cloth);
     const int seat =
         add_cage(scene, "couch_seat", make_cushion({0.655, 0.19, 0.68}, 0.05, {0.012, 0.045, 0.02}, 2), cloth);
@@ -94,36 +94,32 @@ void add_couch(Scene& scene, const GalleryMaterials& materials) {
         add_cage(scene, "couch_rest", make_cushion({0.655, 0.42, 0.17}, 0.05, {0.015, 0.02, 0.07}, 2), cloth);
     const int pillow =
         add_cage(scene, "couch_pillow", make_cushion({0.42, 0.42, 0.08}, 0.03, {-0.02, -0.02, 0.11}, 2), pillow_cloth);
-    const Group foot{scene, add_node(scene, "couch_feet", couch)};
-    for (const double side : {-1.0, 1.0}) {
-        const char* which = side < 0.0 ? "a" : "b";
-        add_mesh_node(scene, fmt::format("couch_arm_{}", which), couch, arm, {side * 1.1, 0.37, 0.0});
-        for (const double end : {-1.0, 1.0}) {
+    const Group foot = couch.add_group("couch_feet");
+    for (const auto& [side, letter] : both_sides) {
+        couch.add_mesh("couch_arm_" + letter, arm, {side * 1.1, 0.37, 0.0});
+        for (const auto& [end, end_letter] : both_sides) {
             const Profile foot_outline = {{0.0, 0.0},    {0.024, 0.0}, {0.024, 0.0}, {0.034, 0.03},
                                           {0.022, 0.05}, {0.04, 0.1},  {0.04, 0.15}};
-            foot.add_shape(fmt::format("couch_foot_{}{}", which, end < 0.0 ? "a" : "b"), lathe(foot_outline, 24),
-                           materials.oak, {side * 1.08, 0.0, end * 0.36});
+            foot.add_shape("couch_foot_" + letter + end_letter, lathe(foot_outline, 24), materials.oak,
+                           {side * 1.08, 0.0, end * 0.36});
         }
     }
     for (int i = 0; i < 3; ++i) {
-        add_mesh_node(scene, fmt::format("couch_seat_{}", i), couch, seat, {(i - 1) * 0.66, 0.405, 0.08});
-        add_mesh_node(scene, fmt::format("couch_rest_{}", i), couch, rest, {(i - 1) * 0.66, 0.66, -0.2},
-                      turn({1.0, 0.0, 0.0}, -14.0));
+        couch.add_mesh(fmt::format("couch_seat_{}", i), seat, {(i - 1) * 0.66, 0.405, 0.08});
+        couch.add_mesh(fmt::format("couch_rest_{}", i), rest, {(i - 1) * 0.66, 0.66, -0.2}, turn(x_axis, -14.0));
     }
-    add_mesh_node(scene, "couch_pillow_a", couch, pillow, {0.8, 0.66, 0.02},
-                  turn({0.0, 1.0, 0.0}, -28.0) * turn({1.0, 0.0, 0.0}, -20.0) * turn({0.0, 0.0, 1.0}, 8.0));
-    add_mesh_node(scene, "couch_pillow_b", couch, pillow, {-0.82, 0.66, 0.0},
-                  turn({0.0, 1.0, 0.0}, 34.0) * turn({1.0, 0.0, 0.0}, -22.0) * turn({0.0, 0.0, 1.0}, -12.0));
+    couch.add_mesh("couch_pillow_a", pillow, {0.8, 0.66, 0.02},
+                   turn(y_axis, -28.0) * turn(x_axis, -20.0) * turn(z_axis, 8.0));
+    couch.add_mesh("couch_pillow_b", pillow, {-0.82, 0.66, 0.0},
+                   turn(y_axis, 34.0) * turn(x_axis, -22.0) * turn(z_axis, -12.0));
 }
 
 void add_bench(Scene& scene, const std::string& name, const glm::dvec3& place, double degrees, int seat,
                const GalleryMaterials& materials) {
-    const Group bench{scene, add_node(scene, name, no_index, place, turn({0.0, 1.0, 0.0}, degrees))};
-    add_mesh_node(scene, name + "_seat", bench, seat, {0.0, 0.44, 0.0});
-    for (const double side : {-1.0, 1.0}) {
-        const char* which = side < 0.0 ? "a" : "b";
-        bench.add_shape(fmt::format("{}_leg_{}", name, which), box({0.06, 0.4, 0.36}), materials.dark,
-                        {side * 0.62, 0.2, 0.0});
+    const Group bench = Group{scene}.add_group(name, place, turn(y_axis, degrees));
+    bench.add_mesh(name + "_seat", seat, {0.0, 0.44, 0.0});
+    for (const auto& [side, letter] : both_sides) {
+        bench.add_shape(name + "_leg_" + letter, box({0.06, 0.4, 0.36}), materials.dark, {side * 0.62, 0.2, 0.0});
     }
     bench.add_shape(name + "_rail", box({1.2, 0.05, 0.05}), materials.dark, {0.0, 0.16, 0.0});
 }
@@ -131,18 +127,17 @@ void add_bench(Scene& scene, const std::string& name, const glm::dvec3& place, d
 }  // namespace
 
 void add_pictures(Scene& scene, const GalleryMaterials& materials) {
-    const int pictures = add_node(scene, "pictures");
-    const glm::dquat facing[] = {{1.0, 0.0, 0.0, 0.0}, z_to_minus_z, z_to_plus_x, z_to_minus_x};
+    const Group pictures = Group{scene}.add_group("pictures");
+    const glm::dquat facing[] = {no_turn, z_to_minus_z, z_to_plus_x, z_to_minus_x};
     const int frames[] = {materials.gilt, materials.black_frame, materials.white_frame};
     for (const Hanging& hanging : hangings) {
         const std::string name = hanging.image;
         const int paint = add_textured(scene, name, name);
-        const Group node{scene, add_node(scene, "picture_" + name, pictures, hanging.middle, facing[hanging.wall])};
+        const Group node = pictures.add_group("picture_" + name, hanging.middle, facing[hanging.wall]);
         node.add_shape(name + "_canvas", quad(hanging.size.x, hanging.size.y), paint, {0.0, 0.0, 0.012});
         const CageShape moulding =
             make_rectangle_moulding(hanging.size, hanging.frame == 0 ? gilt_profile : plain_profile, true);
-        const int frame = add_cage(scene, name + "_frame", moulding, frames[hanging.frame]);
-        add_mesh_node(scene, name + "_frame", node, frame, glm::dvec3(0.0));
+        add_cage_node(node, name + "_frame", moulding, frames[hanging.frame]);
         node.add_shape(name + "_label", box({0.12, 0.08, 0.006}), materials.white_frame,
                        {0.5 * hanging.size.x + 0.24, -0.5 * hanging.size.y + 0.04, 0.003});
     }
@@ -162,10 +157,10 @@ void add_furniture(Scene& scene, const GalleryMaterials& materials) {
     const int stem = add_lambert(scene, "stem", {92, 118, 60});
     const int leaf = add_cage(scene, "leaf", make_leaf(0.44, 0.15, 0.42), leaf_green);
     const PlantParts parts{leaf, pot, earth, stem};
-    const int plants = add_node(scene, "plants");
-    add_plant(scene, plants, "plant_a", {-5.2, 0.0, -1.8}, parts, 301);
-    add_plant(scene, plants, "plant_b", {2.95, 0.0, 3.0}, parts, 302);
-    add_plant(scene, plants, "plant_c", {-9.4, 0.0, -1.8}, parts, 303);
+    const Group plants = Group{scene}.add_group("plants");
+    add_plant(plants, "plant_a", {-5.2, 0.0, -1.8}, parts, 301);
+    add_plant(plants, "plant_b", {2.95, 0.0, 3.0}, parts, 302);
+    add_plant(plants, "plant_c", {-9.4, 0.0, -1.8}, parts, 303);
 }
 
 }  // namespace aleph

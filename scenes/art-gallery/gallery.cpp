@@ -1,6 +1,5 @@
 #include "scenes/art-gallery/gallery.h"
 
-#include "scenes/art-gallery/pictures.h"
 #include "scenes/common/build.h"
 #include "scenes/common/generator.h"
 
@@ -25,20 +24,13 @@ Scene make_art_gallery(const std::string& textures) {
     materials.oak = add_textured(scene, "oak", "oak");
     materials.dark = add_lambert(scene, "dark_wood", {66, 46, 34});
     materials.steel = add_lambert(scene, "steel", {150, 152, 156});
-    materials.gilt = add_lambert(scene, "gilt", {204, 160, 84});
-    add_gloss(scene, 0.35);
+    materials.gilt = add_lambert(scene, "gilt", {204, 160, 84}, 0.35);
     materials.black_frame = add_lambert(scene, "black_frame", {34, 32, 32});
     materials.white_frame = add_lambert(scene, "white_frame", {240, 236, 226});
 
-    add_rooms(scene, materials);
-    add_lamps(scene, materials);
-    add_pictures(scene, materials);
-    add_furniture(scene, materials);
-    add_sculptures(scene, materials);
-    add_ball_work(scene, materials);
-    add_top(scene, materials);
-    add_kinetic_work(scene, materials);
-    add_mobile(scene, materials);
+    for (const auto add : {add_rooms, add_lamps, add_pictures, add_furniture, add_sculptures, add_ball_work, add_top,
+                           add_kinetic_work, add_mobile})
+        add(scene, materials);
     add_gallery_camera(scene);
     return scene;
 }

@@ -1,8 +1,7 @@
 // Writes the scene `art-gallery` and its textures: make_art_gallery OUTPUT_FOLDER (usually scenes).
-// Deterministic: tests/scenes/art_gallery_test.cpp compares the bytes.
+// Deterministic: tests/scenes/scenes_test.cpp compares the bytes.
 
 #include "scenes/art-gallery/gallery.h"
-#include "scenes/art-gallery/pictures.h"
 #include "scenes/common/generator.h"
 
 int main(int argc, char** argv) {

@@ -3,8 +3,8 @@
 #include <array>
 #include <numbers>
 
-#include "scenes/art-gallery/pictures.h"
-#include "scenes/common/drawing.h"
+#include "scenes/art-gallery/gallery.h"
+#include "scenes/common/texture_tools.h"
 
 namespace aleph {
 

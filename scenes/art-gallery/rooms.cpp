@@ -32,18 +32,18 @@ struct Room {
 
 /// Skirting and cornice of a room; the skirting starts and ends at the doorway. Seen from above, x to the right and -z
 /// up.
-void add_trim(Scene& scene, int parent, const Room& room, int trim, int cornice) {
+void add_trim(const Group& parent, const Room& room, int trim, int cornice) {
     const auto& [name, low, high, door_x, wall] = room;
     const double far = door_x == low.x ? high.x : low.x, turn_sign = door_x == low.x ? 1.0 : -1.0;
     const glm::dvec2 half(door_half_width + 0.15, high.z);
     const std::vector<glm::dvec2> around = {{door_x, -turn_sign * half.x}, {door_x, -turn_sign * half.y},
                                             {far, -turn_sign * half.y},    {far, turn_sign * half.y},
                                             {door_x, turn_sign * half.y},  {door_x, turn_sign * half.x}};
-    const int skirting = add_cage(scene, name + "_skirting", make_moulding(around, false, skirting_profile), trim);
-    add_mesh_node(scene, name + "_skirting", parent, skirting, glm::dvec3(0.0), z_to_up);
+    add_cage_node(parent, name + "_skirting", make_moulding(around, false, skirting_profile), trim, glm::dvec3(0.0),
+                  z_to_up);
     const std::vector<glm::dvec2> whole = {{low.x, low.z}, {high.x, low.z}, {high.x, high.z}, {low.x, high.z}};
-    const int top = add_cage(scene, name + "_cornice", make_moulding(whole, true, cornice_profile), cornice);
-    add_mesh_node(scene, name + "_cornice", parent, top, {0.0, high.y, 0.0}, z_to_up);
+    add_cage_node(parent, name + "_cornice", make_moulding(whole, true, cornice_profile), cornice, {0.0, high.y, 0.0},
+                  z_to_up);
 }
 
 /// Floor, ceiling and walls of a room, without the wall with the doorway.
@@ -63,13 +63,13 @@ void add_shell(const Group& parent, const Room& room, const GalleryMaterials& ma
 }
 
 /// The wall between the two rooms, its faces in the colours of the rooms; jambs and floor of the doorway.
-void add_doorway(Scene& scene, const Group& parent, const GalleryMaterials& materials) {
+void add_doorway(const Group& parent, const GalleryMaterials& materials) {
     const double front = hall_low.x, back = cabinet_high.x, depth = front - back;
     const auto side = [&](const std::string& name, double x, double half, double top, int wall,
                           const glm::dquat& facing) {
-        for (const double sign : {-1.0, 1.0}) {
-            parent.add_shape(fmt::format("{}_{}", name, sign < 0.0 ? "a" : "b"), quad(half - door_half_width, top),
-                             wall, {x, 0.5 * top, sign * 0.5 * (half + door_half_width)}, facing);
+        for (const auto& [sign, letter] : both_sides) {
+            parent.add_shape(name + "_" + letter, quad(half - door_half_width, top), wall,
+                             {x, 0.5 * top, sign * 0.5 * (half + door_half_width)}, facing);
         }
         parent.add_shape(name + "_over", quad(2.0 * door_half_width, top - door_height), wall,
                          {x, 0.5 * (top + door_height), 0.0}, facing);
@@ -84,9 +84,10 @@ void add_doorway(Scene& scene, const Group& parent, const GalleryMaterials& mate
                      z_to_minus_z);
     const double h = door_half_width;
     const std::vector<glm::dvec2> path = {{-h, 0.0}, {-h, door_height}, {h, door_height}, {h, 0.0}};
-    const int mesh = add_cage(scene, "architrave", make_moulding(path, false, architrave_profile), materials.trim);
-    add_mesh_node(scene, "architrave_hall", parent, mesh, {front, 0.0, 0.0}, z_to_plus_x);
-    add_mesh_node(scene, "architrave_cabinet", parent, mesh, {back, 0.0, 0.0}, z_to_minus_x);
+    const int mesh =
+        add_cage(parent.scene, "architrave", make_moulding(path, false, architrave_profile), materials.trim);
+    parent.add_mesh("architrave_hall", mesh, {front, 0.0, 0.0}, z_to_plus_x);
+    parent.add_mesh("architrave_cabinet", mesh, {back, 0.0, 0.0}, z_to_minus_x);
 }
 
 /// A hanging lamp: flat, shining down or tilted towards a wall; or a pyramid on its tip that shines to all sides but
@@ -101,65 +102,61 @@ struct Lamp {
     int glow;             ///< material
 };
 
-void add_lamp(Scene& scene, const Group& parent, const Lamp& look, const GalleryMaterials& materials) {
+void add_lamp(const Group& parent, const Lamp& look, const GalleryMaterials& materials) {
     const auto& [name, place, size, depth, lean_degrees, ceiling, glow] = look;
-    const Group lamp{scene, add_node(scene, name, parent, place, turn({1.0, 0.0, 0.0}, lean_degrees))};
+    const Group lamp = parent.add_group(name, place, turn(x_axis, lean_degrees));
     lamp.add_shape(name + "_box", box({size.x + 0.06, 0.06, size.y + 0.06}), materials.steel, {0.0, 0.031, 0.0});
     if (depth > 0.0) {
         const double corner = to_millionth(0.5 * std::numbers::sqrt2 * size.x);
         Shape pyramid = lathe({{0.0, -depth}, {corner, 0.0}}, 4);
         pyramid.smooth = false;
-        lamp.add_shape(name + "_glow", pyramid, glow, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 45.0));
+        lamp.add_shape(name + "_glow", pyramid, glow, glm::dvec3(0.0), turn(y_axis, 45.0));
     } else {
         lamp.add_shape(name + "_glow", quad(size.x, size.y), glow, glm::dvec3(0.0), z_to_down);
     }
-    for (const double side : {-1.0, 1.0}) {
+    for (const auto& [side, letter] : both_sides) {
         const glm::dvec3 foot = place + glm::dvec3(side * 0.4 * size.x, 0.05, 0.0);
-        parent.add_rod(fmt::format("{}_rod_{}", name, side < 0.0 ? "a" : "b"), foot, {foot.x, ceiling, foot.z}, 0.008,
-                       materials.steel);
+        parent.add_rod(name + "_rod_" + letter, foot, {foot.x, ceiling, foot.z}, 0.008, materials.steel);
     }
 }
 
 }  // namespace
 
 void add_rooms(Scene& scene, const GalleryMaterials& materials) {
-    const Group rooms{scene, add_node(scene, "rooms")};
+    const Group rooms = Group{scene}.add_group("rooms");
     const Room hall{"hall", hall_low, hall_high, hall_low.x, materials.wall};
     const Room cabinet{"cabinet", cabinet_low, cabinet_high, cabinet_high.x, materials.blue_wall};
     add_shell(rooms, hall, materials);
     add_shell(rooms, cabinet, materials);
-    add_doorway(scene, rooms, materials);
-    add_trim(scene, rooms, hall, materials.trim, materials.ceiling);
-    add_trim(scene, rooms, cabinet, materials.trim, materials.ceiling);
+    add_doorway(rooms, materials);
+    add_trim(rooms, hall, materials.trim, materials.ceiling);
+    add_trim(rooms, cabinet, materials.trim, materials.ceiling);
 
     // Beams: four across, two along.
     for (int i = 0; i < 4; ++i) {
         rooms.add_shape(fmt::format("beam_across_{}", i), box({0.22, 0.26, hall_high.z - hall_low.z}),
                         materials.ceiling, {-4.5 + 3.0 * i, hall_high.y - 0.13, 0.0});
     }
-    for (const double side : {-1.0, 1.0}) {
-        rooms.add_shape(fmt::format("beam_along_{}", side < 0.0 ? "a" : "b"),
-                        box({hall_high.x - hall_low.x, 0.2, 0.22}), materials.ceiling,
+    for (const auto& [side, letter] : both_sides)
+        rooms.add_shape("beam_along_" + letter, box({hall_high.x - hall_low.x, 0.2, 0.22}), materials.ceiling,
                         {0.0, hall_high.y - 0.1, side * 1.5});
-    }
 }
 
 void add_lamps(Scene& scene, const GalleryMaterials& materials) {
     const int warm = add_emitter(scene, "warm_glow", {1.0, 0.88, 0.7}, 10.0);
     const int day = add_emitter(scene, "day_glow", {0.86, 0.94, 1.0}, 8.0);
     const int cabinet = add_emitter(scene, "cabinet_glow", {1.0, 0.8, 0.58}, 14.0);
-    const Group lamps{scene, add_node(scene, "lamps")};
+    const Group lamps = Group{scene}.add_group("lamps");
     // Six light the long walls, one is a skylight, one is in the cabinet.
     for (int i = 0; i < 3; ++i) {
         const double x = -3.9 + 3.9 * i;
         const std::string north = fmt::format("lamp_north_{}", i), south = fmt::format("lamp_south_{}", i);
         const glm::dvec2 size(1.5, 0.28);
-        add_lamp(scene, lamps, {north, {x, 3.62, hall_low.z + 1.35}, size, 0.0, 28.0, hall_high.y, warm}, materials);
-        add_lamp(scene, lamps, {south, {x, 3.62, hall_high.z - 1.35}, size, 0.0, -28.0, hall_high.y, warm}, materials);
+        add_lamp(lamps, {north, {x, 3.62, hall_low.z + 1.35}, size, 0.0, 28.0, hall_high.y, warm}, materials);
+        add_lamp(lamps, {south, {x, 3.62, hall_high.z - 1.35}, size, 0.0, -28.0, hall_high.y, warm}, materials);
     }
-    add_lamp(scene, lamps, {"lamp_skylight", {0.0, 3.85, 0.0}, {3.2, 1.1}, 0.0, 0.0, hall_high.y, day}, materials);
-    add_lamp(scene, lamps, {"lamp_cabinet", {-8.1, 3.3, 0.0}, {0.9, 0.9}, 0.36, 0.0, cabinet_high.y, cabinet},
-             materials);
+    add_lamp(lamps, {"lamp_skylight", {0.0, 3.85, 0.0}, {3.2, 1.1}, 0.0, 0.0, hall_high.y, day}, materials);
+    add_lamp(lamps, {"lamp_cabinet", {-8.1, 3.3, 0.0}, {0.9, 0.9}, 0.36, 0.0, cabinet_high.y, cabinet}, materials);
 }
 
 }  // namespace aleph

@@ -1,5 +1,5 @@
 // Writes the scene `boomerang` and its textures: make_boomerang OUTPUT_FOLDER (usually scenes).
-// Deterministic: tests/scenes/room_scenes_test.cpp compares the bytes.
+// Deterministic: tests/scenes/scenes_test.cpp compares the bytes.
 
 #include "scenes/boomerang/boomerang_scene.h"
 #include "scenes/common/generator.h"

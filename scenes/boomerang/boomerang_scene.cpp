@@ -6,7 +6,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/common/build.h"
-#include "scenes/common/camera.h"
 #include "scenes/common/generator.h"
 #include "scenes/common/keys.h"
 
@@ -31,7 +30,7 @@ void add_room(Scene& scene) {
     const int blue = add_lambert(scene, "blue_wash", {126, 176, 186});
     const int wood = add_lambert(scene, "dark_wood", {104, 66, 42});
 
-    const Group room{scene, add_node(scene, "room")};
+    const Group room = Group{scene}.add_group("room");
     const glm::dvec3 size = high - low, middle = 0.5 * (low + high);
     room.add_shape("floor", quad(size.x, size.z, {size.x / 0.8, size.z / 0.8}), tiles, {middle.x, 0.0, middle.z},
                    z_to_up);
@@ -54,18 +53,16 @@ void add_room(Scene& scene) {
 /// Turned pots with clipped trees, and a bench under the mural.
 void add_furniture(Scene& scene) {
     const int clay = add_lambert(scene, "clay", {184, 92, 58});
-    const int glaze = add_lambert(scene, "glaze", {36, 92, 116});
-    add_gloss(scene, 0.25);
+    const int glaze = add_lambert(scene, "glaze", {36, 92, 116}, 0.25);
     const int green = add_lambert(scene, "leaves", {74, 118, 54});
     const int bark = add_lambert(scene, "bark", {112, 84, 60});
-    const int oak = add_lambert(scene, "oak", {176, 128, 80});
-    add_gloss(scene, 0.4);
+    const int oak = add_lambert(scene, "oak", {176, 128, 80}, 0.4);
     const std::vector<glm::dvec2> pot = {{0.0, 0.0},    {0.15, 0.0},  {0.15, 0.0},  {0.2, 0.16},
                                          {0.235, 0.34}, {0.25, 0.37}, {0.25, 0.41}, {0.25, 0.41},
                                          {0.22, 0.41},  {0.22, 0.41}, {0.2, 0.33},  {0.0, 0.33}};
     const auto add_tree = [&](const std::string& name, const glm::dvec3& place, int material, double height) {
-        const Group node{scene, add_node(scene, name, no_index, place)};
-        node.add_shape(name + "_pot", lathe(pot), material, {0.0, 0.0, 0.0});
+        const Group node = Group{scene}.add_group(name, place);
+        node.add_shape(name + "_pot", lathe(pot), material);
         node.add_shape(name + "_stem", cylinder(0.018, height, 16), bark, {0.0, 0.33 + 0.5 * height, 0.0});
         node.add_shape(name + "_crown", sphere(0.24), green, {0.0, 0.5 + height, 0.0});
         node.add_shape(name + "_ball", sphere(0.14), green, {0.0, 0.84 + height, 0.0});
@@ -73,12 +70,10 @@ void add_furniture(Scene& scene) {
     add_tree("tree_left", {-2.12, 0.0, -1.75}, clay, 0.5);
     add_tree("tree_right", {2.1, 0.0, -1.6}, glaze, 0.34);
 
-    const Group bench{scene, add_node(scene, "bench", no_index, {0.1, 0.0, -2.05})};
+    const Group bench = Group{scene}.add_group("bench", {0.1, 0.0, -2.05});
     bench.add_shape("bench_seat", box({1.7, 0.05, 0.36}), oak, {0.0, 0.44, 0.0});
-    for (const double side : {-1.0, 1.0}) {
-        bench.add_shape(side < 0.0 ? "bench_leg_a" : "bench_leg_b", box({0.07, 0.415, 0.3}), oak,
-                        {side * 0.7, 0.2075, 0.0});
-    }
+    for (const auto& [side, letter] : both_sides)
+        bench.add_shape("bench_leg_" + letter, box({0.07, 0.415, 0.3}), oak, {side * 0.7, 0.2075, 0.0});
 }
 
 void add_lights(Scene& scene) {
@@ -92,8 +87,7 @@ void add_lights(Scene& scene) {
 
 /// The flight: most of a loop, seen from outside; keys every tenth of a second.
 void add_boomerang(Scene& scene) {
-    const int material = add_textured(scene, "lacquer", "paint");
-    add_gloss(scene, 0.32);
+    const int material = add_textured(scene, "lacquer", "paint", 0.32);
     const double seconds = boomerang_last_frame / 30.0;
     const auto place = [&](double t) {
         const double a = glm::radians(204.0 - 240.0 * t / seconds);
@@ -112,7 +106,7 @@ void add_boomerang(Scene& scene) {
     turn_about(
         scene, bank, {0.0, 0.0, 1.0},
         in_radians(eased_track<double>({0.0, to_millionth(0.5 * seconds), to_millionth(seconds)}, {24.0, 4.0, -26.0})));
-    const int lean = add_node(scene, "lean", bank, glm::dvec3(0.0), turn({1.0, 0.0, 0.0}, 60.0));
+    const int lean = add_node(scene, "lean", bank, glm::dvec3(0.0), turn(x_axis, 60.0));
     const int spin = add_node(scene, "boomerang", lean);
     turn_about(scene, spin, {0.0, 1.0, 0.0},
                in_radians(even_track<double>(0.0, to_millionth(seconds), -40.0,
@@ -135,8 +129,8 @@ void add_camera(Scene& scene) {
     const int dolly = add_node(scene, "camera_dolly");
     scene.nodes.back().transform.translation = hold_and_go(glm::dvec3(-0.12, 1.5, 3.2), glm::dvec3(0.1, 1.47, 3.14));
     const int pan = add_node(scene, "camera_pan", dolly);
-    turn_about(scene, pan, {0.0, 1.0, 0.0}, in_radians(hold_and_go(1.4, -1.2)));
-    add_node(scene, "camera", pan, glm::dvec3(0.0), turn({1.0, 0.0, 0.0}, -4.5));
+    turn_about(scene, pan, y_axis, in_radians(hold_and_go(1.4, -1.2)));
+    add_node(scene, "camera", pan, glm::dvec3(0.0), turn(x_axis, -4.5));
     hang_camera(scene, 44.0);
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
-#include "scenes/common/textures.h"
+#include "scenes/common/generator.h"
 
 namespace aleph {
 

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "engine/surface/limit_surface.h"
-#include "scenes/common/build.h"
 
 namespace aleph {
 
@@ -76,17 +75,14 @@ int add_cage(Scene& scene, const std::string& name, const CageShape& shape, int 
     return static_cast<int>(scene.meshes.size()) - 1;
 }
 
-int add_mesh_node(Scene& scene, const std::string& name, int parent, int mesh, const glm::dvec3& translation,
-                  const glm::dquat& rotation) {
-    const int node = add_node(scene, name, parent, translation, rotation);
-    scene.nodes.back().meshes = {mesh};
-    return node;
+int add_cage_node(const Group& group, const std::string& name, const CageShape& shape, int material,
+                  const glm::dvec3& translation, const glm::dquat& rotation) {
+    return group.add_mesh(name, add_cage(group.scene, name, shape, material), translation, rotation);
 }
 
-CageShape make_moulding(const std::vector<glm::dvec2>& path, bool closed, const std::vector<glm::dvec2>& profile,
-                        int level) {
+CageShape make_moulding(const std::vector<glm::dvec2>& path, bool closed, const std::vector<glm::dvec2>& profile) {
     CageShape result;
-    result.cage.level = level;
+    result.cage.level = 2;
     // A repeated point is one point of the cage.
     std::vector<glm::dvec2> outline;
     std::vector<bool> sharp;
@@ -194,9 +190,9 @@ CageShape make_cushion(const glm::dvec3& size, double rounding, const glm::dvec3
 }
 
 CageShape make_closed_tube(const std::function<glm::dvec3(double)>& curve, int steps, int sides,
-                           const glm::dvec2& radii, int half_turns, int level) {
+                           const glm::dvec2& radii, int half_turns) {
     CageShape result;
-    result.cage.level = level;
+    result.cage.level = 2;
     const auto tangent = [&](int i) {
         const double at = static_cast<double>(i) / steps, d = 1e-4;
         return glm::normalize(curve(at + d) - curve(at - d));

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/scene.h"
+#include "scenes/common/build.h"
 
 namespace aleph {
 
@@ -23,16 +23,16 @@ struct CageShape {
 /// @return the mesh
 int add_cage(Scene& scene, const std::string& name, const CageShape& shape, int material);
 
-/// A node that shows a mesh; several nodes may show the same.
-int add_mesh_node(Scene& scene, const std::string& name, int parent, int mesh, const glm::dvec3& translation,
-                  const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0));
+/// Adds a cage, and a node of its name that shows it.
+/// @return the node
+int add_cage_node(const Group& group, const std::string& name, const CageShape& shape, int material,
+                  const glm::dvec3& translation = glm::dvec3(0.0), const glm::dquat& rotation = no_turn);
 
 /// A profile swept along a path in the plane z = 0, with mitred corners: picture frames, skirtings, cornices.
 /// Profile: x is the distance from the path to its left, y is along z; a repeated point is a sharp edge. List the
 /// profile, seen along the path, up on the right side, across the top to the left, and down on the left: then the
 /// outside is outside. Texture: u along the path, v along the profile, in metres.
-CageShape make_moulding(const std::vector<glm::dvec2>& path, bool closed, const std::vector<glm::dvec2>& profile,
-                        int level = 2);
+CageShape make_moulding(const std::vector<glm::dvec2>& path, bool closed, const std::vector<glm::dvec2>& profile);
 
 /// A closed moulding around a centred rectangle.
 /// @param outwards  the profile extends away from the rectangle, as in a picture frame; else into it
@@ -47,7 +47,7 @@ CageShape make_cushion(const glm::dvec3& size, double rounding, const glm::dvec3
 /// @param curve  point at a parameter in [0, 1]; closed
 /// @param half_turns  twist of the section over the whole length, in half turns
 CageShape make_closed_tube(const std::function<glm::dvec3(double)>& curve, int steps, int sides,
-                           const glm::dvec2& radii, int half_turns, int level = 2);
+                           const glm::dvec2& radii, int half_turns);
 
 /// A leaf along +y, face up (+z), its tip bending down by `droop`.
 CageShape make_leaf(double length, double width, double droop);

@@ -3,13 +3,25 @@
 
 #include <filesystem>
 #include <functional>
+#include <glm/gtc/type_precision.hpp>
 #include <string>
 #include <vector>
 
+#include "engine/base/image.h"
 #include "engine/scene/scene.h"
-#include "scenes/common/textures.h"
 
 namespace aleph {
+
+/// An 8-bit sRGB picture.
+struct DrawnTexture {
+    std::string name;  ///< without folder and extension
+    Image<glm::u8vec3> srgb;
+};
+
+std::vector<DrawnTexture> join(const std::vector<std::vector<DrawnTexture>>& lists);
+
+/// Writes one PNG per texture. The folder must exist.
+void write_textures(const std::filesystem::path& folder, const std::vector<DrawnTexture>& textures);
 
 /// A scene with 30 frames per second from frame 0 on, rendered with its node "camera", with its images.
 /// @param exposure  factor on radiance

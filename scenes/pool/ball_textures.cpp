@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scenes/common/texture_tools.h"
-#include "scenes/pool/textures.h"
+#include "scenes/pool/pool_scene.h"
 
 namespace aleph {
 
@@ -66,12 +66,6 @@ std::array<Digit, 10> make_digits() {
          {wide, {{{-0.27, -0.43}, {0.27, -0.43}, {-0.08, 0.43}}}},
          {wide, {ellipse({0.0, -0.23}, {0.225, 0.2}), ellipse({0.0, 0.2}, {0.27, 0.23})}},
          {wide, nine}}};
-}
-
-double distance_to_segment(const glm::dvec2& at, const glm::dvec2& a, const glm::dvec2& b) {
-    const glm::dvec2 along = b - a;
-    const double place = glm::clamp(glm::dot(at - a, along) / std::max(glm::dot(along, along), 1e-12), 0.0, 1.0);
-    return glm::distance(at, a + place * along);
 }
 
 double distance_to_strokes(const std::vector<Stroke>& strokes, const glm::dvec2& at) {

@@ -1,4 +1,4 @@
-#include "scenes/pool/break.h"
+#include "scenes/pool/pool_scene.h"
 
 #include <array>
 #include <cmath>

@@ -80,11 +80,6 @@ double largest_approach(const std::vector<PoolBall>& balls, const std::vector<Li
     return approach;
 }
 
-/// Impact of one pair, with the restitution of the settings.
-void collide_pair(Link& link, double approach, const PoolSettings& settings) {
-    link.push = 0.5 * (1.0 + bounce(approach, settings.ball_restitution, settings)) * approach;
-}
-
 /// Several balls press on each other for a fraction of a millisecond, during which they do not move: Hertzian contact,
 /// force = stiffness * depth^1.5 (1 + damping * closing speed), the damping such that a pair would part with the
 /// restitution of the settings (Hunt and Crossley 1975). Ends when no two balls are compressed.
@@ -126,24 +121,12 @@ glm::dvec3 cloth_slip(const PoolBall& ball, const PoolSettings& settings) {
     return surface_velocity(ball, -settings.radius * up);
 }
 
-double kinetic_energy(const PoolBall& ball, const PoolSettings& settings) {
-    const double inertia = 0.4 * settings.mass * settings.radius * settings.radius;
-    return 0.5 * settings.mass * glm::dot(ball.velocity, ball.velocity) +
-           0.5 * inertia * glm::dot(ball.angular_velocity, ball.angular_velocity);
-}
-
-double kinetic_energy(const std::vector<PoolBall>& balls, const PoolSettings& settings) {
-    double sum = 0.0;
-    for (const PoolBall& ball : balls) sum += kinetic_energy(ball, settings);
-    return sum;
-}
-
 void collide_balls(std::vector<PoolBall>& balls, const std::vector<int>& members, const PoolSettings& settings) {
     std::vector<Link> links = find_links(balls, members, settings);
     const double approach = largest_approach(balls, links);
     if (approach <= 0.0) return;
     if (links.size() == 1) {
-        collide_pair(links.front(), approach, settings);
+        links.front().push = 0.5 * (1.0 + bounce(approach, settings.ball_restitution, settings)) * approach;
     } else {
         collide_cluster(balls, links, approach, settings);
     }

@@ -38,10 +38,6 @@ struct PoolBall {
 /// Velocity of the contact point relative to the cloth, m/s; 0 for a rolling ball.
 glm::dvec3 cloth_slip(const PoolBall& ball, const PoolSettings& settings);
 
-/// Kinetic energy of translation and rotation, J.
-double kinetic_energy(const PoolBall& ball, const PoolSettings& settings);
-double kinetic_energy(const std::vector<PoolBall>& balls, const PoolSettings& settings);
-
 /// Simultaneous impact of balls that touch (nearer than `touching_gap`): usually a pair, in the rack more. Friction can
 /// spin them about any axis; the cloth takes the vertical part of the impulse, so that horizontal momentum is conserved
 /// and energy is not gained.

@@ -4,7 +4,6 @@
 
 #include "scenes/common/build.h"
 #include "scenes/common/keys.h"
-#include "scenes/pool/break.h"
 #include "scenes/pool/pool_scene.h"
 
 namespace aleph {
@@ -16,46 +15,35 @@ double smooth(double from, double to, double t) {
     return f * f * (3.0 - 2.0 * f);
 }
 
-/// The rotation that takes +y to a unit direction.
-glm::dquat y_to(const glm::dvec3& direction) {
-    const glm::dvec3 up(0.0, 1.0, 0.0);
-    return glm::normalize(glm::dquat(1.0 + glm::dot(up, direction), glm::cross(up, direction)));
-}
-
 }  // namespace
 
 void add_balls(Scene& scene, const PoolSettings& settings, const PoolRun& run) {
-    const Group balls{scene, add_node(scene, "balls", no_index, {0.0, cloth_height, 0.0})};
+    const Group balls = Group{scene}.add_group("balls", {0.0, cloth_height, 0.0});
     const auto wait = static_cast<std::size_t>(std::lround(strike_time * run.samples_per_second));
     const std::size_t count = wait + run.samples.size();
     for (std::size_t i = 0; i < run.samples.front().size(); ++i) {
         const std::string name = fmt::format("ball_{:02}", i);
-        const int material = add_textured(scene, name, name);
-        add_gloss(scene, 0.15);
-        const int index = balls.add_shape(name, sphere(settings.radius), material, glm::dvec3(0.0));
-        Node& node = scene.nodes[index];
-        node.transform.translation.sampling.period = node.transform.rotation.sampling.period =
-            1.0 / run.samples_per_second;
-        node.transform.translation.values.clear();
-        node.transform.rotation.values.clear();
+        const int material = add_textured(scene, name, name, 0.15);
+        LocalTransform& place = scene.nodes[balls.add_shape(name, sphere(settings.radius), material)].transform;
+        place.translation.sampling.period = place.rotation.sampling.period = 1.0 / run.samples_per_second;
+        place.translation.values.clear();
+        place.rotation.values.clear();
         for (std::size_t k = 0; k < count; ++k) {
             const PoolBall& ball = run.samples[k < wait ? 0 : k - wait][i];
-            node.transform.translation.values.push_back(to_millionth(ball.position));
-            node.transform.rotation.values.push_back(to_millionth(ball.orientation));
+            place.translation.values.push_back(to_millionth(ball.position));
+            place.rotation.values.push_back(to_millionth(ball.orientation));
         }
     }
 }
 
 void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck) {
-    const int maple = add_lambert(scene, "cue_shaft", {226, 192, 138});
-    add_gloss(scene, 0.3);
-    const int ebony = add_lambert(scene, "cue_butt", {52, 28, 22});
-    add_gloss(scene, 0.3);
+    const int maple = add_lambert(scene, "cue_shaft", {226, 192, 138}, 0.3);
+    const int ebony = add_lambert(scene, "cue_butt", {52, 28, 22}, 0.3);
     const int white = add_lambert(scene, "cue_ferrule", {238, 234, 224});
     const int chalk = add_lambert(scene, "cue_tip", {52, 104, 168});
 
     // Origin at the tip, the butt along +y.
-    const Group cue{scene, add_node(scene, "cue", no_index)};
+    const Group cue = Group{scene}.add_group("cue");
     cue.add_shape("tip", cylinder(0.006, 0.01, 24), chalk, {0.0, 0.005, 0.0});
     cue.add_shape("ferrule", cylinder(0.0062, 0.025, 24), white, {0.0, 0.0225, 0.0});
     cue.add_shape("shaft", cylinder(0.008, 0.7, 24), maple, {0.0, 0.385, 0.0});
@@ -66,14 +54,14 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
     const double raise = glm::radians(4.0);
     const glm::dvec3 back = -std::cos(raise) * glm::normalize(struck.velocity) + glm::dvec3(0.0, std::sin(raise), 0.0);
     const glm::dvec3 contact = struck.position + glm::dvec3(0.0, cloth_height, 0.0) + back * settings.radius;
-    const glm::dquat aim = y_to(back), level = y_to(glm::normalize(glm::dvec3(back.x, 0.0, back.z)));
+    const glm::dquat aim = y_towards(back), level = y_towards({back.x, 0.0, back.z});
     const double through = 0.11, withdrawn = 1.04, butt_radius = 0.0125;  // m
 
-    Node& node = scene.nodes[cue];
+    LocalTransform& place = scene.nodes[cue].transform;
     const double rate = 60.0;
-    node.transform.translation.sampling.period = node.transform.rotation.sampling.period = 1.0 / rate;
-    node.transform.translation.values.clear();
-    node.transform.rotation.values.clear();
+    place.translation.sampling.period = place.rotation.sampling.period = 1.0 / rate;
+    place.translation.values.clear();
+    place.rotation.values.clear();
     for (int i = 0; i <= static_cast<int>(last_frame / 30.0 * rate + 0.5); ++i) {
         const double t = i / rate;
         // Accelerates, hits the ball at strike_time, and follows through by 11 cm.
@@ -82,8 +70,8 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
         glm::dvec3 tip = contact + back * (swing + (through + withdrawn) * smooth(0.3, 1.1, t));
         const double sunk = smooth(0.87, 1.35, t);
         tip.y = glm::mix(tip.y, butt_radius, sunk);
-        node.transform.translation.values.push_back(to_millionth(tip));
-        node.transform.rotation.values.push_back(to_millionth(slerp_short(aim, level, sunk)));
+        place.translation.values.push_back(to_millionth(tip));
+        place.rotation.values.push_back(to_millionth(slerp_short(aim, level, sunk)));
     }
 }
 

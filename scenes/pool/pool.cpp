@@ -3,7 +3,6 @@
 
 #include "scenes/common/generator.h"
 #include "scenes/pool/pool_scene.h"
-#include "scenes/pool/textures.h"
 
 int main(int argc, char** argv) {
     using namespace aleph;

@@ -3,11 +3,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/common/build.h"
-#include "scenes/common/camera.h"
 #include "scenes/common/generator.h"
 #include "scenes/common/keys.h"
-#include "scenes/pool/break.h"
-#include "scenes/pool/textures.h"
 
 namespace aleph {
 
@@ -23,16 +20,16 @@ void add_camera(Scene& scene, bool moves) {
     const double begin = first_of_move / 30.0, rest = 102.0 / 30.0;  // s: start and end of the whole approach
 
     const int rig = add_node(scene, "camera_rig", no_index, pivot);
-    turn_about(scene, rig, {0.0, 1.0, 0.0}, glm::radians(first));
+    turn_about(scene, rig, y_axis, glm::radians(first));
     const int camera = add_node(scene, "camera", rig, {0.0, height, arm});
-    turn_about(scene, camera, {1.0, 0.0, 0.0}, glm::radians(pitch));
+    turn_about(scene, camera, x_axis, glm::radians(pitch));
     hang_camera(scene, 40.0);
     if (!moves) return;
 
     Track<double> turn;
     turn.sampling.period = last_frame / 30.0;
     turn.values = {glm::radians(first), glm::radians(last)};
-    turn_about(scene, rig, {0.0, 1.0, 0.0}, turn);
+    turn_about(scene, rig, y_axis, turn);
     // A part of the cubic from rest to rest is a cubic again.
     const auto share = [&](double seconds) {
         const double t = (seconds - begin) / (rest - begin);
@@ -49,7 +46,7 @@ void add_camera(Scene& scene, bool moves) {
     tilt.values.clear();
     for (int frame = first_of_move; frame <= last_frame; ++frame)
         tilt.values.push_back(glm::radians(to_millionth(pitch + share(frame / 30.0) * lift)));
-    turn_about(scene, camera, {1.0, 0.0, 0.0}, tilt);
+    turn_about(scene, camera, x_axis, tilt);
 }
 
 std::vector<DrawnTexture> make_pool_textures() {

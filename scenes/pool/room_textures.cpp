@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "scenes/common/texture_tools.h"
-#include "scenes/pool/textures.h"
+#include "scenes/pool/pool_scene.h"
 
 namespace aleph {
 

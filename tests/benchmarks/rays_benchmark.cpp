@@ -54,23 +54,17 @@ enum class Way { coherent, packets, single };
 std::size_t trace(const RayScene& scene, std::span<const Ray> rays, Way way, bool occlusion) {
     Tracer tracer(scene);
     std::size_t met = 0;
-    if (way == Way::single) {
+    if (way == Way::single || occlusion) {
         for (const Ray& ray : rays)
             met += occlusion ? tracer.occluded(ray) : tracer.intersect(ray).instance != no_index;
         return met;
     }
     constexpr std::size_t batch = 64;
     std::array<Hit, batch> hits;
-    std::array<std::uint8_t, batch> blocked;
     for (std::size_t begin = 0; begin < rays.size(); begin += batch) {
         const std::size_t count = std::min(batch, rays.size() - begin);
-        if (occlusion) {
-            tracer.occluded(rays.subspan(begin, count), std::span(blocked.data(), count));
-            for (std::size_t i = 0; i < count; ++i) met += blocked[i];
-        } else {
-            tracer.intersect(rays.subspan(begin, count), std::span(hits.data(), count), way == Way::coherent);
-            for (std::size_t i = 0; i < count; ++i) met += hits[i].instance != no_index;
-        }
+        tracer.intersect(rays.subspan(begin, count), std::span(hits.data(), count));
+        for (std::size_t i = 0; i < count; ++i) met += hits[i].instance != no_index;
     }
     return met;
 }
@@ -210,16 +204,12 @@ void run(const Scene& scene, const PosedView& posed) {
         measure(name, rays, way, occlusion, flat, nodes, raw);
     };
     row("primary, coherent", sets.primary, Way::coherent, false);
-    row("primary, incoherent", sets.primary, Way::packets, false);
     row("primary, single", sets.primary, Way::single, false);
     row("gather, coherent", sets.gather, Way::coherent, false);
-    row("gather, incoherent", sets.gather, Way::packets, false);
     row("gather, single", sets.gather, Way::single, false);
-    row("scattered, incoherent", sets.scattered, Way::packets, false);
+    row("scattered, packets", sets.scattered, Way::packets, false);
     row("scattered, single", sets.scattered, Way::single, false);
-    row("shadow, packets", sets.shadow, Way::packets, true);
     row("shadow, single", sets.shadow, Way::single, true);
-    row("scattered shadow, packets", sets.scattered, Way::packets, true);
     row("scattered shadow, single", sets.scattered, Way::single, true);
 }
 

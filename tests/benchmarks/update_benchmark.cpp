@@ -88,10 +88,10 @@ std::vector<Row> measure(int objects) {
         }
         const Image<Hit> hits = cast_first_hits(next_rays, next.view);  // next becomes now
         update_posed_view(scene, plan, (i + 1) / 30.0, 0, next);
-        next_rays.update_moving(next.pose, anchor);
+        next_rays.update(next.pose, anchor);
         rows[9].best.time([&] {
             rows[1].best.time([&] { update_posed_view(scene, plan, seconds, 0, now); });
-            rows[3].best.time([&] { rays->update_moving(now.pose, anchor); });
+            rows[3].best.time([&] { rays->update(now.pose, anchor); });
             rows[5].best.time([&] { update_shading_scene(shading, plan, *rays); });
             rows[6].best.time([&] { make_light_set(shading); });
             MotionField field;

@@ -10,6 +10,9 @@
 #include <fstream>
 #include <string>
 
+#include "engine/base/errors.h"
+#include "engine/pose/pose.h"
+
 namespace aleph {
 
 /// A folder of this process's own, in memory where the system has such a place.
@@ -26,11 +29,21 @@ inline const std::filesystem::path& fuzz_folder() {
     return folder;
 }
 
-inline std::filesystem::path write_fuzz_file(const char* name, const std::uint8_t* data, std::size_t size) {
+/// Reads the bytes as a file of this name: an InputError or a scene that can be posed.
+/// @param append  append_alembic, append_gltf
+template <class Append>
+int read_fuzz_file(const char* name, const std::uint8_t* data, std::size_t size, const Append& append) {
     const std::filesystem::path path = fuzz_folder() / name;
     std::ofstream(path, std::ios::binary | std::ios::trunc)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-    return path;
+    Scene scene;
+    scene.source.includes.push_back({name, no_index});
+    try {
+        append(path, scene, no_index, 0);
+        pose(scene, 0.3);
+    } catch (const InputError&) {
+    }
+    return 0;
 }
 
 }  // namespace aleph

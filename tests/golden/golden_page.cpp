@@ -1,5 +1,5 @@
-// golden_page PAGE.html NEW REFERENCE NAME...: one self-contained page that shows NEW/NAME.exr, REFERENCE/NAME.exr and
-// their difference with its numbers. The pictures are kept beside the page, too. A reference may be missing.
+// golden_page NEW REFERENCE NAME...: writes NEW/review.html, which shows NEW/NAME.exr, REFERENCE/NAME.exr and their
+// difference with its numbers; its pictures are in NEW, too. A reference may be missing.
 
 #include <fmt/format.h>
 
@@ -7,9 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <limits>
 
 #include "render/compare/compare.h"
@@ -19,27 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string encode_base64(const std::string& bytes) {
-    static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](std::size_t k) {
-            return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
-        };
-        const unsigned word = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for (int k = 0; k < 4; ++k) text += digits[word >> (18 - 6 * k) & 63u];
-    }
-    const std::size_t padding = (3 - bytes.size() % 3) % 3;
-    return text.replace(text.size() - padding, padding, padding, '=');
-}
-
-/// Writes the picture and returns an element that contains it.
-std::string embed(const fs::path& file, const Image<Rgb>& picture, const std::string& caption) {
+/// Writes the picture and returns an element that shows it on a page in its folder.
+std::string figure(const fs::path& file, const Image<Rgb>& picture, const std::string& caption) {
     write_png(file, picture);
-    std::ifstream stream(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    return fmt::format("<figure><img src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
-                       encode_base64(bytes), caption);
+    return fmt::format("<figure><img src=\"{}\"><figcaption>{}</figcaption></figure>\n", file.filename().string(),
+                       caption);
 }
 
 /// Least and largest finite value.
@@ -80,13 +62,13 @@ std::string panels(const Pictures& pictures, const std::string& channel) {
     const auto shown = [&](const ChannelImage& image) {
         return colour ? linear_colour(image) : grey(*image.find(channel), range);
     };
-    std::string html = "<div>" + embed(file("new"), shown(*pictures.fresh), "new");
+    std::string html = "<div>" + figure(file("new"), shown(*pictures.fresh), "new");
     if (pictures.reference) {
         CompareSettings settings;
         if (!colour) settings.channels = {channel};
-        html += embed(file("reference"), shown(*pictures.reference), "reference");
-        html += embed(file("difference"), difference_picture(*pictures.fresh, *pictures.reference, settings),
-                      "difference (white: the largest)");
+        html += figure(file("reference"), shown(*pictures.reference), "reference");
+        html += figure(file("difference"), difference_picture(*pictures.fresh, *pictures.reference, settings),
+                       "difference (white: the largest)");
     }
     return html + "</div>\n";
 }
@@ -125,8 +107,7 @@ std::string section(const std::string& name, const fs::path& fresh_folder, const
     return html;
 }
 
-void write_page(const fs::path& page, const std::string& fresh, const std::string& reference,
-                const std::vector<std::string>& names) {
+void write_page(const fs::path& fresh, const fs::path& reference, const std::vector<std::string>& names) {
     std::string html =
         "<!DOCTYPE html><meta charset=\"utf-8\"><title>Golden images</title>\n"
         "<style>body{font:15px sans-serif;background:#ddd}div{display:flex;gap:8px}figure{margin:4px}"
@@ -134,19 +115,19 @@ void write_page(const fs::path& page, const std::string& fresh, const std::strin
         "<h1>Golden images: new, reference, difference</h1>\n"
         "<p>If the change is right: <code>tests/golden/golden.sh accept</code></p>\n";
     for (const std::string& name : names) html += section(name, fresh, reference);
-    write_file(page, html);
+    write_file(fresh / "review.html", html);
 }
 
 }  // namespace
 }  // namespace aleph
 
 int main(int argc, char** argv) {
-    if (argc < 5) {
-        std::cerr << "usage: golden_page PAGE.html NEW REFERENCE NAME...\n";
+    if (argc < 4) {
+        std::cerr << "usage: golden_page NEW REFERENCE NAME...\n";
         return 2;
     }
     try {
-        aleph::write_page(argv[1], argv[2], argv[3], {argv + 4, argv + argc});
+        aleph::write_page(argv[1], argv[2], {argv + 3, argv + argc});
     } catch (const std::exception& e) {
         std::cerr << "golden_page: " << e.what() << "\n";
         return 1;

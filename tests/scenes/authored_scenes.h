@@ -29,12 +29,8 @@ inline int find_node(const Scene& scene, const std::string& name) {
     return 0;
 }
 
-inline const glm::dmat4& world_of(const ScenePose& frame, int node) {
-    return frame.world[node];
-}
-
-inline Image<Hit> cast(const Scene& scene, const ScenePose& now, const CameraView& view) {
-    return cast_first_hits(scene, {now, view});
+inline glm::dvec3 origin_of(const ScenePose& frame, int node) {
+    return frame.world[node][3];
 }
 
 /// First hits of a frame and their motion to the next frame.
@@ -55,7 +51,7 @@ inline std::uintmax_t folder_size(const std::filesystem::path& folder) {
 inline void expect_generated(const std::string& program, std::size_t files) {
     namespace fs = std::filesystem;
     const ScratchFolder made;
-    ASSERT_EQ(std::system(("\"" + program + "\" \"" + made.path().string() + "\"").c_str()), 0);
+    ASSERT_EQ(std::system(fmt::format("\"{}\" \"{}\"", program_path(program), made.path().string()).c_str()), 0);
     std::set<fs::path> names, kept;
     for (const auto& entry : fs::recursive_directory_iterator(made.path())) {
         if (!entry.is_regular_file()) continue;

@@ -19,13 +19,22 @@ inline RenderSettings small_settings() {
     return quick_settings(48, 36);
 }
 
+/// The height of the picture at distance 1 spans 40 degrees.
+inline const double pixels_per_unit = 18.0 / std::tan(20.0 * pi / 180.0);
+
+inline FrameOutput render_hard(Sequence& sequence, std::int64_t frame) {
+    return sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
+}
+inline FrameOutput render_hard(const Scene& scene, std::int64_t frame) {
+    Sequence sequence(scene, small_settings());
+    return render_hard(sequence, frame);
+}
+
 /// A scene of the folder with its sequence.
 struct HardScene {
     explicit HardScene(const std::string& name)
         : scene(load_scene(hard_scenes_folder() / (name + ".json"))), sequence(scene, small_settings()) {}
-    FrameOutput render(std::int64_t frame) {
-        return sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
-    }
+    FrameOutput render(std::int64_t frame) { return render_hard(sequence, frame); }
     int node(const std::string& name) const {
         for (std::size_t i = 0; i < scene.nodes.size(); ++i)
             if (scene.nodes[i].name == name) return static_cast<int>(i);
@@ -42,6 +51,12 @@ struct HardScene {
             const int instance = output.hits.pixels[i].instance;
             if (instance != no_index && instances[instance].node == node(name)) pixels.push_back(i);
         }
+        return pixels;
+    }
+    /// The same where there must be some.
+    std::vector<std::size_t> seen_on(const FrameOutput& output, const std::string& name) const {
+        std::vector<std::size_t> pixels = pixels_on(output, name);
+        EXPECT_FALSE(pixels.empty()) << name;
         return pixels;
     }
 

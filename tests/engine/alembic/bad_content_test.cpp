@@ -8,7 +8,7 @@ namespace aleph {
 namespace {
 
 TEST(AlembicBadFile, SampleCountsBeyondWhatIsStored) {
-    DraftObject mesh = draft_mesh("m", {triangle, triangle}, {{3}}, {{0, 1, 2}});
+    DraftObject mesh = draft_mesh("m", {draft_points, draft_points}, {{3}}, {{0, 1, 2}});
     mesh.properties[0].children[0].claimed_samples = 0xffffffff;
     expect_refused(verdict({mesh}), "holds 4");
     mesh.properties[0].children[0].claimed_samples = 3;
@@ -18,7 +18,7 @@ TEST(AlembicBadFile, SampleCountsBeyondWhatIsStored) {
 }
 
 TEST(AlembicBadFile, MoreSamplesThanTimes) {
-    expect_refused(verdict({draft_mesh("m", std::vector(5, triangle), {{3}}, {{0, 1, 2}})}), "only 4 times");
+    expect_refused(verdict({draft_mesh("m", std::vector(5, draft_points), {{3}}, {{0, 1, 2}})}), "only 4 times");
 }
 
 TEST(AlembicBadFile, TimesThatDoNotIncrease) {
@@ -37,7 +37,7 @@ TEST(AlembicBadFile, TimesThatDoNotIncrease) {
 
 TEST(AlembicBadFile, TopologyThatDoesNotFit) {
     const auto mesh = [](const std::vector<int>& counts, const std::vector<int>& indices) {
-        return verdict({draft_mesh("m", {triangle}, {counts}, {indices})});
+        return verdict({draft_mesh("m", {draft_points}, {counts}, {indices})});
     };
     expect_refused(mesh({3}, {0, 1, 3}), "point 3");
     expect_refused(mesh({3}, {0, 1, -1}), "point -1");
@@ -53,7 +53,7 @@ TEST(AlembicBadFile, TopologyThatDoesNotFit) {
 
 TEST(AlembicBadFile, CagesThatCannotBeSubdivided) {
     const auto crease = [](const std::vector<int>& points, const std::vector<int>& lengths) {
-        return verdict({draft_subd("s", {triangle}, {{3}}, {{0, 1, 2}},
+        return verdict({draft_subd("s", {draft_points}, {{3}}, {{0, 1, 2}},
                                    {draft_array<int>(".creaseIndices", DraftProperty::i32, 1, {points}),
                                     draft_array<int>(".creaseLengths", DraftProperty::i32, 1, {lengths}),
                                     draft_array<float>(".creaseSharpnesses", DraftProperty::f32, 1, {{2.0f}})})});
@@ -61,7 +61,7 @@ TEST(AlembicBadFile, CagesThatCannotBeSubdivided) {
     EXPECT_EQ(crease({0, 1}, {2}), "");  // though its boundary rule, the default, would draw nothing
     EXPECT_NE(crease({0, 7}, {2}), "");
     EXPECT_NE(crease({0, 1}, {5}), "");
-    EXPECT_NE(verdict({draft_subd("s", {triangle}, {{4}}, {{0, 1, 0, 1}})}), "");
+    EXPECT_NE(verdict({draft_subd("s", {draft_points}, {{4}}, {{0, 1, 0, 1}})}), "");
 }
 
 /// A cage whose faces share one block with others: what refinement takes counts too.
@@ -84,8 +84,8 @@ TEST(AlembicBadFile, WarningsAreFew) {
     std::vector<DraftObject> objects;
     for (std::size_t i = 0; i < 300; ++i) {
         const std::vector<float> values(2 * (i + 4));
-        objects.push_back(draft_mesh(fmt::format("m{}", i), {triangle}, {{3}}, {{0, 1, 2}},
-                                     {draft_array<float>("uv", DraftProperty::f32, 2, {values}, "geoScope=fvr")}));
+        objects.push_back(draft_triangle(fmt::format("m{}", i),
+                                         {draft_array<float>("uv", DraftProperty::f32, 2, {values}, "geoScope=fvr")}));
     }
     const ScratchFolder folder;
     OgawaDraft draft;
@@ -97,19 +97,8 @@ TEST(AlembicBadFile, WarningsAreFew) {
 
 TEST(AlembicBadFile, TransformsThatDoNotFit) {
     const auto xform = [](const std::vector<std::uint8_t>& operations, const std::vector<double>& channels) {
-        const auto count = [](std::size_t n) { return static_cast<std::uint32_t>(std::max<std::size_t>(n, 1)); };
-        DraftProperty ops{".ops",
-                          DraftProperty::scalar,
-                          DraftProperty::u8,
-                          count(operations.size()),
-                          {bytes_of(operations)},
-                          0,
-                          "",
-                          {},
-                          -1};
-        DraftProperty vals{
-            ".vals", DraftProperty::scalar, DraftProperty::f64, count(channels.size()), {bytes_of(channels)}, 0, "", {},
-            -1};
+        const auto ops = draft_scalar<std::uint8_t>(".ops", DraftProperty::u8, {operations});
+        const auto vals = draft_scalar<double>(".vals", DraftProperty::f64, {channels});
         return verdict({DraftObject{"x", "schema=AbcGeom_Xform_v3", {draft_compound(".xform", {ops, vals})}, {}}});
     };
     EXPECT_EQ(xform({0x10}, {1, 2, 3}), "");

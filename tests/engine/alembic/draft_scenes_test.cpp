@@ -1,20 +1,11 @@
-// Drafts of what archives of other programs contain: unfolded texture coordinates, instances within instances, cameras
-// with a film back under evenly spaced acyclic times, stacks of translations and curves; and those archives where they
-// are there.
+// Drafts of what archives of other programs contain: instances within instances, cameras with a film back under evenly
+// spaced acyclic times, stacks of translations and curves; and those archives where they are there.
 #include "engine/pose/pose.h"
 #include "tests/engine/alembic/fixture.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-template <class T>
-DraftProperty draft_scalar(const std::string& name, DraftProperty::Type type,
-                           const std::vector<std::vector<T>>& samples) {
-    DraftProperty p = draft_array<T>(name, type, static_cast<std::uint32_t>(samples.front().size()), samples);
-    p.kind = DraftProperty::scalar;
-    return p;
-}
 
 /// Translations that follow one another; every sample has the numbers of all.
 DraftObject draft_moved(const std::string& name, const std::vector<std::vector<double>>& samples,
@@ -27,75 +18,24 @@ DraftObject draft_moved(const std::string& name, const std::vector<std::vector<d
             std::move(children)};
 }
 
-/// Where the node stands that is reached by these names.
-glm::dvec3 place_of(const Scene& scene, const std::vector<std::string>& names, double seconds = 0.0) {
-    int node = no_index;
-    for (const std::string& name : names) {
-        const auto found =
-            std::ranges::find_if(scene.nodes, [&](const Node& n) { return n.name == name && n.parent == node; });
-        if (found == scene.nodes.end()) throw std::out_of_range("no node " + name);
-        node = static_cast<int>(found - scene.nodes.begin());
-    }
-    return glm::dvec3(pose(scene, seconds).world.at(static_cast<std::size_t>(node))[3]);
-}
-
-/// A cube unfolded: its sides in a strip of ten coordinates, its ends apart. Points on the strip's seam are two
-/// vertices.
-TEST(AlembicDrafts, AnUnfoldedCubeHasAVertexForEachPointAndCoordinate) {
-    std::vector<float> points, uv;
-    for (const float y : {0.0f, 1.0f})
-        for (const auto& [x, z] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}})
-            points.insert(points.end(), {x, y, z});
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < (row < 2 ? 5 : 4); ++column)
-            uv.insert(uv.end(), {static_cast<float>(column) / 4.0f, static_cast<float>(row) / 4.0f});
-    std::vector<int> faces, coordinates;  // clockwise seen from outside, as archives have them
-    for (int side = 0; side < 4; ++side) {
-        const int next = (side + 1) % 4;
-        faces.insert(faces.end(), {side, next, next + 4, side + 4});
-        coordinates.insert(coordinates.end(), {side, side + 1, side + 6, side + 5});
-    }
-    faces.insert(faces.end(), {3, 2, 1, 0, 4, 5, 6, 7});
-    coordinates.insert(coordinates.end(), {13, 12, 11, 10, 14, 15, 16, 17});
-    DraftProperty indexed =
-        draft_compound("uv", {draft_array<float>(".vals", DraftProperty::f32, 2, {uv}, "geoScope=fvr"),
-                              draft_array<int>(".indices", DraftProperty::u32, 1, {coordinates})});
-    indexed.metadata = "geoScope=fvr";
-    const Scene scene = load({draft_mesh("cube", {points}, {std::vector<int>(6, 4)}, {faces}, {indexed})});
-    const Mesh& cube = mesh_of(scene, "cube");
-    EXPECT_EQ(cube.triangles.size(), 12u);
-    ASSERT_EQ(cube.deformation.vertex_points.size(), 18u);
-    ASSERT_EQ(cube.uv[0].size(), 18u);
-    for (std::size_t corner = 0; corner < faces.size(); ++corner) {
-        const auto at = static_cast<std::size_t>(coordinates[corner]);
-        int found = 0;
-        for (std::size_t i = 0; i < 18; ++i)
-            found += cube.deformation.vertex_points[i] == static_cast<std::uint32_t>(faces[corner]) &&
-                     cube.uv[0][i] == glm::vec2(uv[2 * at], 1.0f - uv[2 * at + 1]);
-        EXPECT_EQ(found, 1) << corner;
-    }
-    for (const glm::uvec3& t : cube.triangles) {  // outwards
-        const glm::dvec3 middle = glm::dvec3(cube.positions[t.x] + cube.positions[t.y] + cube.positions[t.z]) / 3.0;
-        EXPECT_GT(glm::dot(triangle_normal(cube.positions, t), middle - 0.5), 0.0);
-    }
+glm::dvec3 place_of(const Scene& scene, const std::string& path) {
+    return glm::dvec3(pose(scene, 0.0).world.at(static_cast<std::size_t>(find_node(scene, path)))[3]);
 }
 
 /// An instance of what holds an instance: two meshes, each four times.
 TEST(AlembicDrafts, InstancesWithinInstances) {
-    const std::vector<float> triangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
-    const auto mesh = [&](const std::string& name) { return draft_mesh(name, {triangle}, {{3}}, {{0, 1, 2}}); };
-    const DraftObject a =
-        draft_moved("a", {{1, 0, 0}}, {mesh("aMesh"), draft_moved("b", {{0, 2, 0}}, {mesh("bMesh")})});
+    const DraftObject a = draft_moved(
+        "a", {{1, 0, 0}}, {draft_triangle("aMesh"), draft_moved("b", {{0, 2, 0}}, {draft_triangle("bMesh")})});
     const DraftObject within = draft_moved("f", {{0, 0, 5}}, {draft_instance("g", "/root/first/a")});
     const Scene scene =
         load({draft_group("root", {draft_group("first", {a, within}),
                                    draft_moved("c", {{100, 0, 0}}, {draft_instance("second", "/root/first")})})});
     EXPECT_EQ(scene.meshes.size(), 2u);
     EXPECT_EQ(list_instances(scene).size(), 8u);
-    EXPECT_EQ(place_of(scene, {"root", "first", "a", "b", "bMesh"}), glm::dvec3(1, 2, 0));
-    EXPECT_EQ(place_of(scene, {"root", "first", "f", "g", "b", "bMesh"}), glm::dvec3(1, 2, 5));
-    EXPECT_EQ(place_of(scene, {"root", "c", "second", "a", "aMesh"}), glm::dvec3(101, 0, 0));
-    EXPECT_EQ(place_of(scene, {"root", "c", "second", "f", "g", "b", "bMesh"}), glm::dvec3(101, 2, 5));
+    EXPECT_EQ(place_of(scene, "/root/first/a/b/bMesh"), glm::dvec3(1, 2, 0));
+    EXPECT_EQ(place_of(scene, "/root/first/f/g/b/bMesh"), glm::dvec3(1, 2, 5));
+    EXPECT_EQ(place_of(scene, "/root/c/second/a/aMesh"), glm::dvec3(101, 0, 0));
+    EXPECT_EQ(place_of(scene, "/root/c/second/f/g/b/bMesh"), glm::dvec3(101, 2, 5));
 }
 
 /// 21 acyclic times, evenly spaced; the transform above has one sample fewer. The film back scales the film's half
@@ -140,8 +80,8 @@ TEST(AlembicDrafts, TranslationsAddUpAndCurvesAreLeftOut) {
     const Scene scene = load(
         {draft_group("asset", {draft_moved("pivot", {{1, 2, 3, 10, 0, 0, -1, -2, -3, 0, 5, 0}}, {curve}), curve})});
     EXPECT_TRUE(has_warning(scene, "AbcGeom_Curve_v2 are not read"));
-    EXPECT_EQ(place_of(scene, {"asset", "pivot", "curve"}), glm::dvec3(10, 5, 0));
-    EXPECT_EQ(place_of(scene, {"asset", "curve"}), glm::dvec3(0));
+    EXPECT_EQ(place_of(scene, "/asset/pivot/curve"), glm::dvec3(10, 5, 0));
+    EXPECT_EQ(place_of(scene, "/asset/curve"), glm::dvec3(0));
     EXPECT_TRUE(list_instances(scene).empty());
 }
 

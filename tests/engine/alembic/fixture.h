@@ -24,6 +24,19 @@ inline Scene load(const std::vector<DraftObject>& objects, std::vector<double> t
     return load_scene(write_draft(folder / "draft.abc", draft.finish(objects)));
 }
 
+inline std::string path_of(const Scene& scene, int node) {
+    std::string path;
+    for (int i = node; i != no_index; i = scene.nodes[i].parent) path = "/" + scene.nodes[i].name + path;
+    return path;
+}
+
+/// The node at a path; no_index where there is none.
+inline int find_node(const Scene& scene, const std::string& path) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        if (path_of(scene, static_cast<int>(i)) == path) return static_cast<int>(i);
+    return no_index;
+}
+
 inline const Node& node_named(const Scene& scene, const std::string& name) {
     const auto found = std::ranges::find(scene.nodes, name, &Node::name);
     if (found == scene.nodes.end()) throw std::out_of_range("no node " + name);

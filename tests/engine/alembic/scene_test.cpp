@@ -2,37 +2,19 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "engine/alembic/camera.h"
-#include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/operations.h"
 #include "engine/scene/points.h"
-#include "tests/support/files/alembic_truth.h"
+#include "tests/engine/alembic/fixture.h"
 #include "tests/support/test.h"
-#include "tests/support/warnings.h"
 
 namespace aleph {
 namespace {
-
-std::string path_of(const Scene& scene, int node) {
-    std::string path;
-    for (int i = node; i != no_index; i = scene.nodes[i].parent) path = "/" + scene.nodes[i].name + path;
-    return path;
-}
-
-int find_node(const Scene& scene, const std::string& path) {
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (path_of(scene, static_cast<int>(i)) == path) return static_cast<int>(i);
-    return no_index;
-}
 
 const Node& node_at(const Scene& scene, const std::string& path) {
     const int node = find_node(scene, path);
     if (node == no_index) throw std::out_of_range("no node " + path);
     return scene.nodes[node];
-}
-
-Scene load_archive(const std::string& name) {
-    return load_scene(archive_path(name));
 }
 
 /// 1e-9 relative, element by element. The truth has rounded sines of right angles where the reader may have 0.
@@ -43,26 +25,32 @@ void expect_matrix(const glm::dmat4& m, const json& truth, const std::string& wh
     }
 }
 
-class AlembicScene : public AlembicTruth {};
-
-TEST_P(AlembicScene, WorldTransformsAtEveryQueryTime) {
-    const Scene scene = load_archive(GetParam());
-    const json truth = truth_of(GetParam());
-    int compared = 0;
-    for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
-        const double seconds = truth["query_times"][t];
-        const ScenePose frame = pose(scene, seconds);
-        for (const json& object : truth["objects"]) {
-            const bool xform = object.contains("xform");
-            if (!xform && !object.contains("world_lerp_ops_at")) continue;
-            const std::string path = object["path"];
-            const int node = find_node(scene, path);
-            ASSERT_NE(node, no_index) << path;
-            const json& world = xform ? object["xform"]["at"][t]["world_lerp_ops"] : object["world_lerp_ops_at"][t];
-            expect_matrix(frame.world[node], world, path + " at " + std::to_string(seconds));
-            ++compared;
+class AlembicScene : public AlembicTruth {
+  protected:
+    /// check(t, frame, object) of the truth's query times and objects.
+    template <class Check>
+    void check_at_every_time(const Check& check) const {
+        for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
+            const ScenePose frame = pose(scene, truth["query_times"][t]);
+            for (const json& object : truth["objects"]) check(t, frame, object);
         }
     }
+
+    const Scene scene = load(GetParam());
+};
+
+TEST_P(AlembicScene, WorldTransformsAtEveryQueryTime) {
+    int compared = 0;
+    check_at_every_time([&](std::size_t t, const ScenePose& frame, const json& object) {
+        const bool xform = object.contains("xform");
+        if (!xform && !object.contains("world_lerp_ops_at")) return;
+        const std::string path = object["path"];
+        const int node = find_node(scene, path);
+        ASSERT_NE(node, no_index) << path;
+        const json& world = xform ? object["xform"]["at"][t]["world_lerp_ops"] : object["world_lerp_ops_at"][t];
+        expect_matrix(frame.world[node], world, fmt::format("{} at time {}", path, t));
+        ++compared;
+    });
     EXPECT_GE(compared, GetParam() == "property_zoo" ? 0 : 4);
 }
 
@@ -73,8 +61,6 @@ TEST_P(AlembicScene, OperationsAndLocalTransforms) {
                                             {"matrix", Kind::matrix},       {"rotate", Kind::rotate},
                                             {"rotateX", Kind::rotate_x},    {"rotateY", Kind::rotate_y},
                                             {"rotateZ", Kind::rotate_z}};
-    const Scene scene = load_archive(GetParam());
-    const json truth = truth_of(GetParam());
     for (const json& object : truth["objects"]) {
         if (!object.contains("xform")) continue;
         const std::string path = object["path"];
@@ -97,8 +83,6 @@ TEST_P(AlembicScene, OperationsAndLocalTransforms) {
 
 /// Every object but face sets and materials is a node at its path, instances expanded; and there is nothing else.
 TEST_P(AlembicScene, PathsOfNodes) {
-    const Scene scene = load_archive(GetParam());
-    const json truth = truth_of(GetParam());
     std::set<std::string> expected, found;
     for (const json& object : truth["objects"]) {
         const std::string schema = object["schema"], path = object["path"];
@@ -110,57 +94,47 @@ TEST_P(AlembicScene, PathsOfNodes) {
 }
 
 TEST_P(AlembicScene, VisibilityAtEveryQueryTime) {
-    const Scene scene = load_archive(GetParam());
-    const json truth = truth_of(GetParam());
-    for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
-        const ScenePose frame = pose(scene, truth["query_times"][t]);
-        for (const json& object : truth["objects"]) {
-            const int node = find_node(scene, object["path"]);
-            if (node == no_index) continue;
-            const bool hidden = object.contains("hidden_at") && object["hidden_at"][t].get<bool>();
-            EXPECT_EQ(frame.visible[node], !hidden) << object["path"] << " " << t;
-        }
-    }
+    check_at_every_time([&](std::size_t t, const ScenePose& frame, const json& object) {
+        const int node = find_node(scene, object["path"]);
+        if (node == no_index) return;
+        const bool hidden = object.contains("hidden_at") && object["hidden_at"][t].get<bool>();
+        EXPECT_EQ(frame.visible[node], !hidden) << object["path"] << " " << t;
+    });
 }
 
 /// The points of a surface, wherever its meshes have them, at every query time; and each vertex is on its point.
 TEST_P(AlembicScene, PointsAtEveryQueryTime) {
-    const Scene scene = load_archive(GetParam());
-    const json truth = truth_of(GetParam());
     int surfaces = 0;
-    for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
+    check_at_every_time([&](std::size_t t, const ScenePose& frame, const json& object) {
         const double seconds = truth["query_times"][t];
-        const ScenePose frame = pose(scene, seconds);
-        for (const json& object : truth["objects"]) {
-            const char* kind = object.contains("polymesh") ? "polymesh" : object.contains("subd") ? "subd" : nullptr;
-            if (kind == nullptr) continue;
-            const json& at = object[kind]["at"][t];
-            const int node = find_node(scene, object["path"]);
-            int shown = 0;
-            for (std::size_t i = 0; i < frame.instances.size(); ++i) {
-                if (frame.instances[i].node != node || !frame.shown[i]) continue;
-                const auto number = static_cast<std::size_t>(frame.instances[i].mesh);
-                const Mesh& mesh = scene.meshes[number];
-                const int cache = mesh.subdivision.cage == no_index ? mesh.deformation.points
-                                                                    : scene.cages[mesh.subdivision.cage].points;
-                const std::vector<glm::dvec3> points = sample_points(scene.point_caches[cache], seconds);
-                ASSERT_EQ(points.size(), at["count"]) << object["path"] << seconds;
-                const json& first6 = at["first6_positions_lerp"];
-                for (std::size_t k = 0; k < first6.size(); ++k)
-                    EXPECT_NEAR(points[k / 3][static_cast<int>(k % 3)], first6[k].get<double>(), 1e-6)
-                        << object["path"] << " at " << seconds << " point " << k / 3;
-                ++shown;
-                if (mesh.subdivision.cage != no_index) continue;
-                const auto& posed = frame.meshes[number].positions;
-                for (std::size_t v = 0; v < mesh.deformation.vertex_points.size(); ++v) {
-                    const glm::dvec3 p = posed.empty() ? glm::dvec3(mesh.positions[v]) : posed[v];
-                    EXPECT_EQ(p, points[mesh.deformation.vertex_points[v]]) << object["path"];
-                }
+        const char* kind = object.contains("polymesh") ? "polymesh" : object.contains("subd") ? "subd" : nullptr;
+        if (kind == nullptr) return;
+        const json& at = object[kind]["at"][t];
+        const int node = find_node(scene, object["path"]);
+        int shown = 0;
+        for (std::size_t i = 0; i < frame.instances.size(); ++i) {
+            if (frame.instances[i].node != node || !frame.shown[i]) continue;
+            const auto number = static_cast<std::size_t>(frame.instances[i].mesh);
+            const Mesh& mesh = scene.meshes[number];
+            const int cache =
+                mesh.subdivision.cage == no_index ? mesh.deformation.points : scene.cages[mesh.subdivision.cage].points;
+            const std::vector<glm::dvec3> points = sample_points(scene.point_caches[cache], seconds);
+            ASSERT_EQ(points.size(), at["count"]) << object["path"] << seconds;
+            const json& first6 = at["first6_positions_lerp"];
+            for (std::size_t k = 0; k < first6.size(); ++k)
+                EXPECT_NEAR(points[k / 3][static_cast<int>(k % 3)], first6[k].get<double>(), 1e-6)
+                    << object["path"] << " at " << seconds << " point " << k / 3;
+            ++shown;
+            if (mesh.subdivision.cage != no_index) continue;
+            const auto& posed = frame.meshes[number].positions;
+            for (std::size_t v = 0; v < mesh.deformation.vertex_points.size(); ++v) {
+                const glm::dvec3 p = posed.empty() ? glm::dvec3(mesh.positions[v]) : posed[v];
+                EXPECT_EQ(p, points[mesh.deformation.vertex_points[v]]) << object["path"];
             }
-            EXPECT_GE(shown, 1) << object["path"] << seconds;
-            ++surfaces;
         }
-    }
+        EXPECT_GE(shown, 1) << object["path"] << seconds;
+        ++surfaces;
+    });
     EXPECT_GE(surfaces, GetParam() == "polymesh_anim" ? 30 : 0);
 }
 
@@ -169,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(All, AlembicScene, testing::ValuesIn(all_archives()),
 
 TEST(AlembicTiming, RateAndRangeAreTheArchives) {
     const auto timing = [](const std::string& name) {
-        const Scene scene = load_archive(name);
+        const Scene scene = load(name);
         return std::pair{scene.film.frame_rate, frame_range(scene)};
     };
     EXPECT_EQ(timing("xform_uniform"), (std::pair{FrameRate{24, 1}, FrameRange{1, 10}}));
@@ -179,7 +153,7 @@ TEST(AlembicTiming, RateAndRangeAreTheArchives) {
 }
 
 TEST(AlembicInstances, ShareMeshesAndPoints) {
-    const Scene scene = load_archive("instances");
+    const Scene scene = load("instances");
     const std::vector<int>& source = node_at(scene, "/prototypes/box/boxShape").meshes;
     ASSERT_EQ(source.size(), 1u);
     for (const char* path : {"/layout/place0/boxInst/boxShape", "/layout/place1/boxInst/boxShape",
@@ -190,7 +164,7 @@ TEST(AlembicInstances, ShareMeshesAndPoints) {
 }
 
 TEST(AlembicVisibility, ExplicitOnesShowBelowAHiddenParent) {
-    const Scene scene = load_archive("xform_uniform");
+    const Scene scene = load("xform_uniform");
     const Track<double>& hand = node_at(scene, "/world/arm/hand").visible;
     EXPECT_EQ(hand.interpolation, Interpolation::nearest);
     EXPECT_EQ(evaluate(hand, 1.0 / 24.0), 2.0);   // stored 1
@@ -200,7 +174,7 @@ TEST(AlembicVisibility, ExplicitOnesShowBelowAHiddenParent) {
 
 /// All 16 numbers interpolate in the archive; the camera of the scene follows from them.
 TEST(AlembicCameras, FieldOfViewAndShiftAtEveryQueryTime) {
-    const Scene scene = load_archive("camera_anim");
+    const Scene scene = load("camera_anim");
     const json truth = truth_of("camera_anim");
     for (const char* path : {"/camRig/shotCam", "/staticCam"}) {
         const json& camera = object_of(truth, path)["camera"];

@@ -37,6 +37,4 @@ inline void expect_refused(const std::string& message, const std::string& word) 
     EXPECT_NE(message.find(word), std::string::npos) << "expected \"" << word << "\" in \"" << message << "\"";
 }
 
-inline const std::vector<float> triangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
-
 }  // namespace aleph

@@ -60,36 +60,6 @@ TEST(ImageIo, ExrKeepsMetadata) {
     EXPECT_EQ(read_image(folder / "a.exr").metadata, image.metadata);
 }
 
-TEST(ImageIo, CopyingAFilesMetadataIsStable) {
-    const ScratchFolder folder;
-    ChannelImage image = small_image();
-    image.metadata = {{"software", std::string("aleph")}, {"framesPerSecond", std::array{24, 1}}};
-    write_exr(folder / "a.exr", image);
-    write_exr(folder / "b.exr", read_image(folder / "a.exr"));
-    EXPECT_EQ(read_numbers(folder / "a.exr"), read_numbers(folder / "b.exr"));
-}
-
-TEST(ImageIo, PngComesBackAsEncoded) {
-    const ScratchFolder folder;
-    Image<Rgb> image(3, 2, Rgb(0.0f));
-    image(0, 0) = {1.0f, 0.5f, 0.0f};
-    image(2, 1) = {0.0031308f, 0.18f, 0.75f};
-    write_png(folder / "a.png", image);
-    const ChannelImage back = read_image(folder / "a.png");
-    ASSERT_EQ(back.channels.size(), 3u);
-    EXPECT_EQ(back.channels[0].name, "R");
-    EXPECT_EQ(back.channels[2].name, "B");
-    // IEC 61966-2-1 by hand: 0.5 -> 188, 0.0031308 -> 10, 0.18 -> 118, 0.75 -> 225.
-    const auto code = [&](const char* name, int x, int y) { return std::lround(255.0f * (*back.find(name))(x, y)); };
-    EXPECT_EQ(code("R", 0, 0), 255);
-    EXPECT_EQ(code("G", 0, 0), 188);
-    EXPECT_EQ(code("B", 0, 0), 0);
-    EXPECT_EQ(code("R", 2, 1), 10);
-    EXPECT_EQ(code("G", 2, 1), 118);
-    EXPECT_EQ(code("B", 2, 1), 225);
-    EXPECT_EQ(code("R", 1, 0), 0);
-}
-
 TEST(ImageIo, TexturesKeepTheirPrecision) {
     const ScratchFolder folder;
     Image<Rgb> image(2, 1, Rgb(0.5f));
@@ -113,8 +83,8 @@ TEST(ImageIo, TexturesKeepTheirPrecision) {
 
 TEST(ImageIo, RefusesWhatIsNoPicture) {
     const ScratchFolder folder;
-    EXPECT_EQ(input_error(folder / "missing.exr"), "there is no such file");
-    EXPECT_EQ(input_error(folder.path()), "this is not a file");
+    EXPECT_EQ(input_error(folder / "missing.exr"), "file not found: missing.exr");
+    EXPECT_NE(input_error(folder.path()).find("not a regular file"), std::string::npos);
     save_bytes(folder / "empty.png", {});
     EXPECT_EQ(input_error(folder / "empty.png"), "the file is empty");
     const std::string text = "P6 1 1 255 abc";

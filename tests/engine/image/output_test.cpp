@@ -75,16 +75,18 @@ TEST(Output, OU02_SmallMotionLargeIdsAndBackgroundDepthAreBitEqual) {
 TEST(Output, OU04_EightBitGoldenBytes) {
     const ScratchFolder folder;
     // 0.0001517635 is half a code (0.5 / 255 / 12.92): below it 0, above it 1. sRGB by hand: 0.18 -> 117.6.
-    const std::vector<float> values{float_nan, float_infinity, -float_infinity, 300.0f,   -0.01f,   -0.0f, 0.0f, 1.0f,
-                                    0.99999f,  0.5f,           0.18f,           0.00015f, 0.00016f, 1e-42f};
-    const std::vector<long> codes{0, 255, 0, 255, 0, 0, 0, 255, 255, 188, 118, 0, 1, 0};
-    Image<Rgb> image(static_cast<int>(values.size()), 1);
+    const std::vector<float> values{float_nan, float_infinity, -float_infinity, 300.0f, -0.01f, -0.0f,
+                                    0.0f,      1.0f,           0.99999f,        0.5f,   0.18f,  0.00015f,
+                                    0.00016f,  1e-42f,         0.0031308f,      0.75f};
+    const std::vector<long> codes{0, 255, 0, 255, 0, 0, 0, 255, 255, 188, 118, 0, 1, 0, 10, 225};
+    Image<Rgb> image(8, 2);
     for (std::size_t i = 0; i < values.size(); ++i) image.pixels[i] = {values[i], values[values.size() - 1 - i], 0.0f};
     write_png(folder / "a.png", image);
     const ChannelImage back = read_image(folder / "a.png");
     for (std::size_t i = 0; i < values.size(); ++i) {
         EXPECT_EQ(std::lround(255.0f * back.find("R")->pixels[i]), codes[i]) << values[i];
         EXPECT_EQ(std::lround(255.0f * back.find("G")->pixels[i]), codes[values.size() - 1 - i]);
+        EXPECT_EQ(back.find("B")->pixels[i], 0.0f);
     }
 }
 

@@ -26,11 +26,6 @@ Scene make_blended(double alpha, std::size_t layers) {
     return scene;
 }
 
-struct Placed {
-    RayScene rays;
-    explicit Placed(const Scene& scene) : rays(scene) { rays.update(pose(scene, 0.0), glm::dvec3(0.0)); }
-};
-
 /// Rays downwards through random points of the sheets.
 std::vector<Ray> make_rays(std::size_t count = ray_count, std::uint32_t seed = 0) {
     std::mt19937 random(7 + seed);
@@ -44,9 +39,7 @@ std::vector<Ray> make_rays(std::size_t count = ray_count, std::uint32_t seed = 0
 }
 
 std::vector<Hit> cast(const RayScene& scene, const std::vector<Ray>& rays, Blend blend = Blend::random) {
-    std::vector<Hit> hits(rays.size());
-    Tracer(scene, blend).intersect(rays, hits, true);
-    return hits;
+    return trace(scene, rays, true, blend);
 }
 
 /// Hits on an instance; no_index: rays that miss.
@@ -65,23 +58,23 @@ std::vector<Ray> make_rays(const Trial& trial) {
 TEST(AlphaBlend, StopsItsShareOfTheRays) {
     const std::vector<Ray> rays = make_rays();
     for (const double alpha : {0.02, 0.3, 0.5, 0.97}) {
-        const Placed one(make_blended(alpha, 1));
+        const RayScene one = place(make_blended(alpha, 1));
         EXPECT_TRUE(holds([&](Trial& trial) {
-            const std::vector<Hit> hits = cast(one.rays, make_rays(trial));
+            const std::vector<Hit> hits = cast(one, make_rays(trial));
             trial.counts(count_on(hits, 0), static_cast<double>(hits.size()), alpha);
         }));
     }
     for (const double alpha : {0.0, 1.0}) {
-        const Placed one(make_blended(alpha, 1));
-        EXPECT_EQ(share_on(cast(one.rays, rays), 0), alpha);
+        const RayScene one = place(make_blended(alpha, 1));
+        EXPECT_EQ(share_on(cast(one, rays), 0), alpha);
     }
 }
 
 TEST(AlphaBlend, LayersAreIndependent) {
     constexpr double alpha = 0.3;
-    const Placed three(make_blended(alpha, 3));
+    const RayScene three = place(make_blended(alpha, 3));
     EXPECT_TRUE(holds([&](Trial& trial) {
-        const std::vector<Hit> hits = cast(three.rays, make_rays(trial));
+        const std::vector<Hit> hits = cast(three, make_rays(trial));
         const double all = static_cast<double>(hits.size());
         double passed = 1.0;
         for (int layer = 0; layer < 3; ++layer) {
@@ -99,26 +92,25 @@ TEST(AlphaBlend, CoincidentSurfacesAreIndependentToo) {
     const std::size_t triangles = mesh.triangles.size();
     for (std::size_t t = 0; t < triangles; ++t) mesh.triangles.push_back(mesh.triangles[t]);
     scene.nodes[0].meshes = {0, 0};
-    const Placed placed(scene);
+    const RayScene placed = place(scene);
     const double open = std::pow(0.7, 4);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        const std::vector<Hit> hits = cast(placed.rays, make_rays(trial));
+        const std::vector<Hit> hits = cast(placed, make_rays(trial));
         trial.counts(count_on(hits, no_index), static_cast<double>(hits.size()), open);
     }));
 }
 
 TEST(AlphaBlend, ShadowsArePartial) {
-    const Placed two(make_blended(0.4, 2));
+    const RayScene two = place(make_blended(0.4, 2));
     EXPECT_TRUE(holds([&](Trial& trial) {
         const std::vector<Ray> rays = make_rays(trial);
-        std::vector<std::uint8_t> blocked(rays.size());
-        Tracer(two.rays, Blend::random).occluded(rays, blocked);
+        const std::vector<std::uint8_t> blocked = find_blocked(two, rays, Blend::random);
         trial.counts(static_cast<double>(std::ranges::count(blocked, 0)), static_cast<double>(rays.size()), 0.36);
     }));
 }
 
 TEST(AlphaBlend, NearlyEqualRaysAreIndependent) {
-    const Placed one(make_blended(0.5, 1));
+    const RayScene one = place(make_blended(0.5, 1));
     EXPECT_TRUE(holds([&](Trial& trial) {
         std::vector<Ray> rays(trial.times(ray_count));
         for (std::size_t i = 0; i < rays.size(); ++i) {  // neighbouring floats, in direction and in origin
@@ -127,7 +119,7 @@ TEST(AlphaBlend, NearlyEqualRaysAreIndependent) {
             rays[i].direction.x = 1e-3f + static_cast<float>(i / 2 + trial.seed % 1000) * 1e-9f;
             if (i % 2 == 1) rays[i].origin.y = std::nextafter(0.25f, 1.0f);
         }
-        const std::vector<Hit> hits = cast(one.rays, rays);
+        const std::vector<Hit> hits = cast(one, rays);
         const double all = static_cast<double>(rays.size());
         trial.counts(count_on(hits, 0), all, 0.5);
         std::size_t alike = 0;
@@ -146,10 +138,10 @@ TEST(AlphaBlend, TextureVertexColourAndFactorMultiply) {
     Mesh& mesh = scene.meshes[0];
     for (const glm::vec3& p : mesh.positions) mesh.uv[0].emplace_back(0.5f * (p.x + 1.0f), 0.5f * (1.0f - p.y));
     mesh.colors.assign(mesh.positions.size(), glm::vec4(1.0f, 1.0f, 1.0f, 0.5f));
-    const Placed placed(scene);
+    const RayScene placed = place(scene);
     EXPECT_TRUE(holds([&](Trial& trial) {
         const std::vector<Ray> rays = make_rays(trial);
-        const std::vector<Hit> hits = cast(placed.rays, rays);
+        const std::vector<Hit> hits = cast(placed, rays);
         for (const bool right : {false, true}) {
             std::size_t count = 0, met = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -167,35 +159,30 @@ TEST(AlphaBlend, OneRayHasOneAnswer) {
     Scene scene = make_blended(0.5, 3);
     scene.nodes[1].transform.rotation = glm::dquat(std::cos(0.2), std::sin(0.2), 0.0, 0.0);
     scene.nodes[1].transform.scale = glm::dvec3(1.3, 0.7, 2.0);
-    const Placed placed(scene);
+    const RayScene placed = place(scene);
     const std::vector<Ray> rays = make_rays(4001);
-    const std::vector<Hit> hits = cast(placed.rays, rays);
-    EXPECT_EQ(cast(placed.rays, rays), hits);
+    const std::vector<Hit> hits = cast(placed, rays);
+    EXPECT_EQ(cast(placed, rays), hits);
     const std::vector<Ray> rest(rays.begin() + 3, rays.end());
-    const std::vector<Hit> shifted = cast(placed.rays, rest);
-    std::vector<Hit> scattered(rays.size());
-    std::vector<std::uint8_t> blocked(rays.size());
-    Tracer tracer(placed.rays, Blend::random);
-    tracer.intersect(rays, scattered, false);
-    tracer.occluded(rays, blocked);
+    const std::vector<Hit> shifted = cast(placed, rest);
+    const std::vector<std::uint8_t> blocked = find_blocked(placed, rays, Blend::random);
+    Tracer tracer(placed, Blend::random);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Hit alone = tracer.intersect(rays[i]);
         ASSERT_EQ(hits[i].instance, alone.instance) << i;
         ASSERT_EQ(hits[i].primitive, alone.primitive) << i;
-        ASSERT_EQ(scattered[i].instance, alone.instance) << i;
         if (i >= 3) {
             ASSERT_EQ(shifted[i - 3].instance, alone.instance) << i;
         }
         ASSERT_EQ(blocked[i] != 0, alone.instance != no_index) << i;
-        ASSERT_EQ(tracer.occluded(rays[i]), alone.instance != no_index) << i;
     }
     for (const int threads : {1, 2, 3}) {
         const ThreadLimit limit(threads);
         std::vector<Hit> parallel(rays.size());
         parallel_for(rays.size(), 100, [&](std::size_t begin, std::size_t end) {
-            Tracer mine(placed.rays, Blend::random);
-            mine.intersect(std::span(rays).subspan(begin, end - begin), std::span(parallel).subspan(begin, end - begin),
-                           true);
+            Tracer mine(placed, Blend::random);
+            mine.intersect(std::span(rays).subspan(begin, end - begin),
+                           std::span(parallel).subspan(begin, end - begin));
         });
         for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_EQ(parallel[i].instance, hits[i].instance) << i;
     }
@@ -205,15 +192,15 @@ TEST(AlphaBlend, CutoutsAndMasksAreNotRandom) {
     const std::vector<Ray> rays = make_rays(1000);
     for (const auto& [alpha, met] : {std::pair(0.49, 0.0), std::pair(0.51, 1.0)}) {
         Scene scene = make_blended(alpha, 2);
-        EXPECT_EQ(share_on(cast(Placed(scene).rays, rays, Blend::cutout), 0), met);
+        EXPECT_EQ(share_on(cast(place(scene), rays, Blend::cutout), 0), met);
         scene.materials.push_back(scene.materials[0]);  // a mask beside a blended surface
         scene.materials[0].opacity.mode = Opacity::Mode::mask;
         scene.meshes.push_back(scene.meshes[0]);
         scene.meshes[1].material = 1;
         scene.nodes[1].meshes = {1};
-        const Placed placed(scene);
-        EXPECT_EQ(share_on(cast(placed.rays, rays), 0), met);
-        EXPECT_EQ(share_on(cast(placed.rays, rays, Blend::cutout), 0), met);
+        const RayScene placed = place(scene);
+        EXPECT_EQ(share_on(cast(placed, rays), 0), met);
+        EXPECT_EQ(share_on(cast(placed, rays, Blend::cutout), 0), met);
     }
 }
 

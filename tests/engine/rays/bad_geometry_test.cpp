@@ -16,8 +16,7 @@ TEST(BadGeometry, RC02_KF18_InstancesWithoutVolumeAreLeftOutAndCounted) {
         scene.nodes.push_back(scene.nodes[0]);
         scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, -1.0);
         scene.nodes[0].transform.scale = scale;
-        RayScene rays(scene);
-        rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+        RayScene rays = place(scene);
         EXPECT_EQ(rays.skipped_instances(), 1u) << scale.x << " " << scale.y << " " << scale.z;
         EXPECT_EQ(instance_at(rays, 0.3f, 0.2f), 1);
         EXPECT_EQ(instance_at(rays, 0.0f, 0.0f), 1);
@@ -25,8 +24,7 @@ TEST(BadGeometry, RC02_KF18_InstancesWithoutVolumeAreLeftOutAndCounted) {
     for (const double scale : {1e-30, 1e-20}) {  // with volume: met where it is, and nowhere else
         Scene scene = make_sheet_scene(1);
         scene.nodes[0].transform.scale = glm::dvec3(scale);
-        RayScene rays(scene);
-        rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+        RayScene rays = place(scene);
         EXPECT_EQ(rays.skipped_instances(), 0u);
         EXPECT_EQ(instance_at(rays, 0.0f, 0.0f), 0);
         EXPECT_EQ(instance_at(rays, 1e-15f, 0.0f), no_index);
@@ -55,8 +53,7 @@ TEST(BadGeometry, RC08_MeshesThatEmbreeWouldDropAreRefusedByName) {
     }
     Scene largest = good;  // within Embree's limits
     largest.meshes[0].positions[8].x = 1.8e18f;
-    RayScene rays(largest);
-    rays.update(pose(largest, 0.0), glm::dvec3(0.0));
+    RayScene rays = place(largest);
     EXPECT_EQ(instance_at(rays, -0.5f, -0.4f), 0);
 }
 
@@ -88,8 +85,7 @@ TEST(BadGeometry, RC09_RC12_TrianglesWithoutAreaAreCountedAndNeverMet) {
     add({0.25f, 0.25f, 1.0f}, {0.25f, 0.25f, 1.0f}, {0.5f, 0.25f, 1.0f});  // two corners are one
     EXPECT_EQ(RayScene(scene).degenerate_triangles(), 3u);
     add({0.0f, 0.0f, 1.0f}, {3e-13f, 0.0f, 1.0f}, {0.0f, 3e-13f, 1.0f});  // 5e-26 m2: a float normal of length 0
-    RayScene rays(scene);
-    rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+    RayScene rays = place(scene);
     EXPECT_EQ(rays.degenerate_triangles(), 3u);
     Tracer tracer(rays);
     for (const auto& [x, y] : {std::pair(0.5f, 0.5f), {0.0f, 0.5f}, {0.25f, 0.25f}, {0.3f, 0.25f}}) {
@@ -105,8 +101,7 @@ TEST(BadGeometry, RC10_NoTrianglesAreNoGeometry) {
     scene.meshes[0].triangles.clear();
     scene.meshes.push_back({});
     scene.nodes[0].meshes = {0, 1};
-    RayScene rays(scene);
-    rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+    RayScene rays = place(scene);
     EXPECT_EQ(instance_at(rays, 0.0f, 0.0f), no_index);
     EXPECT_EQ(rays.degenerate_triangles(), 0u);
 }

@@ -29,7 +29,7 @@ class ClosedSphere {
     /// The rays that meet nothing.
     std::vector<Ray> find_misses(const std::vector<Ray>& rays) const {
         std::vector<Hit> hits(rays.size());
-        Tracer(rays_).intersect(rays, hits, false);
+        Tracer(rays_).intersect(rays, hits);
         std::vector<Ray> misses;
         for (std::size_t i = 0; i < rays.size(); ++i)
             if (hits[i].instance == no_index) misses.push_back(rays[i]);

@@ -38,11 +38,6 @@ Scene make_scene() {
     return scene;
 }
 
-int hit_instance(const RayScene& rays) {
-    Ray ray{.origin = {0.1f, 0.2f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
-    return Tracer(rays).intersect(ray).instance;
-}
-
 TEST(EmbreeMemory, EveryRefusedAllocationIsReported) {
     const Scene scene = make_scene();
     const ScenePose posed = pose(scene, 0.5);
@@ -52,7 +47,7 @@ TEST(EmbreeMemory, EveryRefusedAllocationIsReported) {
         try {
             RayScene rays = make_rays(scene, budget);
             rays.update(posed, glm::dvec3(0.0));
-            EXPECT_EQ(hit_instance(rays), 0);
+            EXPECT_EQ(instance_at(rays, 0.1f, 0.2f), 0);
             break;
         } catch (const std::bad_alloc&) {
             ++refused;

@@ -2,6 +2,7 @@
 // Rays for the tests, and scenes of rays with a device of their own.
 
 #include "engine/pose/plan.h"
+#include "engine/pose/pose.h"
 #include "engine/rays/state.h"
 #include "tests/support/test.h"
 
@@ -12,20 +13,42 @@ inline Ray ray_down(float x, float y) {
     return {.origin = {x, y, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
 }
 
+/// The rays of a scene as posed, relative to the origin of the world.
+inline RayScene place(const Scene& scene, double seconds = 0.0) {
+    RayScene rays(scene);
+    rays.update(pose(scene, seconds), glm::dvec3(0.0));
+    return rays;
+}
+
+/// In packets, or one by one.
+inline std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays, bool in_packets = true,
+                              Blend blend = Blend::cutout) {
+    std::vector<Hit> hits(rays.size());
+    Tracer tracer(scene, blend);
+    if (in_packets) {
+        tracer.intersect(rays, hits);
+    } else {
+        std::ranges::transform(rays, hits.begin(), [&](const Ray& ray) { return tracer.intersect(ray); });
+    }
+    return hits;
+}
+
+/// 1 for each ray that meets something.
+inline std::vector<std::uint8_t> find_blocked(const RayScene& scene, const std::vector<Ray>& rays,
+                                              Blend blend = Blend::cutout) {
+    std::vector<std::uint8_t> blocked(rays.size());
+    Tracer tracer(scene, blend);
+    std::ranges::transform(rays, blocked.begin(), [&](const Ray& ray) { return tracer.occluded(ray); });
+    return blocked;
+}
+
 /// The instance that a ray meets, which must be the same alone and in packets, and for occlusion.
 inline int instance_at(const RayScene& scene, float x, float y) {
     Tracer tracer(scene);
     const std::vector<Ray> rays(17, ray_down(x, y));
     const int alone = tracer.intersect(rays[0]).instance;
     EXPECT_EQ(tracer.occluded(rays[0]), alone != no_index);
-    for (const bool coherent : {false, true}) {
-        std::vector<Hit> hits(rays.size());
-        tracer.intersect(rays, hits, coherent);
-        for (const Hit& hit : hits) EXPECT_EQ(hit.instance, alone);
-    }
-    std::vector<std::uint8_t> blocked(rays.size());
-    tracer.occluded(rays, blocked);
-    for (const std::uint8_t b : blocked) EXPECT_EQ(b != 0, alone != no_index);
+    for (const Hit& hit : trace(scene, rays)) EXPECT_EQ(hit.instance, alone);
     return alone;
 }
 

@@ -13,13 +13,6 @@ std::vector<Ray> make_rays(std::size_t count) {
     return rays_through_square(count, {0.5f, 0.25f, 9.0f}, 4.0f, 5);
 }
 
-std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays) {
-    Tracer tracer(scene);
-    std::vector<Hit> hits(rays.size());
-    tracer.intersect(rays, hits, false);
-    return hits;
-}
-
 /// Deforming meshes are traced in object space, those that stand still in the flat tree's.
 bool is_same_but_for_rounding(const Hit& a, const Hit& b) {
     return a.instance == b.instance && a.primitive == b.primitive && std::abs(a.u - b.u) < 1e-3f &&
@@ -53,20 +46,15 @@ Scene freeze(const Scene& scene, double seconds) {
 TEST(RayDeform, HitsAreThoseOfTheMovedTriangles) {
     const Scene scene = make_everything_scene();
     const PosePlan plan = make_pose_plan(scene);
-    RayScene rays(scene), moving(scene);
+    RayScene rays(scene);
     ScenePose frame = pose(scene, 0.0);
     const std::vector<Ray> asked = make_rays(4000);
     for (const double seconds : {0.0, 0.4, 0.8, 2.0, 1.0, 0.1}) {
         SCOPED_TRACE(seconds);
         update_pose(scene, plan, seconds, frame);
         rays.update(frame, glm::dvec3(0.0));
-        moving.update_moving(frame, glm::dvec3(0.0));
         const Scene frozen = freeze(scene, seconds);
-        RayScene expected(frozen);
-        expected.update(pose(frozen, 0.0), glm::dvec3(0.0));
-        const std::vector<Hit> hits = trace(rays, asked);
-        EXPECT_EQ(hits, trace(moving, asked));
-        const std::vector<Hit> of_frozen = trace(expected, asked);
+        const std::vector<Hit> hits = trace(rays, asked), of_frozen = trace(place(frozen), asked);
         std::size_t met = 0, different = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             met += hits[i].instance != no_index;
@@ -84,11 +72,10 @@ TEST(RayDeform, ATornMeshIsBuiltAnewAndStillMet) {
     add_cache(scene, 0, {0.0, 1.0}, [&](const glm::vec3& p, std::size_t sample) {
         return sample == 0 ? p : glm::vec3(anywhere(random), anywhere(random), anywhere(random));
     });
-    RayScene refitted(scene), fresh(scene);
+    RayScene refitted(scene);
     for (const double seconds : {0.0, 0.01, 0.2, 0.6, 1.0}) refitted.update(pose(scene, seconds), glm::dvec3(0.0));
-    fresh.update(pose(scene, 1.0), glm::dvec3(0.0));
     const std::vector<Ray> rays = make_rays(5000);
-    EXPECT_EQ(trace(refitted, rays), trace(fresh, rays));
+    EXPECT_EQ(trace(refitted, rays), trace(place(scene, 1.0), rays));
 }
 
 TEST(RayDeform, ScenesThatShareMeshesDeformAlone) {
@@ -99,7 +86,7 @@ TEST(RayDeform, ScenesThatShareMeshesDeformAlone) {
     RayScene now(scene), next = now.share_meshes();
     EXPECT_EQ(now.update(pose(scene, 0.0), glm::dvec3(0.0)), 1u);
     EXPECT_EQ(next.update(pose(scene, 1.0), glm::dvec3(0.0)), 1u);
-    Ray ray{.origin = {0.1f, 0.2f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
+    const Ray ray = ray_down(0.1f, 0.2f);
     EXPECT_FLOAT_EQ(Tracer(now).intersect(ray).distance, 5.0f);
     EXPECT_FLOAT_EQ(Tracer(next).intersect(ray).distance, 4.0f);
     EXPECT_EQ(next.update(pose(scene, 1.0), glm::dvec3(0.0)), 0u);
@@ -117,7 +104,7 @@ TEST(RayDeform, MeshesComeAndGoBesideOthersOfTheirNode) {
     scene.meshes[1].present = keyed<double>({0.0, 1.0}, {0.0, 1.0}, Interpolation::step);
     for (glm::vec3& p : scene.meshes[2].positions) p.z = -1.0f;
     RayScene rays(scene);
-    Ray ray{.origin = {0.1f, 0.2f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
+    const Ray ray = ray_down(0.1f, 0.2f);
     for (const auto& [seconds, instance] : {std::pair(0.5, 0), {1.5, 1}, {0.0, 0}}) {
         rays.update(pose(scene, seconds), glm::dvec3(0.0));
         EXPECT_EQ(Tracer(rays).intersect(ray).instance, instance);
@@ -138,11 +125,11 @@ TEST(RayDeform, UpdatesTouchOnlyWhatMoves) {
     EXPECT_EQ(plan.instances.size(), 6u);
     ScenePose frame = pose(scene, 0.0);
     RayScene rays(scene);
-    EXPECT_EQ(rays.update_moving(frame, glm::dvec3(0.0)), 601u);  // the first time everything
+    EXPECT_EQ(rays.update(frame, glm::dvec3(0.0)), 601u);  // the first time everything
     update_pose(scene, plan, 0.5, frame);
-    EXPECT_EQ(rays.update_moving(frame, glm::dvec3(0.0)), 6u);
-    EXPECT_EQ(rays.update_moving(frame, glm::dvec3(0.0)), 0u);
-    EXPECT_EQ(rays.update_moving(frame, glm::dvec3(16.0, 0.0, 0.0)), 601u);
+    EXPECT_EQ(rays.update(frame, glm::dvec3(0.0)), 6u);
+    EXPECT_EQ(rays.update(frame, glm::dvec3(0.0)), 0u);
+    EXPECT_EQ(rays.update(frame, glm::dvec3(16.0, 0.0, 0.0)), 601u);
     RayScene fresh(scene);
     fresh.update(frame, glm::dvec3(16.0, 0.0, 0.0));
     const std::vector<Ray> asked = make_rays(3000);

@@ -39,7 +39,7 @@ TEST(LambertHit, IsTheSurfaceOfTheFullWay) {
     Tracer tracer(stage.rays);
     std::vector<Hit> hits(rays.size());
     std::vector<glm::vec3> normals(rays.size());
-    tracer.intersect(rays, hits, true, normals);
+    tracer.intersect(rays, hits, normals);
     int met[2] = {};
     bool varied = false;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -38,6 +38,7 @@ struct DraftProperty {
     std::string metadata;
     std::vector<DraftProperty> children;  ///< of a compound
     std::int64_t claimed_samples = -1;    ///< in place of the true number
+    std::uint64_t group = 0;              ///< of the draft, in place of one for the samples
 };
 
 template <class T>
@@ -45,6 +46,14 @@ DraftProperty draft_array(const std::string& name, DraftProperty::Type type, std
                           const std::vector<std::vector<T>>& samples, const std::string& metadata = "") {
     DraftProperty p{name, DraftProperty::array, type, extent, {}, samples.size() > 1 ? 1u : 0u, metadata, {}, -1};
     for (const auto& sample : samples) p.samples.push_back(bytes_of(sample));
+    return p;
+}
+/// A scalar property; every sample has the numbers of one element.
+template <class T>
+DraftProperty draft_scalar(const std::string& name, DraftProperty::Type type,
+                           const std::vector<std::vector<T>>& samples) {
+    DraftProperty p = draft_array<T>(name, type, static_cast<std::uint32_t>(samples.front().size()), samples);
+    p.kind = DraftProperty::scalar;
     return p;
 }
 inline DraftProperty draft_text(const std::string& name, const std::string& value) {
@@ -87,7 +96,9 @@ class OgawaDraft {
         std::vector<std::uint64_t> children;
         DraftBytes headers;
         for (const DraftProperty& p : properties) {
-            children.push_back(p.kind == DraftProperty::compound ? add_compound(p.children) : add_samples(p));
+            children.push_back(p.group != 0                        ? p.group
+                               : p.kind == DraftProperty::compound ? add_compound(p.children)
+                                                                   : add_samples(p));
             const std::uint64_t info =
                 p.kind | 2u << 2 | static_cast<std::uint32_t>(p.type) << 4 | 0x100u | p.extent << 12 | 255u << 20;
             put(headers, info, 4);
@@ -181,6 +192,10 @@ inline DraftObject draft_mesh(const std::string& name, const std::vector<std::ve
     more.push_back(draft_array(".faceCounts", DraftProperty::i32, 1, counts));
     more.push_back(draft_array(".faceIndices", DraftProperty::i32, 1, indices));
     return {name, "schema=AbcGeom_PolyMesh_v1", {draft_compound(".geom", std::move(more))}, {}};
+}
+inline const std::vector<float> draft_points{0, 0, 0, 1, 0, 0, 0, 1, 0};
+inline DraftObject draft_triangle(const std::string& name, std::vector<DraftProperty> more = {}) {
+    return draft_mesh(name, {draft_points}, {{3}}, {{0, 1, 2}}, std::move(more));
 }
 inline DraftObject draft_subd(const std::string& name, const std::vector<std::vector<float>>& points,
                               const std::vector<std::vector<int>>& counts, const std::vector<std::vector<int>>& indices,

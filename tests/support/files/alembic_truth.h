@@ -35,7 +35,10 @@ inline const json& object_of(const json& truth, const std::string& path) {
 }
 
 /// Tests with a parameter: the name of an archive.
-class AlembicTruth : public testing::TestWithParam<std::string> {};
+class AlembicTruth : public testing::TestWithParam<std::string> {
+  protected:
+    const json truth = truth_of(GetParam());
+};
 
 /// Our own, and the others that are there.
 inline std::vector<std::string> all_archives() {
