@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "engine/base/parallel.h"
 #include "engine/scene/scene_hash.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
+#include "render/study/reference_picture.h"
 #include "render/study/run_store.h"
 #include "render/study/threshold_noise.h"
 #include "render/study/visible_metrics.h"
@@ -62,7 +62,7 @@ class StudyRunner {
             results_.variants.push_back(std::move(result));
         }
         results_.judges = study_.judges;
-        find_front(results_.variants, "processor_seconds", "share_seen");
+        find_front(results_.variants);
         return std::move(results_);
     }
 
@@ -72,7 +72,7 @@ class StudyRunner {
         work_ /= static_cast<double>(part.count);
         for (const PreparedStudyScene& scene : prepared_.scenes) {
             for (const int frame : scene.frames) {
-                if (is_ours()) find_or_make_reference(scene, frame);
+                if (is_ours()) make_reference(scene, frame);
             }
         }
         for_each_run([&](std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
@@ -136,24 +136,22 @@ class StudyRunner {
         add_viewers(scene, truths);
         for (std::size_t i = 0; i < scene.frames.size(); ++i) {
             JudgingFrame& frame = results_.frames[first + i];
-            std::tie(truths[i].reference, frame.reference) = find_or_make_reference(scene, scene.frames[i]);
+            ReferencePicture reference = make_reference(scene, scene.frames[i]);
+            truths[i].reference = std::move(reference.picture);
+            frame.reference = std::move(reference.file);
             frame.quality = measure_reference(truths[i]);
             frame.thresholds = truths[i].thresholds;
         }
         return truths;
     }
 
-    /// @return the reference and its file
-    std::pair<ChannelImage, std::filesystem::path> find_or_make_reference(const PreparedStudyScene& scene, int frame) {
-        const SceneWithSettings own = with_settings_of(scene, study_, study_.reference.settings);
-        const ReferencePictureOptions options =
-            reference_options(scene, study_, (store_.folder() / "references").string());
-        const auto show_passes = [&](double passes) {
-            show(frames_per_pass * passes, fmt::format("reference of {} {}", scene.name, frame));
-        };
-        ChannelImage reference = load_or_render_reference_picture(own.scene, own.settings, frame, options, show_passes);
+    ReferencePicture make_reference(const PreparedStudyScene& scene, int frame) {
+        ReferencePicture reference =
+            find_or_make_reference(scene, study_, frame, store_.folder() / "references", [&](double passes) {
+                show(frames_per_pass * passes, fmt::format("reference of {} {}", scene.name, frame));
+            });
         done_ += frames_per_pass * study_.reference.passes;
-        return {std::move(reference), reference_picture_path(own.settings, frame, options)};
+        return reference;
     }
 
     std::optional<ThresholdNoise> noise_of(std::size_t v) const {
@@ -203,7 +201,6 @@ class StudyRunner {
         own.settings.seed = seed;
         RunName name{scene.name, variant.name, identity(own, scene.frames), seed, repeat};
         MeasuredRun run;
-        run.repeat = repeat;
         const std::string what = fmt::format("{}: {}", scene.name, variant.name);
         if (auto finished = store_.find(name, scene.frames)) {
             run.frames = std::move(*finished);
@@ -230,14 +227,12 @@ class StudyRunner {
     /// From the files, so that a study that went on has the numbers of one that was never stopped.
     /// @param exact  the pictures were made from the references: noise of these is no part of their differences
     void measure(std::size_t s, MeasuredRun& run, bool exact = false) const {
-        std::vector<FrameTruth> without_noise;
-        if (exact) without_noise = truths_[s];
-        for (FrameTruth& truth : without_noise) {
-            std::erase_if(truth.reference.channels, [](const Channel& channel) {
-                return channel.name.starts_with("noise.") || channel.name == "variance.Y";
+        std::vector<FrameTruth> truths = truths_[s];
+        for (FrameTruth& truth : truths) {
+            std::erase_if(truth.reference.channels, [&](const Channel& channel) {
+                return exact && (channel.name.starts_with("noise.") || channel.name == "variance.Y");
             });
         }
-        const std::vector<FrameTruth>& truths = exact ? without_noise : truths_[s];
         for (std::size_t i = 0; i < run.frames.size(); ++i)
             run.errors.push_back(measure_errors(read_image(run.pictures[i]), truths[i], prepared_.metrics));
         std::size_t first = 0;
@@ -252,11 +247,8 @@ class StudyRunner {
     }
 
     static std::string identity(const SceneWithSettings& own, const std::vector<int>& frames) {
-        std::string text =
-            fmt::format("{} frames {} threads {}", hash_scene(own.scene), fmt::join(frames, ","), thread_count());
-        for (const auto& [key, value] : setting_map(own.settings))
-            text += fmt::format(" {}={}", key, setting_text(value));
-        return text;
+        return fmt::format("{} frames {} threads {} {}", hash_scene(own.scene), fmt::join(frames, ","), thread_count(),
+                           name_settings(setting_map(own.settings)));
     }
 
     static void keep_channels(ChannelImage& picture) {

@@ -8,18 +8,6 @@ namespace aleph {
 
 namespace {
 
-constexpr const char *cost_metric = "processor_seconds", *error_metric = "share_seen";
-
-CostPoint point_of(const VariantResult& variant) {
-    return {variant.metrics.at(cost_metric).value, variant.metrics.at(error_metric).value};
-}
-
-std::vector<CostPoint> points_of(const std::vector<VariantResult>& variants) {
-    std::vector<CostPoint> points;
-    for (const VariantResult& variant : variants) points.push_back(point_of(variant));
-    return points;
-}
-
 /// Pixels to render: for progress alone.
 double work_of(const PreparedStudy& prepared, const SearchRound& round) {
     constexpr double renderings_per_pass = 4.0;
@@ -86,9 +74,10 @@ class Search {
             const StudyResults results = run_round(study, r, rounds[r]);
             results_.made += results.made;
             results_.found += results.found;
+            std::vector<CostPoint> points;
+            for (const VariantResult& variant : results.variants) points.push_back(find_point(variant).value());
             std::vector<StudyVariant> kept;
-            for (const std::size_t i : keep_best(points_of(results.variants), rounds[r + 1].candidates))
-                kept.push_back(std::move(left[i]));
+            for (const std::size_t i : keep_best(points, rounds[r + 1].candidates)) kept.push_back(std::move(left[i]));
             left = std::move(kept);
         }
         std::vector<StudyVariant> last = prepared_.variants;
@@ -136,7 +125,7 @@ std::vector<VariantResult> variants_of_scene(const StudyResults& results, const 
         average_frames(own);
         variants.push_back(std::move(own));
     }
-    find_front(variants, cost_metric, error_metric);
+    find_front(variants);
     return variants;
 }
 
@@ -149,7 +138,7 @@ std::vector<SceneSearch> summarize_search(const PreparedStudy& prepared, const S
         for (const VariantResult& variant : variants_of_scene(results, scene.name)) {
             const bool searched =
                 std::ranges::find(prepared.candidates, variant.name, &StudyVariant::name) != prepared.candidates.end();
-            (searched ? fixed : own).push_back({variant.name, variant.settings, point_of(variant)});
+            (searched ? fixed : own).push_back({variant.name, variant.settings, find_point(variant).value()});
         }
         std::vector<CostPoint> points;
         for (const SearchedPoint& point : fixed) points.push_back(point.point);

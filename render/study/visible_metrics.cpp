@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/compare/reference_passes.h"
+
 namespace aleph {
 
 namespace {

@@ -238,6 +238,5 @@ int main(int argc, char** argv) {
     app.add_option("scene", options.scene, "a scene file")->required();
     aleph::add_value(app, "--frame", options.frame, "the first of two frames");
     app.add_option("-o,--output", options.picture, "file of the picture, .png or .jpg")->capture_default_str();
-    aleph::add_study_program_options(app, options.study);
     return aleph::run_study_program(app, options.study, argc, argv, [&] { return aleph::run_motion(options); });
 }

@@ -1,5 +1,5 @@
 // Labelled form controls.
-import { make } from './dom.js';
+import { fill, make } from './dom.js';
 
 let count = 0;
 
@@ -46,17 +46,18 @@ export function slider(title, range, onInput) {
  */
 export function choice(title, options, value, onChange) {
   const name = `choice-${++count}`;
-  return make('fieldset', { class: 'control choice' }, make('legend', {}, title),
+  return make('fieldset', { class: 'control' }, make('legend', {}, title),
     make('span', { class: 'segments' }, ...options.map(([key, text]) => make('label', {},
       make('input', { type: 'radio', name, value: key, checked: key === value, onchange: () => onChange(key) }),
       make('span', {}, text)))));
 }
 
-/** @param {string} title @param {boolean} value @param {(value: boolean) => void} onChange */
-export function toggle(title, value, onChange) {
-  return make('label', { class: 'control check' },
-    make('input', { type: 'checkbox', checked: value, onchange: event => onChange(event.target.checked) }),
-    make('span', {}, title));
+/** Makes controls anew in their place; the focus stays where it was. @param {HTMLElement} holder @param {...(Node|null)} controls */
+export function refill(holder, ...controls) {
+  const { name, type, value } = holder.contains(document.activeElement) ? document.activeElement : {};
+  fill(holder, ...controls);
+  const isSame = node => type === 'radio' ? node.type === type && node.value === value : node.name === name;
+  if (name) [...holder.querySelectorAll('[name]')].find(isSame)?.focus();
 }
 
 /** @param {string} text @param {() => void} onClick @param {string} [label] for screen readers */

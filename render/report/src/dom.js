@@ -20,6 +20,19 @@ export function make(tag, properties = {}, ...children) {
   return node;
 }
 
+/**
+ * Makes a table whose rows begin with a head.
+ * @param {Array<[string, string?]>} heads  titles, and the classes of their columns
+ * @param {Array<{cells: Array<Node|string|number>}>} rows  with properties of the row beside its cells
+ */
+export function makeTable(properties, heads, rows) {
+  const body = rows.map(({ cells: [first, ...others], ...row }) => make('tr', row, make('th', { scope: 'row' }, first),
+    ...others.map((cell, i) => make('td', { class: heads[i + 1][1] }, cell))));
+  return make('table', properties,
+    make('thead', {}, make('tr', {}, ...heads.map(([title, name]) => make('th', { scope: 'col', class: name }, title)))),
+    make('tbody', {}, ...body));
+}
+
 /** @param {string} id */
 export function byId(id) {
   return document.getElementById(id);

@@ -26,10 +26,7 @@ function halfValues() {
 
 function decodeBase64(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-  const binary = atob(text);
-  const bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
-  return bytes;
+  return Uint8Array.from(atob(text), character => character.charCodeAt(0));
 }
 
 async function inflate(packed) {
@@ -38,7 +35,7 @@ async function inflate(packed) {
 }
 
 /** Values of shuffled bytes. @param {Uint8Array} shuffled @param {number} count @param {"f16"|"f32"} type */
-export function unshuffle(shuffled, count, type) {
+function unshuffle(shuffled, count, type) {
   const values = new Float32Array(count);
   if (type === 'f16') {
     const table = halfValues();
@@ -55,10 +52,9 @@ export function unshuffle(shuffled, count, type) {
 async function decode(layer) {
   const text = byId(layer.element)?.textContent;
   if (!text) throw new Error(`the layer ${layer.element} is missing`);
-  const packed = decodeBase64(text.trim());
   const count = layer.width * layer.height * layer.channels;
   const size = layer.type === 'f16' ? 2 : 4;
-  const shuffled = await inflate(packed);
+  const shuffled = await inflate(decodeBase64(text.trim()));
   if (shuffled.length !== count * size) throw new Error(`the layer ${layer.element} is damaged`);
   return { width: layer.width, height: layer.height, channels: layer.channels, values: unshuffle(shuffled, count, layer.type) };
 }

@@ -31,8 +31,7 @@ export function listMaps(study) {
     }
   }
   if (hasReference) computed.push(differenceMap);
-  const kept = study.maps.filter(map => stored(map.name))
-    .map(map => ({ ...map, key: map.name, low: map.low ?? undefined, high: map.high ?? undefined }));
+  const kept = study.maps.filter(map => stored(map.name)).map(map => ({ ...map, key: map.name }));
   return [{ group: computedTitle, maps: computed }, { group: 'Stored', maps: kept }].filter(entry => entry.maps.length > 0);
 }
 
@@ -53,11 +52,6 @@ function neededLayers(study, map, id, frame) {
   return Object.values(layers).every(Boolean) ? layers : null;
 }
 
-/** All layers that a pane with a map reads. */
-export function layersOf(study, map, id, frame) {
-  return Object.values(neededLayers(study, map, id, frame) ?? {});
-}
-
 /**
  * A map of one pane: {width, height, values}, with the number of pixels `beyond` one threshold for an error,
  * and `counts` of pixels for a disagreement; null if it has none there.
@@ -66,9 +60,7 @@ export function layersOf(study, map, id, frame) {
 export async function makeMap(study, map, id, frame) {
   const needed = neededLayers(study, map, id, frame);
   if (!needed) return null;
-  const names = Object.keys(needed);
-  const layers = Object.fromEntries((await Promise.all(names.map(name => readLayer(needed[name]))))
-    .map((layer, i) => [names[i], layer]));
+  const layers = Object.fromEntries(await Promise.all(Object.entries(needed).map(async ([name, layer]) => [name, await readLayer(layer)])));
   if (layers.stored) return layers.stored;
 
   const { width, height } = layers.picture;
@@ -82,7 +74,7 @@ export async function makeMap(study, map, id, frame) {
 }
 
 /** Luminance of a picture minus that of the reference, in cd/m². */
-export function luminanceError(picture, reference, displayWhite) {
+function luminanceError(picture, reference, displayWhite) {
   const error = luminance(picture);
   const wanted = luminance(reference);
   for (let i = 0; i < error.length; ++i) error[i] = (error[i] - wanted[i]) * displayWhite;

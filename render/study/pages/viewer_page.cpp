@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "render/compare/compare_luminance.h"
 #include "render/study/pages/script_json.h"
@@ -94,7 +93,6 @@ Json describe_tests(const StudyResults& results, const std::string& scene, const
 
 std::string make_viewer_test(std::string_view page, const PreparedStudy& prepared, const StudyResults& results,
                              const StudyContext& context) {
-    constexpr std::string_view place = "<!-- TEST DATA -->";
     const RenderSettings settings = with_settings_of(prepared.scenes.front(), prepared.study, {}).settings;
     Json json{{"schema_version", 2},
               {"title", prepared.study.title},
@@ -120,10 +118,8 @@ std::string make_viewer_test(std::string_view page, const PreparedStudy& prepare
         }
     }
     std::string text(page);
-    const std::size_t at = text.find(place);
-    ALEPH_CHECK(at != std::string::npos, std::string(place));
-    return text.replace(at, place.size(),
-                        "<script id=\"test\" type=\"application/json\">" + script_json(json) + "</script>");
+    insert(text, "<!-- TEST DATA -->", script_json("test", json));
+    return text;
 }
 
 }  // namespace aleph

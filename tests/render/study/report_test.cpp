@@ -6,6 +6,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "engine/gltf/files.h"
 #include "engine/image/image_file.h"
 #include "render/study/pages/report_layers.h"
 #include "render/study/pages/report_page.h"
@@ -20,30 +21,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string decode_base64(const std::string& text) {
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : text) {
-        const std::size_t digit = digits.find(c);
-        if (digit == std::string::npos) break;
-        bits = bits << 6 | static_cast<std::uint32_t>(digit);
-        count += 6;
-        if (count >= 8) out += static_cast<char>(bits >> (count -= 8) & 255);
-    }
-    return out;
-}
-
 /// The values of a layer, read as report_layers.h describes it.
 std::vector<float> decode(const std::string& text, std::size_t count, LayerType type) {
     const std::size_t width = type == LayerType::f16 ? 2 : 4;
-    const std::string packed = decode_base64(text);
+    const Bytes packed = decode_data_uri("data:;base64," + text, "", "").bytes;
     std::string bytes(count * width, '\0');
     uLongf size = bytes.size();
-    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
-                         packed.size()),
-              Z_OK);
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, packed.data(), packed.size()), Z_OK);
     EXPECT_EQ(size, bytes.size());
     std::vector<float> values;
     for (std::size_t i = 0; i < count; ++i) {
