@@ -1,7 +1,6 @@
 #include "render/plan/effect_facts.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/parallel.h"
 #include "engine/scene/transforms.h"

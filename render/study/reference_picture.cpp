@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "engine/base/errors.h"
 #include "engine/scene/scene_hash.h"
 #include "render/frame/sequence.h"

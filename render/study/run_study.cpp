@@ -38,10 +38,10 @@ class StudyRunner {
   public:
     StudyRunner(const PreparedStudy& prepared, const std::filesystem::path& folder, const StudyProgress& progress)
         : prepared_(prepared), study_(prepared.study), store_(folder), progress_(progress) {
-        for (const PreparedStudyScene& scene : prepared.scenes) {
-            const auto frames = static_cast<double>(scene.frames.size());
-            work_ += frames * (frames_per_pass * study_.reference.passes + static_cast<double>(runs_of_scene()));
-        }
+        const double runs =
+            static_cast<double>(prepared.variants.size() * study_.runs.seeds.size()) * study_.runs.repeats;
+        for (const PreparedStudyScene& scene : prepared.scenes)
+            work_ += static_cast<double>(scene.frames.size()) * (frames_per_pass * study_.reference.passes + runs);
     }
 
     StudyResults run() {
@@ -49,16 +49,23 @@ class StudyRunner {
         std::vector<std::vector<std::vector<MeasuredRun>>> runs(
             prepared_.variants.size(), std::vector<std::vector<MeasuredRun>>(prepared_.scenes.size()));
         for_each_run([&](std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
-            if (is_made(v) || runs[v][s].empty()) runs[v][s].push_back(find_or_make(v, s, seed, repeat, repeat == 0));
+            if (!is_made(v) && !runs[v][s].empty()) return;
+            MeasuredRun& run =
+                runs[v][s].emplace_back(is_made(v) ? find_or_make(v, s, seed, repeat) : take_pictures(v, s));
+            if (repeat == 0) measure(s, run, noise_of(v).has_value());
         });
         for (std::size_t v = 0; v < runs.size(); ++v) {
             VariantResult result{prepared_.variants[v].name, prepared_.variants[v].settings, {}, {}, false};
             for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
                 std::ranges::move(summarize_runs(prepared_.scenes[s].name, runs[v][s]),
                                   std::back_inserter(result.frames));
+            if (study_.runs.seeds.size() > 1 && is_made(v)) {
+                std::vector<std::string> other;
+                for (const std::vector<MeasuredRun>& seeds : runs[v])
+                    std::ranges::copy(seeds.at(1).pictures, std::back_inserter(other));
+                add_seed_metrics(results_.frames, other, result.frames);
+            }
             average_frames(result);
-            if (study_.runs.seeds.size() > 1 && is_made(v))
-                add_seed_metrics(results_.frames, pictures_of(runs[v], 0), pictures_of(runs[v], 1), result);
             results_.variants.push_back(std::move(result));
         }
         results_.judges = study_.judges;
@@ -76,7 +83,7 @@ class StudyRunner {
             }
         }
         for_each_run([&](std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
-            if (is_made(v) && is_ours()) find_or_make(v, s, seed, repeat, false);
+            if (is_made(v) && is_ours()) find_or_make(v, s, seed, repeat);
         });
     }
 
@@ -90,18 +97,6 @@ class StudyRunner {
                 }
             }
         }
-    }
-
-    /// Lists the pictures of a seed, by its number, in all scenes.
-    static std::vector<std::string> pictures_of(const std::vector<std::vector<MeasuredRun>>& scenes, std::size_t seed) {
-        std::vector<std::string> pictures;
-        for (const std::vector<MeasuredRun>& runs : scenes)
-            pictures.insert(pictures.end(), runs.at(seed).pictures.begin(), runs.at(seed).pictures.end());
-        return pictures;
-    }
-
-    std::size_t runs_of_scene() const {
-        return prepared_.variants.size() * study_.runs.seeds.size() * static_cast<std::size_t>(study_.runs.repeats);
     }
 
     void show(double more, const std::string& what) const {
@@ -175,7 +170,6 @@ class StudyRunner {
             run.pictures.push_back(noise ? write_noisy(variant, s, i, *noise)
                                          : variant.pictures.at(scene.frames[i]).string());
         }
-        measure(s, run, noise.has_value());
         return run;
     }
 
@@ -192,11 +186,9 @@ class StudyRunner {
         return file.string();
     }
 
-    /// @param judged  its pictures are compared with the references
-    MeasuredRun find_or_make(std::size_t v, std::size_t s, std::uint32_t seed, int repeat, bool judged) {
+    MeasuredRun find_or_make(std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
         const PreparedStudyScene& scene = prepared_.scenes[s];
         const StudyVariant& variant = prepared_.variants[v];
-        if (!is_made(v)) return take_pictures(v, s);
         SceneWithSettings own = with_settings_of(scene, study_, variant.settings);
         own.settings.seed = seed;
         RunName name{scene.name, variant.name, identity(own, scene.frames), seed, repeat};
@@ -218,15 +210,14 @@ class StudyRunner {
         }
         done_ += static_cast<double>(scene.frames.size());
         show(0.0, what);
-        if (!judged) return run;
         for (const FrameRun& frame : run.frames) run.pictures.push_back(store_.picture(name, frame.frame).string());
-        measure(s, run);
         return run;
     }
 
-    /// From the files, so that a study that went on has the numbers of one that was never stopped.
+    /// Compares its pictures with the references: from the files, so that a study that went on has the numbers of one
+    /// that was never stopped.
     /// @param exact  the pictures were made from the references: noise of these is no part of their differences
-    void measure(std::size_t s, MeasuredRun& run, bool exact = false) const {
+    void measure(std::size_t s, MeasuredRun& run, bool exact) const {
         std::vector<FrameTruth> truths = truths_[s];
         for (FrameTruth& truth : truths) {
             std::erase_if(truth.reference.channels, [&](const Channel& channel) {

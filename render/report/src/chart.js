@@ -6,7 +6,6 @@ import { settingText, withUnit } from './format.js';
 import { select, toggleSelected } from './selection.js';
 import { drawChart, onResize, rampColor, seriesColors } from './vega_view.js';
 
-/** @param {object} study @param {object} store */
 export function showChart(study, store) {
   const node = byId('chart');
   const { values } = store;

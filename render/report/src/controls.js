@@ -3,13 +3,7 @@ import { fill, make } from './dom.js';
 
 let count = 0;
 
-/**
- * A menu. `options` are [value, title] pairs, or {group, options} for a group of them.
- * @param {string} title
- * @param {Array<[string, string]|{group: string, options: Array<[string, string]>}>} options
- * @param {string} value
- * @param {(value: string) => void} onChange
- */
+/** A menu. `options` are [value, title] pairs, or {group, options} for a group of them. */
 export function menu(title, options, value, onChange) {
   const option = ([key, text]) => make('option', { value: key, selected: key === value }, text);
   const nodes = options.map(entry => Array.isArray(entry)
@@ -20,9 +14,7 @@ export function menu(title, options, value, onChange) {
 
 /**
  * A slider with its value as text.
- * @param {string} title
  * @param {{min: number, max: number, step: number, value: number, show: (value: number) => string}} range
- * @param {(value: number) => void} onInput
  */
 export function slider(title, range, onInput) {
   const output = make('output', {}, range.show(range.value));
@@ -37,13 +29,7 @@ export function slider(title, range, onInput) {
   return make('label', { class: 'control' }, make('span', {}, title, ' ', output), input);
 }
 
-/**
- * A few alternatives, of which one holds.
- * @param {string} title
- * @param {Array<[string, string]>} options
- * @param {string} value
- * @param {(value: string) => void} onChange
- */
+/** A few alternatives, of which one holds. @param {Array<[string, string]>} options  values and titles */
 export function choice(title, options, value, onChange) {
   const name = `choice-${++count}`;
   return make('fieldset', { class: 'control' }, make('legend', {}, title),
@@ -60,7 +46,7 @@ export function refill(holder, ...controls) {
   if (name) [...holder.querySelectorAll('[name]')].find(isSame)?.focus();
 }
 
-/** @param {string} text @param {() => void} onClick @param {string} [label] for screen readers */
+/** @param {string} [label]  for screen readers */
 export function button(text, onClick, label) {
   return make('button', { type: 'button', 'aria-label': label, title: label, onclick: onClick }, text);
 }

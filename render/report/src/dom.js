@@ -2,11 +2,7 @@
 
 /**
  * Makes an element. Properties that start with "on" are listeners; null and false leave a property out.
- * Children are nodes or text; text is never read as HTML.
- * @param {string} tag
- * @param {Object<string, any>} [properties]
- * @param {...(Node|string|number|null)} children
- * @returns {HTMLElement}
+ * @param {...(Node|string|number|null)} children  text is never read as HTML
  */
 export function make(tag, properties = {}, ...children) {
   const node = document.createElement(tag);
@@ -33,17 +29,16 @@ export function makeTable(properties, heads, rows) {
     make('tbody', {}, ...body));
 }
 
-/** @param {string} id */
 export function byId(id) {
   return document.getElementById(id);
 }
 
-/** Replaces what an element holds. @param {Element} node @param {...(Node|string|null)} children */
+/** Replaces what an element holds. */
 export function fill(node, ...children) {
   node.replaceChildren(...children.filter(child => child !== null && child !== undefined));
 }
 
-/** Tells screen readers of a change. @param {string} text */
+/** Tells screen readers of a change. */
 export function announce(text) {
   byId('live').textContent = text;
 }

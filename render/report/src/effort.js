@@ -10,7 +10,6 @@ const charts = [
 
 const mostBars = 24;
 
-/** @param {object} study @param {object} store */
 export function showEffort(study, store) {
   const holder = byId('bars');
   const nodes = charts.map(chart => make('figure', { class: 'chart', role: 'img', 'aria-label': `${chart.title}, for each frame of the selected variants` }));

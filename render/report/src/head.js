@@ -6,7 +6,6 @@ const line = parts => parts.filter(part => part !== undefined && part !== null &
 
 const counted = (count, one, many = `${one}s`) => `${count} ${count === 1 ? one : many}`;
 
-/** @param {object} study */
 export function showHead(study) {
   document.title = study.title ?? 'Study';
   fill(byId('title'), study.title ?? 'Study');

@@ -2,7 +2,6 @@
 import { byId, fill, make, makeTable } from './dom.js';
 import { number, withError } from './format.js';
 
-/** @param {object} study */
 export function showLedger(study) {
   fill(byId('ledger-body'), ...study.ledger.map(sceneTable));
 }

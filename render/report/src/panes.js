@@ -18,12 +18,7 @@ function canvasOf(imageData) {
   return canvas;
 }
 
-/**
- * Shows the panes, and keeps them as the store says.
- * @param {object} study
- * @param {object} store
- * @param {Array<{group: string, maps: object[]}>} groups  of listMaps
- */
+/** Shows the panes, and keeps them as the store says. @param {Array<{group: string, maps: object[]}>} groups  of listMaps */
 export function showPanes(study, store, groups) {
   const size = { width: study.width, height: study.height };
   const maps = groups.flatMap(entry => entry.maps);

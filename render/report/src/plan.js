@@ -6,7 +6,6 @@ import { findVariant, variantFrame } from './study.js';
 const heads = [['Effect'], ['Decision'], ['Reason', 'reason'], ['Bound (cd/m²)', 'numeric'], ['Bound (thresholds)', 'numeric']];
 const decisions = { simulate: 'simulated', simplify: 'simplified', skip: 'left out' };
 
-/** @param {object} study @param {object} store */
 export function showPlan(study, store) {
   const node = byId('plan-body');
   const draw = () => {

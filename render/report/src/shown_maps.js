@@ -16,7 +16,7 @@ const differenceMap = { key: 'computed.difference', title: 'Difference of lumina
 export const disagreementTitles = judge => ['not visible', 'visible by both', 'visible by our threshold only', `visible by ${judge} only`];
 const disagreementColors = [7, 2, 0, 5]; // grey, green, blue, orange of the categories
 
-/** The entries of the map menu, in groups. @param {object} study @returns {Array<{group: string, maps: object[]}>} */
+/** The entries of the map menu, in groups. @returns {Array<{group: string, maps: object[]}>} */
 export function listMaps(study) {
   const stored = name => study.pictures.some(frame => frame.maps?.[name])
     || study.variants.some(variant => variant.frames.some(frame => frame.maps?.[name]));
@@ -53,9 +53,8 @@ function neededLayers(study, map, id, frame) {
 }
 
 /**
- * A map of one pane: {width, height, values}, with the number of pixels `beyond` one threshold for an error,
- * and `counts` of pixels for a disagreement; null if it has none there.
- * @param {object} study @param {object} map  of listMaps @param {string|null} id @param {number} frame
+ * A map (of listMaps) of one pane: {width, height, values}, with the number of pixels `beyond` one threshold for an
+ * error, and `counts` of pixels for a disagreement; null if it has none there.
  */
 export async function makeMap(study, map, id, frame) {
   const needed = neededLayers(study, map, id, frame);
@@ -98,10 +97,7 @@ export function disagreementCategories(judge) {
   return disagreementTitles(judge.name).map((title, kind) => [disagreementColors[kind], title]);
 }
 
-/**
- * The range of a map's scale: as chosen, else as stored, else that of the maps shown.
- * @param {object} map @param {{low?: number, high?: number}|undefined} chosen @param {object[]} shown
- */
+/** The range of a map's scale: as chosen, else as stored, else that of the maps shown. */
 export function scaleOf(map, chosen, shown) {
   const scale = { kind: map.scale, low: chosen?.low ?? map.low, high: chosen?.high ?? map.high };
   if (scale.kind === 'category' || (scale.low !== undefined && scale.high !== undefined)) return scale;

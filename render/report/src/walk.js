@@ -7,7 +7,6 @@ import { readLayer, valueAt } from './layers.js';
 import { reference } from './panes.js';
 import { findLayer, findVariant, sharedFrame, variantFrame } from './study.js';
 
-/** @param {object} study @param {object} store */
 export function showWalk(study, store) {
   const node = byId('walk');
   let turn = 0;

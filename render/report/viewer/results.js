@@ -52,10 +52,7 @@ function describeThreshold({ threshold, interval: [low, high] }) {
   return `${threshold.toPrecision(3)} (95 %: ${low ? low.toPrecision(3) : 0} to ${most})`;
 }
 
-/**
- * Rows of all trials, and per series its levels and its function.
- * @param {object[]} all results of viewers
- */
+/** Rows of all trials, and per series its levels and its function. @param {object[]} all results of viewers */
 export function evaluate(all) {
   const rows = summarize(all.flatMap(results => results.trials));
   const series = new Map(all.flatMap(results => results.series).map(one => [one.id, one]));
