@@ -29,7 +29,7 @@ describe('statistics of the viewer test', () => {
     const tests = seen.map(level => ({ scene: 'pool', id: `noise=${level}`, series: 'noise', level }));
     const answered = makeTrials(tests, trials, seed).map(trial =>
       ({ ...trial, answer: random() < weibull(trial.level, scale, slope) ? trial.testInterval : 3 - trial.testInterval }));
-    return { schema_version: 2, made: String(seed), series: [{ id: 'noise', title: 'noise', unit: '', log: true }], frames_dropped: 0, trials: answered };
+    return { schema_version: 2, made: String(seed), series: [{ id: 'noise', title: 'noise', unit: '' }], frames_dropped: 0, trials: answered };
   }
 
   it('finds the threshold of simulated viewers', () => {
@@ -139,7 +139,7 @@ describe('the viewer test', () => {
   });
   const json = JSON.stringify({
     schema_version: 2, title: 'A small <test>', date: '', width: 8, height: 8,
-    series: [{ id: 'error', title: 'asked error', unit: 'visible thresholds', log: true }], scenes: [scene('hall'), scene('pool')],
+    series: [{ id: 'error', title: 'asked error', unit: 'visible thresholds' }], scenes: [scene('hall'), scene('pool')],
   }).replaceAll('<', '\\u003c');
 
   it('goes from set-up to results by keyboard', async () => {

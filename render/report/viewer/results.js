@@ -18,7 +18,7 @@ function svg(tag, attributes, ...children) {
 
 /** Right answers against level, with intervals, the fitted function and chance. */
 function drawChart({ levels, fitted, series }) {
-  const log = series.log && levels.every(row => row.level > 0);
+  const log = levels.every(row => row.level > 0);
   const place = value => (log ? Math.log(value) : value);
   const ends = [place(levels[0].level), place(levels.at(-1).level)];
   const room = Math.max(1e-6, ends[1] - ends[0]) * 0.08;

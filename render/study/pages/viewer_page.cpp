@@ -39,7 +39,6 @@ const StudyAxis* find_level_axis(const Study& study) {
 /// Levels that belong to one psychometric function: of a setting that is swept, or of noise.
 struct LevelSeries {
     std::string key, title, unit;
-    bool log = false;  ///< all levels are above 0
 };
 
 std::optional<double> level_of(const VariantResult& variant, const LevelSeries& series) {
@@ -57,15 +56,8 @@ std::vector<LevelSeries> list_series(const Study& study, const StudyResults& res
         series.push_back({"error", "asked error", "visible thresholds"});
     else if (axis != nullptr && axis->setting != noise_key && axis->setting != zero_mean_noise_key)
         series.push_back({axis->setting, axis->setting, ""});
-    std::erase_if(series, [&](LevelSeries& one) {
-        one.log = true;
-        bool found = false;
-        for (const VariantResult& variant : results.variants) {
-            const std::optional<double> level = level_of(variant, one);
-            found = found || level;
-            one.log = one.log && level.value_or(1.0) > 0.0;
-        }
-        return !found;
+    std::erase_if(series, [&](const LevelSeries& one) {
+        return std::ranges::none_of(results.variants, [&](const auto& v) { return level_of(v, one).has_value(); });
     });
     return series;
 }
@@ -103,7 +95,7 @@ std::string make_viewer_test(std::string_view page, const PreparedStudy& prepare
               {"scenes", Json::array()}};
     const std::vector<LevelSeries> series = list_series(prepared.study, results);
     for (const LevelSeries& one : series)
-        json["series"].push_back({{"id", one.key}, {"title", one.title}, {"unit", one.unit}, {"log", one.log}});
+        json["series"].push_back({{"id", one.key}, {"title", one.title}, {"unit", one.unit}});
     for (const PreparedStudyScene& prepared_scene : prepared.scenes) {
         const Film film = with_settings_of(prepared_scene, prepared.study, {}).scene.film;
         Json& scene = json["scenes"].emplace_back();
