@@ -31,10 +31,12 @@ void merge(StudyResults scene, StudyResults& all) {
     all.found += scene.found;
     for (VariantResult& variant : scene.variants) {
         const auto known = std::ranges::find(all.variants, variant.name, &VariantResult::name);
-        if (known == all.variants.end())
+        if (known == all.variants.end()) {
             all.variants.push_back(std::move(variant));
-        else
-            std::ranges::move(variant.frames, std::back_inserter(known->frames));
+            continue;
+        }
+        std::ranges::move(variant.frames, std::back_inserter(known->frames));
+        known->on_front = known->on_front || variant.on_front;
     }
 }
 
@@ -49,16 +51,7 @@ class Search {
 
     StudyResults run() {
         for (const PreparedStudyScene& scene : prepared_.scenes) merge(search(scene), results_);
-        for (VariantResult& variant : results_.variants) {
-            average_frames(variant);
-            variant.on_front = false;
-        }
-        for (const PreparedStudyScene& scene : prepared_.scenes) {
-            for (const VariantResult& variant : variants_of_scene(results_, scene.name)) {
-                const auto found = std::ranges::find(results_.variants, variant.name, &VariantResult::name);
-                found->on_front = found->on_front || variant.on_front;
-            }
-        }
+        std::ranges::for_each(results_.variants, average_frames);
         results_.judges = prepared_.study.judges;
         return std::move(results_);
     }
