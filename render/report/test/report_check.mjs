@@ -61,7 +61,7 @@ describe('the report', () => {
     await waitForPanes(page, ['reference', variant.id]);
     await clickPixel(page, variant.id, x, y, study);
     const shown = await readWalk(page, x, y, variant.id, frame);
-    assert.ok('result.luminance' in shown);
+    assert.ok(Number.isFinite(shown['result.luminance']));
     const layers = { ...study.pictures.find(shared => shared.frame === frame).maps, ...entry.maps };
     let compared = 0;
     for (const [name, value] of Object.entries(shown)) {

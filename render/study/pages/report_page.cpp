@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/base/errors.h"
+#include "render/compare/visible_difference.h"
 #include "render/study/pages/report_layers.h"
 #include "render/study/pages/script_json.h"
 
@@ -66,6 +67,8 @@ class ReportWriter {
     }
 
     void write() {
+        // Of the page's errors in visible thresholds.
+        json_["display_white"] = read_viewing(results_.frames.front().maps).viewing.display_white;
         label_frames();
         add_pictures();
         json_["maps"] = report_maps();

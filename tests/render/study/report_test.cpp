@@ -121,7 +121,9 @@ TEST(ReportPage, HoldsPicturesAndMaps) {
     const std::string page = make_report(page_draft, draft.json, draft.results);
     const Json data = data_of(page);
     // A text does not end the script.
-    expect_fields(data, R"({"title": "</script><b>", "frames": [7], "scene": "noise", "layers_left_out": 0})");
+    expect_fields(
+        data,
+        R"({"title": "</script><b>", "frames": [7], "scene": "noise", "layers_left_out": 0, "display_white": 100})");
     EXPECT_EQ(data["pictures"][0]["maps"]["threshold.Y"]["channels"], 1);
     const Json picture = data["variants"][1]["frames"][0]["picture"];
     EXPECT_EQ(picture["channels"], 3);
