@@ -65,7 +65,7 @@ ThresholdDifference compare_with_threshold(const ChannelImage& a, const ChannelI
     const Image<float>* threshold = aleph_map.find("threshold.Y");
     if (!threshold) throw InputError("", "threshold map", "has no channel 'threshold.Y'");
     const LuminanceError error = compute_luminance_error(a, b);
-    return {summarize(measure_error(error, *threshold)), error.display_white};
+    return {measure_error(error, *threshold), error.display_white};
 }
 
 /// Pixels that `share` limits.

@@ -18,8 +18,7 @@ void SequenceComparison::add(std::int64_t frame, const ChannelImage& a, const Ch
     ALEPH_CHECK(frames_.empty() || frames_.back().frame < frame, fmt::format("frame {}", frame));
     FrameComparison comparison{frame, compare_images(a, b, settings_, maps.threshold), std::nullopt, false};
     comparison.same = comparison.result.same;
-    if (maps.threshold)
-        threshold_.add(measure_error(compute_luminance_error(a, b), *maps.threshold->find("threshold.Y")));
+    if (maps.threshold) threshold_.add(compute_luminance_error(a, b), *maps.threshold->find("threshold.Y"));
     frames_.push_back(std::move(comparison));
     if (!maps.visible) return;
     if (!visible_) visible_.emplace(read_viewing(*maps.visible));

@@ -14,7 +14,7 @@ namespace {
 /// Errors in the thresholds of one viewer.
 void measure_viewer(const LuminanceError& error, const Image<float>& threshold, const std::string& suffix,
                     MetricValues& out) {
-    const ThresholdFigures figures = summarize(measure_error(error, threshold));
+    const ThresholdFigures figures = measure_error(error, threshold);
     out["share_beyond" + suffix] = figures.percent_beyond();
     if (figures.noise) out["share_certain" + suffix] = figures.percent(static_cast<double>(figures.noise->certain));
     double sum = 0.0;
@@ -60,7 +60,7 @@ MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth
 
 ReferenceQuality measure_reference(const FrameTruth& truth) {
     const LuminanceError none = compute_luminance_error(truth.reference, truth.reference);
-    const ThresholdFigures figures = summarize(measure_error(none, truth.thresholds.front()));
+    const ThresholdFigures figures = measure_error(none, truth.thresholds.front());
     if (!figures.noise) return {};
     return {figures.percent(figures.noise->expected), figures.noise->percentile_99};
 }
