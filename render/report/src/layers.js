@@ -5,8 +5,7 @@
 import { byId } from './dom.js';
 
 const cacheBytes = 256 * 1024 * 1024;
-const cache = new Map(); // element id -> {bytes, promise of the decoded layer}, the last used at the end
-const done = new Set(); // element ids that are decoded
+const cache = new Map(); // element id -> {bytes, promise of the decoded layer, done}, the last used at the end
 let cachedBytes = 0;
 
 let halves; // value of each half-precision number
@@ -61,9 +60,8 @@ async function decode(layer) {
 
 function dropOldest() {
   for (const [element, entry] of cache) {
-    if (cachedBytes <= cacheBytes || !done.has(element)) return;
+    if (cachedBytes <= cacheBytes || !entry.done) return;
     cache.delete(element);
-    done.delete(element);
     cachedBytes -= entry.bytes;
   }
 }
@@ -74,15 +72,13 @@ function dropOldest() {
  * @throws {Error} if its element is missing or damaged
  */
 export function readLayer(layer) {
-  const entry = cache.get(layer.element) ?? {
-    bytes: layer.width * layer.height * layer.channels * 4,
-    promise: decode(layer).then(decoded => {
-      done.add(layer.element);
-      cachedBytes += decoded.values.byteLength;
-      dropOldest();
-      return decoded;
-    }),
-  };
+  const entry = cache.get(layer.element) ?? { bytes: layer.width * layer.height * layer.channels * 4 };
+  entry.promise ??= decode(layer).then(decoded => {
+    entry.done = true;
+    cachedBytes += entry.bytes;
+    dropOldest();
+    return decoded;
+  });
   cache.delete(layer.element);
   cache.set(layer.element, entry);
   return entry.promise;
@@ -90,7 +86,7 @@ export function readLayer(layer) {
 
 /** Whether a layer is decoded already. @param {{element: string}|undefined} layer */
 export function isDecoded(layer) {
-  return layer !== undefined && done.has(layer.element);
+  return cache.get(layer?.element)?.done === true;
 }
 
 /** Whether another layer fits into the half of the cache that is for layers that are not asked for yet. */
