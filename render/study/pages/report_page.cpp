@@ -47,11 +47,6 @@ std::vector<const Image<float>*> colours(const ChannelImage& image) {
     return channels;
 }
 
-/// Frames are numbers where the study has one scene, else names such as "pool 20".
-Json frame_label(const std::string& scene, std::int64_t frame, bool several) {
-    return several ? Json(fmt::format("{} {}", scene, frame)) : Json(frame);
-}
-
 class ReportWriter {
   public:
     ReportWriter(Json& json, const StudyResults& results, std::size_t most_bytes)
@@ -82,16 +77,17 @@ class ReportWriter {
     const std::string& elements() const { return layers_.elements(); }
 
   private:
-    bool several() const { return scenes_.size() > 1; }
+    /// Frames are numbers where the study has one scene, else names such as "pool 20".
+    Json label(const std::string& scene, std::int64_t frame) const {
+        return scenes_.size() > 1 ? Json(fmt::format("{} {}", scene, frame)) : Json(frame);
+    }
 
     void label_frames() {
         if (scenes_.size() == 1) json_["scene"] = *scenes_.begin();
         json_["frames"] = Json::array();
-        for (const JudgingFrame& frame : results_.frames)
-            json_["frames"].push_back(frame_label(frame.scene, frame.frame, several()));
+        for (const JudgingFrame& frame : results_.frames) json_["frames"].push_back(label(frame.scene, frame.frame));
         for (Json& variant : json_["variants"]) {
-            for (Json& frame : variant["frames"])
-                frame["frame"] = frame_label(frame["scene"], frame["frame"].get<std::int64_t>(), several());
+            for (Json& frame : variant["frames"]) frame["frame"] = label(frame["scene"], frame["frame"]);
         }
     }
 
@@ -99,7 +95,7 @@ class ReportWriter {
         json_["pictures"] = Json::array();
         for (const JudgingFrame& frame : results_.frames) {
             Json& entry = json_["pictures"].emplace_back();
-            entry["frame"] = frame_label(frame.scene, frame.frame, several());
+            entry["frame"] = label(frame.scene, frame.frame);
             add_picture(entry, "reference", read_image(frame.reference));
         }
         for_each_picture([&](Json& frame, const ChannelImage& picture) { add_picture(frame, "picture", picture); });
