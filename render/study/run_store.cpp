@@ -53,12 +53,12 @@ std::optional<std::vector<FrameRun>> RunStore::find(const RunName& name, const s
     std::vector<FrameRun> runs;
     try {
         json::parse(bytes.begin(), bytes.end()).at("frames").get_to(runs);
-        for (const FrameRun& run : runs) static_cast<void>(json::parse(run.plan));  // it is JSON in a text
     } catch (const nlohmann::json::exception&) {
         throw InputError(path.string(), "",
                          "is no finished run of a study; remove it, and the study will make it again");
     }
-    const bool complete = std::ranges::equal(runs, frames, {}, &FrameRun::frame);
+    const bool complete = std::ranges::equal(runs, frames, {}, &FrameRun::frame) &&
+                          std::ranges::all_of(runs, [](const FrameRun& run) { return json::accept(run.plan); });
     return complete ? std::optional(std::move(runs)) : std::nullopt;
 }
 
