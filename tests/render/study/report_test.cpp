@@ -73,9 +73,17 @@ TEST(ReportLayers, KeepToTheirSize) {
     EXPECT_EQ(layers.left_out(), 1u);
 }
 
+/// Parses the data that the page's script would read.
+Json data_of(const std::string& page) {
+    const std::string start = "<script id=\"study\" type=\"application/json\">";
+    const std::size_t begin = page.find(start) + start.size();
+    return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
 /// A study of one frame of noise with two variants, and its JSON.
-struct ReportDraft {
-    explicit ReportDraft(const ScratchFolder& folder) {
+class ReportPage : public testing::Test {
+  protected:
+    ReportPage() {
         ChannelImage picture;
         std::uint32_t state = 1;
         for (const char* name : {"R", "G", "B", "samples.Y", "error.edges"}) {
@@ -102,23 +110,18 @@ struct ReportDraft {
             json["variants"].push_back({{"id", name}, {"frames", {{{"scene", "noise"}, {"frame", 7}}}}});
         }
     }
+    std::string make_page(std::size_t most_bytes = most_report_bytes) const {
+        return make_report("<head><!-- STUDY DATA --></head><body><!-- STUDY LAYERS --></body>", json, results,
+                           most_bytes);
+    }
+
+    const ScratchFolder folder;
     StudyResults results;
     Json json;
 };
 
-/// Parses the data that the page's script would read.
-Json data_of(const std::string& page) {
-    const std::string start = "<script id=\"study\" type=\"application/json\">";
-    const std::size_t begin = page.find(start) + start.size();
-    return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-}
-
-constexpr std::string_view page_draft = "<head><!-- STUDY DATA --></head><body><!-- STUDY LAYERS --></body>";
-
-TEST(ReportPage, HoldsPicturesAndMaps) {
-    const ScratchFolder folder;
-    const ReportDraft draft(folder);
-    const std::string page = make_report(page_draft, draft.json, draft.results);
+TEST_F(ReportPage, HoldsPicturesAndMaps) {
+    const std::string page = make_page();
     const Json data = data_of(page);
     // A text does not end the script.
     expect_fields(
@@ -136,11 +139,9 @@ TEST(ReportPage, HoldsPicturesAndMaps) {
     EXPECT_TRUE(data["variants"][0]["frames"][0]["maps"].contains("error.edges"));
 }
 
-TEST(ReportPage, LeavesOutTheLeastNeededFirst) {
-    const ScratchFolder folder;
-    const ReportDraft draft(folder);
-    const std::size_t whole = make_report(page_draft, draft.json, draft.results).size();
-    const std::string page = make_report(page_draft, draft.json, draft.results, whole / 2);
+TEST_F(ReportPage, LeavesOutTheLeastNeededFirst) {
+    const std::size_t whole = make_page().size();
+    const std::string page = make_page(whole / 2);
     EXPECT_LT(page.size(), whole / 2 + 6000) << "the descriptions of layers and maps come on top";
     const Json data = data_of(page);
     EXPECT_GT(data["layers_left_out"], 0);
@@ -149,36 +150,33 @@ TEST(ReportPage, LeavesOutTheLeastNeededFirst) {
     EXPECT_FALSE(data["variants"][0]["frames"][0]["maps"].contains("error.edges"));
 }
 
-TEST(ReportPage, SeveralScenesHaveNamedFrames) {
-    const ScratchFolder folder;
-    ReportDraft draft(folder);
-    draft.results.frames.push_back(draft.results.frames[0]);
-    draft.results.frames[1].scene = "other";
-    const Json data = data_of(make_report(page_draft, draft.json, draft.results));
+TEST_F(ReportPage, SeveralScenesHaveNamedFrames) {
+    results.frames.push_back(results.frames[0]);
+    results.frames[1].scene = "other";
+    const Json data = data_of(make_page());
     EXPECT_EQ(data["frames"], Json::array({"noise 7", "other 7"}));
     EXPECT_FALSE(data.contains("scene")) << "the frames name theirs";
     EXPECT_EQ(data["variants"][0]["frames"][0]["frame"], "noise 7");
 }
 
-TEST(ReportPage, OtherJudgesHaveMapsOfTheSameNames) {
-    const ScratchFolder folder, judged;
-    ReportDraft draft(folder);
-    draft.results.judges = {{"other", judged.path()}};
-    EXPECT_THROW(make_report(page_draft, draft.json, draft.results), InputError) << "no map at all";
+TEST_F(ReportPage, OtherJudgesHaveMapsOfTheSameNames) {
+    const ScratchFolder judged;
+    results.judges = {{"other", judged.path()}};
+    EXPECT_THROW(make_page(), InputError) << "no map at all";
     write_exr(judged / "picture.exr", {{{"Y", Image<float>(31, 32, 2.0f)}}, {}});
-    EXPECT_THROW(make_report(page_draft, draft.json, draft.results), InputError) << "another size";
+    EXPECT_THROW(make_page(), InputError) << "another size";
     write_exr(judged / "picture.exr", {{{"Y", Image<float>(32, 32, 2.0f)}}, {}});
-    const Json data = data_of(make_report(page_draft, draft.json, draft.results));
+    const Json data = data_of(make_page());
     EXPECT_EQ(data["judges"][0]["map"], "judge.other");
     EXPECT_TRUE(data["variants"][0]["frames"][0]["maps"].contains("judge.other"));
-    draft.results.judges[0].frames = {{7, judged / "picture.exr"}};
-    EXPECT_THROW(make_report(page_draft, draft.json, draft.results), InputError) << "which variant is it of?";
-    draft.results.variants.pop_back();
-    const Json one = data_of(make_report(page_draft, draft.json, draft.results));
+    results.judges[0].frames = {{7, judged / "picture.exr"}};
+    EXPECT_THROW(make_page(), InputError) << "which variant is it of?";
+    results.variants.pop_back();
+    const Json one = data_of(make_page());
     EXPECT_TRUE(one["variants"][0]["frames"][0]["maps"].contains("judge.other"));
 }
 
-TEST(ReportPage, EveryMapOfTheWalkIsDescribedOnce) {
+TEST_F(ReportPage, EveryMapOfTheWalkIsDescribedOnce) {
     std::set<std::string> names;
     for (const Json& map : report_maps()) EXPECT_TRUE(names.insert(map["name"]).second) << map["name"];
     for (const Json& step : report_walk({})) {
