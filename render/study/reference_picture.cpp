@@ -23,19 +23,15 @@ RenderSettings reference_settings(const RenderSettings& settings, const Study& s
     return out;
 }
 
-/// Describes everything that the picture depends on, but for its scene.
-std::string describe_settings(const RenderSettings& settings, const std::string& kind) {
-    const std::string all = kind == "settings" ? name_settings(setting_map(settings)) : "";
-    return fmt::format("{} {} {} {} {} {}", settings.sampling.spp, settings.light.bounces, settings.light.path_depth,
-                       settings.picture.subdivision_level, static_cast<int>(settings.picture.filter), all);
-}
-
+/// By everything that the picture depends on.
 std::filesystem::path name_file(const PreparedStudyScene& scene, const RenderSettings& settings,
                                 const std::string& kind, std::int64_t frame) {
-    const std::string what =
-        hash_bytes(program_build() + " " + scene.identity + " " + describe_settings(settings, kind)).substr(0, 16);
+    const std::string all = kind == "settings" ? name_settings(setting_map(settings)) : "";
+    const std::string what = fmt::format(
+        "{} {} {} {} {} {} {} {}", program_build(), scene.identity, settings.sampling.spp, settings.light.bounces,
+        settings.light.path_depth, settings.picture.subdivision_level, static_cast<int>(settings.picture.filter), all);
     return fmt::format("{}-{}-{}x{}-{}-{}.exr", scene.name, frame, settings.picture.width, settings.picture.height,
-                       kind, what);
+                       kind, hash_bytes(what).substr(0, 16));
 }
 
 ChannelImage read_reference(const std::filesystem::path& path, const RenderSettings& settings) {
