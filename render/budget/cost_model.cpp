@@ -103,11 +103,10 @@ double choose_error(const PilotSeconds& pilot, const CostRatios& ratios, const C
     const auto fits = [&](double error) {
         return predict_seconds(pilot, ratios, coefficients, error).sum() <= seconds;
     };
-    for (int i = 10; i < 100; ++i) {
-        if (fits(i / 100.0)) return i / 100.0;
-    }
-    for (int i = 10; i < 100; ++i) {
-        if (fits(i / 10.0)) return i / 10.0;
+    for (const double digits : {100.0, 10.0}) {
+        for (int i = 10; i < 100; ++i) {
+            if (fits(i / digits)) return i / digits;
+        }
     }
     return most_budget_error;
 }

@@ -1,13 +1,7 @@
 #pragma once
-// Cost of frames at an error that is asked for, predicted from measurements of some of them (the pilot).
-//
-// Three things are measured:
-// - the stages before light and samples, for whole frames: they do not depend on the error;
-// - a part of the pixels, spread over the picture, at several errors: their samples, and their light without key
-//   keyframes. The picture has its own resolution, because a small picture asks for other samples: more of its pixels
-//   show several things, and its contrasts have other sizes;
-// - light in two small pictures at the largest error. What this costs grows as a power of the number of pixels.
-// At smaller errors the seconds of light grow by what those of the part do.
+// Cost of frames at an error that is asked for, predicted from measurements of some of them (the pilot; README.md).
+// Parts are of pictures in full size, because a small picture asks for other samples: more of its pixels show several
+// things, and its contrasts have other sizes. Their light is without lighting keyframes.
 
 #include <vector>
 
@@ -47,8 +41,8 @@ struct CostRatios {
 struct CostCoefficients {
     double shade = 1.0;    ///< seconds of samples beside light of their own, over those that read lighting keyframes
     double overlap = 1.0;  ///< light for a part alone, over its share of the picture's: blocks do not share it
-    double fill =
-        0.0;  ///< growth of a frame's own light beside lighting keyframes, over what the part's says (by share)
+    /// Growth of a frame's own light beside lighting keyframes, over what the part's says (by share).
+    double fill = 0.0;
     double keyframes = 0.0;       ///< the same for each lighting keyframe
     double shade_exponent = 0.0;  ///< below the least error measured, seconds of samples grow as error^-exponent
     double light_exponent = 0.0;  ///< the same for light

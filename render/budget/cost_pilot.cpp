@@ -20,20 +20,17 @@ constexpr int most_every = 8;
 constexpr double light_growth = 4.0;  // seconds, from one small picture to the next
 constexpr double part_growth = 2.0;   // seconds, from one error to the next
 
-/// The settings for a picture of this scale, and the scene, in which angles stay the same, and so velocities.
-Scene scale_picture(Scene scene, RenderSettings& settings, double scale) {
-    const PictureSize size = scale_size({settings.picture.width, settings.picture.height}, scale);
+/// Times light in a picture of this scale, in which angles stay the same, and so velocities.
+LightSeconds time_light(const PilotRequest& request, double scale) {
+    Scene scene = request.scene;
+    RenderSettings settings = request.settings.front();
+    const PictureSize full{settings.picture.width, settings.picture.height}, size = scale_size(full, scale);
     settings.picture.width = size.width;
     settings.picture.height = size.height;
     scene.film.viewing.pixels_per_degree *= scale;
-    return scene;
-}
-
-LightSeconds time_light(const PilotRequest& request, double scale) {
-    RenderSettings settings = request.settings.front();
-    const double pixels = static_cast<double>(settings.picture.width) * settings.picture.height;
-    Sequence sequence(scale_picture(request.scene, settings, scale), settings, request.camera);
-    LightSeconds seconds{.pixels = pixels / (static_cast<double>(settings.picture.width) * settings.picture.height)};
+    Sequence sequence(std::move(scene), settings, request.camera);
+    LightSeconds seconds{.pixels = static_cast<double>(full.width) * full.height /
+                                   (static_cast<double>(size.width) * size.height)};
     for (const std::int64_t frame : request.frames) {
         const LightTime time = sequence.time_light(frame);
         seconds.fill += time.fill;
@@ -50,64 +47,45 @@ int choose_every(const RenderSettings& settings) {
     return every;
 }
 
-class PartPilot {
-  public:
-    PartPilot(const PilotRequest& request, Pilot& pilot)
-        : request_(request),
-          pilot_(pilot),
-          sequence_(request.scene, request.settings.front(), request.camera),
-          part_(choose_part(request.settings.front().picture.width, request.settings.front().picture.height,
-                            choose_every(request.settings.front()), part_block)) {
-        pilot_.seconds.share = find_share(part_);
-    }
-
-    void run() {
-        std::set<std::int64_t> rendered;
-        for (const std::int64_t frame : request_.frames) {
-            const bool first = rendered.empty();
-            const std::size_t count = first ? request_.settings.size() : pilot_.seconds.parts.size();
-            const PartTimes times = sequence_.time_part(frame, part_, {request_.settings.data(), count},
-                                                        [&](const PartTimes& now) { return !first || go_on(now); });
-            add(times);
-            rendered.insert(times.frame);
-        }
-        pilot_.rendered = static_cast<int>(rendered.size());
-    }
-
-  private:
-    /// After an error of the first frame: is there time for the next one, in all frames?
-    bool go_on(const PartTimes& now) const {
+/// Times parts of the full picture.
+void time_parts(const PilotRequest& request, Sequence& sequence, Pilot& pilot) {
+    const PictureSettings& picture = request.settings.front().picture;
+    const PicturePart part =
+        choose_part(picture.width, picture.height, choose_every(request.settings.front()), part_block);
+    pilot.seconds.share = find_share(part);
+    // After an error of the first frame: is there time for the next one, in all frames?
+    const auto go_on = [&](const PartTimes& now) {
         if (now.parts.size() < 2) return true;
-        const auto frames = static_cast<double>(request_.frames.size());
-        PilotSeconds expected = pilot_.seconds;
+        const auto frames = static_cast<double>(request.frames.size());
+        PilotSeconds expected = pilot.seconds;
         expected.before = frames * now.before;
-        double next = frames * now.before * (frames - 1.0) / frames;
+        double next = (frames - 1.0) * now.before;
         for (std::size_t i = 0; i < now.parts.size(); ++i) {
-            const PartTime& part = now.parts[i];
-            expected.parts.push_back({request_.settings[i].error, frames * part.fill, frames * part.shade});
-            next += (frames - 1.0) * (part.fill + part.shade);
+            const PartTime& done = now.parts[i];
+            expected.parts.push_back({request.settings[i].error, frames * done.fill, frames * done.shade});
+            next += (frames - 1.0) * (done.fill + done.shade);
         }
         const PartTime& last = now.parts.back();
-        next += part_growth * frames * (last.fill + last.shade);
-        return request_.go_on(expected, next);
-    }
-
-    void add(const PartTimes& times) {
-        pilot_.seconds.before += times.before;
-        pilot_.seconds.parts.resize(times.parts.size());
+        return request.go_on(expected, next + part_growth * frames * (last.fill + last.shade));
+    };
+    std::set<std::int64_t> rendered;
+    for (const std::int64_t frame : request.frames) {
+        const bool first = rendered.empty();
+        const std::size_t count = first ? request.settings.size() : pilot.seconds.parts.size();
+        const PartTimes times = sequence.time_part(frame, part, {request.settings.data(), count},
+                                                   [&](const PartTimes& now) { return !first || go_on(now); });
+        pilot.seconds.before += times.before;
+        pilot.seconds.parts.resize(times.parts.size());
         for (std::size_t i = 0; i < times.parts.size(); ++i) {
-            PartSeconds& part = pilot_.seconds.parts[i];
-            part.error = request_.settings[i].error;
-            part.fill += times.parts[i].fill;
-            part.shade += times.parts[i].shade;
+            PartSeconds& sum = pilot.seconds.parts[i];
+            sum.error = request.settings[i].error;
+            sum.fill += times.parts[i].fill;
+            sum.shade += times.parts[i].shade;
         }
+        rendered.insert(times.frame);
     }
-
-    const PilotRequest& request_;
-    Pilot& pilot_;
-    Sequence sequence_;
-    PicturePart part_;
-};
+    pilot.rendered = static_cast<int>(rendered.size());
+}
 
 }  // namespace
 
@@ -136,9 +114,9 @@ Pilot run_pilot(const PilotRequest& request) {
         clock.add_to(last);
         if (scale == light_scales[0] && !request.go_on(pilot.seconds, light_growth * last)) break;
     }
-    PartPilot parts(request, pilot);
+    Sequence sequence(request.scene, settings, request.camera);
     clock.add_to(pilot.seconds.start);
-    parts.run();
+    time_parts(request, sequence, pilot);
     return pilot;
 }
 

@@ -10,30 +10,6 @@ namespace aleph {
 
 namespace {
 
-/// Gathers a Difference in two passes: the scale of b first, as relative_mse needs it.
-class DifferenceSum {
-  public:
-    void add_reference(double b) {
-        sum_abs_b_ += std::abs(b);
-        ++count_;
-    }
-    void finish_reference() { e_ = count_ ? 0.01 * sum_abs_b_ / static_cast<double>(count_) : 0.0; }
-    void add(double a, double b) {
-        const double d = std::abs(a - b);
-        max_ = std::max(max_, d);
-        squares_ += d * d;
-        if (d > 0.0) relative_ += d * d / (b * b + e_ * e_);  // infinite if b is 0 everywhere
-    }
-    Difference result() const {
-        const double n = static_cast<double>(std::max<std::size_t>(count_, 1));
-        return {max_, std::sqrt(squares_ / n), relative_ / n};
-    }
-
-  private:
-    std::size_t count_ = 0;
-    double sum_abs_b_ = 0.0, e_ = 0.0, max_ = 0.0, squares_ = 0.0, relative_ = 0.0;
-};
-
 void count_non_finite(const Image<float>& image, NonFinite& counts) {
     for (const float v : image.pixels) {
         counts.nan += std::isnan(v);
@@ -42,15 +18,27 @@ void count_non_finite(const Image<float>& image, NonFinite& counts) {
 }
 
 Difference difference_of(const std::vector<ChannelPair>& pairs) {
-    DifferenceSum sum;
+    std::size_t count = 0;
+    double sum = 0.0, squares = 0.0;
     for (const ChannelPair& pair : pairs) {
-        for_finite(pair, [&](std::size_t, double, double b) { sum.add_reference(b); });
+        for_finite(pair, [&](std::size_t, double, double b) {
+            sum += std::abs(b);
+            ++count;
+        });
     }
-    sum.finish_reference();
+    const double n = static_cast<double>(std::max<std::size_t>(count, 1)), e = 0.01 * sum / n;
+    Difference all;
     for (const ChannelPair& pair : pairs) {
-        for_finite(pair, [&](std::size_t, double a, double b) { sum.add(a, b); });
+        for_finite(pair, [&](std::size_t, double a, double b) {
+            const double d = std::abs(a - b);
+            all.max_abs = std::max(all.max_abs, d);
+            squares += d * d;
+            if (d > 0.0) all.relative_mse += d * d / (b * b + e * e);  // infinite if b is 0 everywhere
+        });
     }
-    return sum.result();
+    all.rms = std::sqrt(squares / n);
+    all.relative_mse /= n;
+    return all;
 }
 
 ChannelDifference compare_channel(const ChannelPair& pair, const CompareSettings& settings, std::vector<bool>& beyond) {
@@ -77,7 +65,7 @@ ThresholdDifference compare_with_threshold(const ChannelImage& a, const ChannelI
     const Image<float>* threshold = aleph_map.find("threshold.Y");
     if (!threshold) throw InputError("", "threshold map", "has no channel 'threshold.Y'");
     const LuminanceError error = compute_luminance_error(a, b);
-    return {summarize(measure_error(error, *threshold)), error.display_white};
+    return {measure_error(error, *threshold), error.display_white};
 }
 
 /// Pixels that `share` limits.

@@ -42,16 +42,18 @@ std::optional<double> find_number(const ChannelImage& image, const std::string& 
     return number && std::isfinite(*number) && *number > 0.0 ? std::optional(*number) : std::nullopt;
 }
 
-Image<Rgb> linear_colour(const ChannelImage& image) {
-    const Image<float>*r = image.find("R"), *g = image.find("G"), *b = image.find("B");
+Image<Rgb> join_channels(const ChannelImage& image, const std::string& prefix) {
+    const Image<float>*r = image.find(prefix + "R"), *g = image.find(prefix + "G"), *b = image.find(prefix + "B");
     if (!r || !g || !b) return {};
-    const bool encoded = image.metadata.contains("encoding");
     Image<Rgb> colour(r->width, r->height);
-    for (std::size_t i = 0; i < colour.size(); ++i) {
-        Rgb c{r->pixels[i], g->pixels[i], b->pixels[i]};
-        if (encoded) c = {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)};
-        colour.pixels[i] = c;
-    }
+    for (std::size_t i = 0; i < colour.size(); ++i) colour.pixels[i] = {r->pixels[i], g->pixels[i], b->pixels[i]};
+    return colour;
+}
+
+Image<Rgb> linear_colour(const ChannelImage& image) {
+    Image<Rgb> colour = join_channels(image, "");
+    if (!image.metadata.contains("encoding")) return colour;
+    for (Rgb& c : colour.pixels) c = {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)};
     return colour;
 }
 

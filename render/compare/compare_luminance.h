@@ -11,6 +11,9 @@ namespace aleph {
 /// A number that a picture says of itself, above 0; nothing if it has none.
 std::optional<double> find_number(const ChannelImage& image, const std::string& key);
 
+/// The channels R, G and B whose names begin with a prefix, or nothing if one is missing.
+Image<Rgb> join_channels(const ChannelImage& image, const std::string& prefix);
+
 /// Linear R, G, B of a picture, or nothing if it has none. 8-bit pictures count as sRGB.
 Image<Rgb> linear_colour(const ChannelImage& image);
 

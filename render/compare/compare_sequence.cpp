@@ -10,26 +10,6 @@
 
 namespace aleph {
 
-namespace {
-
-void add_to_summary(const FrameComparison& comparison, SequenceSummary& summary) {
-    const CompareResult& result = comparison.result;
-    if (summary.frames == 0 || result.all.max_abs > summary.max_abs) {
-        summary.max_abs = result.all.max_abs;
-        summary.worst_frame = comparison.frame;
-    }
-    ++summary.frames;
-    summary.different += !comparison.same;
-    summary.pixels += result.pixels();
-    summary.beyond += result.beyond;
-    summary.a.nan += result.a.nan;
-    summary.a.inf += result.a.inf;
-    summary.b.nan += result.b.nan;
-    summary.b.inf += result.b.inf;
-}
-
-}  // namespace
-
 SequenceComparison::SequenceComparison(CompareSettings settings, std::vector<std::int64_t> cuts, ReceiveVisible receive)
     : settings_(std::move(settings)), cuts_(std::move(cuts)), receive_(std::move(receive)) {}
 
@@ -38,8 +18,7 @@ void SequenceComparison::add(std::int64_t frame, const ChannelImage& a, const Ch
     ALEPH_CHECK(frames_.empty() || frames_.back().frame < frame, fmt::format("frame {}", frame));
     FrameComparison comparison{frame, compare_images(a, b, settings_, maps.threshold), std::nullopt, false};
     comparison.same = comparison.result.same;
-    if (maps.threshold)
-        threshold_.add(measure_error(compute_luminance_error(a, b), *maps.threshold->find("threshold.Y")));
+    if (maps.threshold) threshold_.add(compute_luminance_error(a, b), *maps.threshold->find("threshold.Y"));
     frames_.push_back(std::move(comparison));
     if (!maps.visible) return;
     if (!visible_) visible_.emplace(read_viewing(*maps.visible));
@@ -71,7 +50,18 @@ SequenceSummary SequenceComparison::summary() const {
     double squares = 0.0, values = 0.0;
     for (const FrameComparison& frame : frames_) {
         const CompareResult& result = frame.result;
-        add_to_summary(frame, summary);
+        if (summary.frames == 0 || result.all.max_abs > summary.max_abs) {
+            summary.max_abs = result.all.max_abs;
+            summary.worst_frame = frame.frame;
+        }
+        ++summary.frames;
+        summary.different += !frame.same;
+        summary.pixels += result.pixels();
+        summary.beyond += result.beyond;
+        summary.a.nan += result.a.nan;
+        summary.a.inf += result.a.inf;
+        summary.b.nan += result.b.nan;
+        summary.b.inf += result.b.inf;
         const auto count = static_cast<double>(result.pixels() * result.channels.size());
         values += count;
         squares += result.all.rms * result.all.rms * count;

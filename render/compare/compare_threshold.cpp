@@ -48,15 +48,6 @@ void RatioHistogram::add(double difference, double threshold) {
     ++bins_[bin_of(ratio)];
 }
 
-void RatioHistogram::add(const RatioHistogram& other) {
-    if (other.count_ == 0) return;
-    if (bins_.empty()) bins_.assign(steps + 2, 0);
-    for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
-    count_ += other.count_;
-    beyond_ += other.beyond_;
-    worst_ = std::max(worst_, other.worst_);
-}
-
 double RatioHistogram::percentile(double share) const {
     if (count_ == 0) return 0.0;
     const double wanted = std::max(1.0, std::ceil(share * static_cast<double>(count_)));
@@ -70,23 +61,25 @@ double RatioHistogram::percentile(double share) const {
     return infinity;
 }
 
-void ThresholdSum::add(double error, double threshold, double variance) {
-    errors.add(error, threshold);
-    const double deviation = variance >= 0.0 && std::isfinite(variance) ? std::sqrt(variance) : infinity;
-    noise.add(deviation, threshold);
-    if (!usable(error, threshold)) {
-        ++certain;
-        return;
+void ThresholdSum::add(const LuminanceError& error, const Image<float>& threshold) {
+    if (!same_size(threshold, error.error)) {
+        throw InputError("", "threshold map",
+                         fmt::format("is {}x{}, the pictures are {}x{}", threshold.width, threshold.height,
+                                     error.error.width, error.error.height));
     }
-    certain += error > threshold + 3.0 * deviation;
-    if (deviation > 0.0) expected += std::erfc(threshold / (std::numbers::sqrt2 * deviation));
-}
-
-void ThresholdSum::add(const ThresholdSum& other) {
-    errors.add(other.errors);
-    noise.add(other.noise);
-    expected += other.expected;
-    certain += other.certain;
+    double expected_here = 0.0;
+    for (std::size_t i = 0; i < threshold.size(); ++i) {
+        const double size = std::abs(error.error.pixels[i]), limit = threshold.pixels[i];
+        errors.add(size, limit);
+        if (error.variance.empty()) continue;
+        const double variance = error.variance.pixels[i];
+        const double deviation = variance >= 0.0 && std::isfinite(variance) ? std::sqrt(variance) : infinity;
+        noise.add(deviation, limit);
+        const bool known = usable(size, limit);
+        certain += !known || size > limit + 3.0 * deviation;
+        if (known && deviation > 0.0) expected_here += std::erfc(limit / (std::numbers::sqrt2 * deviation));
+    }
+    expected += expected_here;
 }
 
 ThresholdFigures summarize(const ThresholdSum& sum) {
@@ -99,22 +92,10 @@ ThresholdFigures summarize(const ThresholdSum& sum) {
     return figures;
 }
 
-ThresholdSum measure_error(const LuminanceError& error, const Image<float>& threshold) {
-    if (!same_size(threshold, error.error)) {
-        throw InputError("", "threshold map",
-                         fmt::format("is {}x{}, the pictures are {}x{}", threshold.width, threshold.height,
-                                     error.error.width, error.error.height));
-    }
+ThresholdFigures measure_error(const LuminanceError& error, const Image<float>& threshold) {
     ThresholdSum sum;
-    for (std::size_t i = 0; i < threshold.size(); ++i) {
-        const double size = std::abs(error.error.pixels[i]);
-        if (error.variance.empty()) {
-            sum.add(size, threshold.pixels[i]);
-        } else {
-            sum.add(size, threshold.pixels[i], error.variance.pixels[i]);
-        }
-    }
-    return sum;
+    sum.add(error, threshold);
+    return summarize(sum);
 }
 
 }  // namespace aleph

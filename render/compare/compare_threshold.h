@@ -18,7 +18,6 @@ class RatioHistogram {
     /// @param difference  not negative
     /// @param threshold   in the same unit
     void add(double difference, double threshold);
-    void add(const RatioHistogram& other);
 
     std::size_t count() const { return count_; }
     /// Differences above their threshold. One that is not finite counts, as does one whose threshold is not finite or
@@ -43,11 +42,10 @@ struct ThresholdSum {
     double expected = 0.0;
     std::size_t certain = 0;
 
-    /// @param error, threshold  cd/m2; the error not negative
-    void add(double error, double threshold) { errors.add(error, threshold); }
-    /// @param variance  of the reference, (cd/m2)^2. If it is negative or not finite, nothing is certain of the pixel.
-    void add(double error, double threshold, double variance);
-    void add(const ThresholdSum& other);
+    /// Adds the pixels of a picture. Where the variance is negative or not finite, nothing is certain of a pixel.
+    /// @param threshold  cd/m2
+    /// @throws InputError (place "threshold map") if it has another size
+    void add(const LuminanceError& error, const Image<float>& threshold);
 };
 
 /// The noise of a reference, and what it makes of the share beyond the threshold. The noise is taken as normally
@@ -77,8 +75,7 @@ struct ThresholdFigures {
 
 ThresholdFigures summarize(const ThresholdSum& sum);
 
-/// @param threshold  cd/m2
-/// @throws InputError (place "threshold map") if it has another size
-ThresholdSum measure_error(const LuminanceError& error, const Image<float>& threshold);
+/// The figures of one picture. @throws InputError as ThresholdSum::add
+ThresholdFigures measure_error(const LuminanceError& error, const Image<float>& threshold);
 
 }  // namespace aleph

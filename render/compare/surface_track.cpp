@@ -70,7 +70,7 @@ std::optional<glm::vec2> trace_back(const MotionMaps& before, glm::vec2 p, float
     return q;
 }
 
-/// Moves every position of `tracks` one frame on. @param step  (position, object, its pixel) to the next position
+/// Moves every position of `tracks` one frame on. @param step  (position, object) to the next position
 template <class Step>
 TrackImage advance(const TrackImage& tracks, const MotionMaps& origin, const Step& step) {
     TrackImage out(tracks.width, tracks.height, glm::vec2{unknown});
@@ -80,7 +80,7 @@ TrackImage advance(const TrackImage& tracks, const MotionMaps& origin, const Ste
                 const std::size_t i = tracks.index(x, y);
                 const glm::vec2 p = tracks.pixels[i];
                 if (std::isnan(p.x)) continue;
-                const std::optional<glm::vec2> next = step(p, object_at(origin, i), i);
+                const std::optional<glm::vec2> next = step(p, object_at(origin, i));
                 if (next) out.pixels[i] = {snap(next->x), snap(next->y)};
             }
         }
@@ -107,30 +107,23 @@ MotionMaps read_motion(const ChannelImage& maps) {
     return {Image<float>(width, height), Image<float>(width, height), Image<float>(width, height, 1.0f), {}};
 }
 
-std::vector<TrackImage> track_forward(std::span<const MotionMaps* const> motion, int count) {
-    std::vector<TrackImage> tracks;
-    TrackImage at = own_positions(*motion.front());
-    for (int k = 0; k < count; ++k) {
-        const MotionMaps &from = *motion[k], &to = *motion[k + 1];
-        at = advance(at, *motion.front(), [&](glm::vec2 p, float object, std::size_t) -> std::optional<glm::vec2> {
-            const auto step = motion_at(from, p, object);
-            if (!step || !shows(to, p + *step, object)) return std::nullopt;
+SurfaceTracks track_surfaces(std::span<const MotionMaps* const> motion, std::size_t own) {
+    SurfaceTracks tracks;
+    const TrackImage start = own_positions(*motion[own]);
+    for (std::size_t k = own; k + 1 < motion.size(); ++k) {
+        const TrackImage& at = k == own ? start : tracks.after.back();
+        tracks.after.push_back(advance(at, *motion[own], [&](glm::vec2 p, float object) -> std::optional<glm::vec2> {
+            const auto step = motion_at(*motion[k], p, object);
+            if (!step || !shows(*motion[k + 1], p + *step, object)) return std::nullopt;
             return p + *step;
-        });
-        tracks.push_back(at);
+        }));
     }
-    return tracks;
-}
-
-std::vector<TrackImage> track_backward(std::span<const MotionMaps* const> motion, int count) {
-    std::vector<TrackImage> tracks;
-    TrackImage at = own_positions(*motion.front());
-    for (int k = 0; k < count; ++k) {
-        const MotionMaps &from = *motion[k], &before = *motion[k + 1];
-        at = advance(at, *motion.front(), [&](glm::vec2 p, float object, std::size_t) {
-            return trace_back(before, p, object, motion_at(from, p, object).value_or(glm::vec2{0.0f}));
-        });
-        tracks.push_back(at);
+    for (std::size_t k = own; k > 0; --k) {
+        const TrackImage& at = k == own ? start : tracks.before.back();
+        tracks.before.push_back(advance(at, *motion[own], [&](glm::vec2 p, float object) {
+            const glm::vec2 guess = motion_at(*motion[k], p, object).value_or(glm::vec2{0.0f});
+            return trace_back(*motion[k - 1], p, object, guess);
+        }));
     }
     return tracks;
 }

@@ -23,11 +23,13 @@ MotionMaps read_motion(const ChannelImage& maps);
 /// motion is invalid, it left the picture, or something else is in front of it.
 using TrackImage = Image<glm::vec2>;
 
-/// Positions in the next frames, from the nearest on. @param motion  of this frame and the frames after it
-/// @param count  frames to go; at most motion.size() - 1
-std::vector<TrackImage> track_forward(std::span<const MotionMaps* const> motion, int count);
+/// Positions in the next frames and in those before, from the nearest on.
+struct SurfaceTracks {
+    std::vector<TrackImage> after, before;
+};
 
-/// Positions in the frames before, from the nearest on. @param motion  of this frame, then of those before it
-std::vector<TrackImage> track_backward(std::span<const MotionMaps* const> motion, int count);
+/// @param motion  of consecutive frames
+/// @param own     index of the frame whose pixels are followed
+SurfaceTracks track_surfaces(std::span<const MotionMaps* const> motion, std::size_t own);
 
 }  // namespace aleph

@@ -57,11 +57,6 @@ Image<float> least(Image<float> a, const Image<float>& b) {
     return a;
 }
 
-Image<Rgb> sum_of(Image<Rgb> a, const Image<Rgb>& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a.pixels[i] += b.pixels[i];
-    return a;
-}
-
 std::vector<Image<float>> differences(std::vector<Image<float>> a, const std::vector<Image<float>>& b) {
     for (std::size_t i = 0; i < a.size(); ++i) {
         for (std::size_t p = 0; p < a[i].size(); ++p) a[i].pixels[p] -= b[i].pixels[p];
@@ -88,11 +83,7 @@ ViewingSettings read_viewing(const ChannelImage& maps) {
 
 Image<Rgb> read_noise(const ChannelImage& reference) {
     const double passes = find_number(reference, "passes").value_or(1.0);
-    const Image<float>*r = reference.find("noise.R"), *g = reference.find("noise.G"), *b = reference.find("noise.B");
-    if (!r || !g || !b || std::fmod(passes, 2.0) != 0.0) return {};
-    Image<Rgb> noise(r->width, r->height);
-    for (std::size_t i = 0; i < noise.size(); ++i) noise.pixels[i] = {r->pixels[i], g->pixels[i], b->pixels[i]};
-    return noise;
+    return std::fmod(passes, 2.0) == 0.0 ? join_channels(reference, "noise.") : Image<Rgb>();
 }
 
 void VisibleDifference::prepare(int width, int height) {
@@ -122,7 +113,11 @@ std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const Pictur
     const VisualChannels shown = compute_visual_channels(picture, white),
                          truth = compute_visual_channels(reference, white);
     VisualChannels noisy;
-    if (!noise.empty()) noisy = compute_visual_channels(sum_of(reference, noise), white);
+    if (!noise.empty()) {
+        Image<Rgb> sum = reference;
+        for (std::size_t i = 0; i < sum.size(); ++i) sum.pixels[i] += noise.pixels[i];
+        noisy = compute_visual_channels(sum, white);
+    }
     Frame next{frame,
                std::move(maps),
                {},
@@ -167,12 +162,11 @@ void VisibleDifference::measure_next(std::vector<VisibleMaps>& finished) {
 VisibleMaps VisibleDifference::measure(std::size_t index) const {
     const Frame& frame = frames_[index];
     const auto reach = static_cast<std::size_t>(filter_reach(settings_.frame_rate));
-    std::vector<const MotionMaps*> forward, backward;
-    for (std::size_t i = index; i < frames_.size() && i <= index + reach; ++i) forward.push_back(&frames_[i].motion);
-    for (std::size_t k = 0; k <= std::min(index, reach); ++k) backward.push_back(&frames_[index - k].motion);
-    const std::vector<TrackImage> after = track_forward(forward, static_cast<int>(forward.size()) - 1);
-    const std::vector<TrackImage> before = track_backward(backward, static_cast<int>(backward.size()) - 1);
-    const Image<float> velocity = image_velocity(frame.motion, before.empty() ? nullptr : &before.front(), settings_);
+    const std::size_t first = index - std::min(index, reach), end = std::min(index + reach + 1, frames_.size());
+    std::vector<const MotionMaps*> motion;
+    for (std::size_t i = first; i < end; ++i) motion.push_back(&frames_[i].motion);
+    const SurfaceTracks tracks = track_surfaces(motion, index - first);
+    const Image<float> velocity = image_velocity(frame.motion, tracks, settings_);
 
     const int width = frame.motion.u.width, height = frame.motion.u.height;
     const std::vector<LevelSize> sizes = pyramid_sizes(width, height, shapes_.back().level + 1);
@@ -182,11 +176,11 @@ VisibleMaps VisibleDifference::measure(std::size_t index) const {
         for (std::size_t c = 0; c < visual_channels; ++c) {
             const BandShape& shape = shapes_[b];
             const auto filter = [&](const std::array<Bands, visual_channels> Frame::*signals) {
-                BandWindow window{{}, {}, {}, &after, &before, shape.signal_level, static_cast<int>(reach)};
+                BandWindow window{{}, {}, {}, tracks, shape.signal_level, static_cast<int>(reach)};
                 const auto signal = [&](std::size_t i) { return &(frames_[i].*signals)[c][b]; };
                 window.current = signal(index);
-                for (std::size_t k = 1; k < forward.size(); ++k) window.next.push_back(signal(index + k));
-                for (std::size_t k = 1; k < backward.size(); ++k) window.previous.push_back(signal(index - k));
+                for (std::size_t i = index + 1; i < end; ++i) window.next.push_back(signal(i));
+                for (std::size_t i = index; i-- > first;) window.previous.push_back(signal(i));
                 return filter_band(window, filters_[c * shapes_.size() + b], velocity,
                                    frame.background[shape.signal_level]);
             };

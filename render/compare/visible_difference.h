@@ -1,12 +1,7 @@
 #pragma once
 // What a viewer sees of the difference between two sequences: an instrument that judges pictures and guides nothing.
-//
-// Differences of what a display shows, in three channels of colour and in bands of spatial frequency, are followed
-// along the exact motion of the surfaces, as an eye does that follows them. castleCSF weighs them at their luminance
-// and at the velocity that is left on the retina (visible_filters.h); contrast of both pictures masks them. The result
-// is in units of one just visible difference of a viewer who looks at the pixel: no attention. Differences that ride
-// with a surface last; those that change from frame to frame along the motion flicker. Sources: castleCSF (Ashraf et
-// al. 2024); FovVideoVDP (Mantiuk et al. 2021) and ColorVideoVDP (Mantiuk et al. 2024) for bands, channels and masking.
+// README.md has its steps and their sources: castleCSF (Ashraf et al. 2024), FovVideoVDP (Mantiuk et al. 2021) and
+// ColorVideoVDP (Mantiuk et al. 2024).
 
 #include <cstdint>
 #include <deque>

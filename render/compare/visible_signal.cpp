@@ -54,7 +54,8 @@ void fill_gaps(Track& track, int reach) {
 
 }  // namespace
 
-Image<float> image_velocity(const MotionMaps& motion, const TrackImage* before, const ViewingSettings& settings) {
+Image<float> image_velocity(const MotionMaps& motion, const SurfaceTracks& tracks, const ViewingSettings& settings) {
+    const TrackImage* const before = tracks.before.empty() ? nullptr : &tracks.before.front();
     const double scale = settings.frame_rate.per_second() / settings.viewing.pixels_per_degree;
     Image<float> velocity(motion.u.width, motion.u.height);
     for (int y = 0; y < velocity.height; ++y) {
@@ -97,8 +98,8 @@ SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, c
                 const std::size_t pixel = velocity.index(x << window.level, y << window.level),
                                   i = background.index(x, y);
                 track.values[reach] = window.current->pixels[i];
-                look_up(track, 1, window.next, *window.after, pixel);
-                look_up(track, -1, window.previous, *window.before, pixel);
+                look_up(track, 1, window.next, window.tracks.after, pixel);
+                look_up(track, -1, window.previous, window.tracks.before, pixel);
                 fill_gaps(track, reach);
                 const float adapted = std::max(darkest, background.pixels[i]);
                 const float sensitivity = filter.evaluate(adapted, velocity.pixels[pixel], weights.data());

@@ -6,15 +6,15 @@
 
 namespace aleph {
 
-/// Image velocity of each pixel, deg/s: from the motion to the next frame or, where that is not valid, from the track to
-/// the frame before; else 0. @param before  positions in the frame before, or null
-Image<float> image_velocity(const MotionMaps& motion, const TrackImage* before, const ViewingSettings& settings);
+/// Image velocity of each pixel, deg/s: from the motion to the next frame or, where that is not valid, from the track
+/// to the frame before; else 0.
+Image<float> image_velocity(const MotionMaps& motion, const SurfaceTracks& tracks, const ViewingSettings& settings);
 
 /// The errors of a band in the frames around, and where its pixels are in them.
 struct BandWindow {
     const Image<float>* current;
     std::vector<const Image<float>*> next, previous;  ///< from the nearest on
-    const std::vector<TrackImage>*after, *before;     ///< tracks, at least as many
+    const SurfaceTracks& tracks;                      ///< at least as many
     int level = 0;                                    ///< of the band
     int reach = 0;                                    ///< of the filter
 };
@@ -25,8 +25,8 @@ struct SignalParts {
     Image<float> sensitivity;  ///< to what lasts, 1 / contrast
 };
 
-/// Filters the errors over time along the tracks. Where a track ends before the window does, the frames on the other side
-/// of the current one stand for those that are missing, and beyond both ends the last one that is known.
+/// Filters the errors over time along the tracks. Where a track ends before the window does, the frames on the other
+/// side of the current one stand for those that are missing, and beyond both ends the last one that is known.
 /// @param velocity    of the picture's pixels, deg/s
 /// @param background  cd/m2, of the band's size
 SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, const Image<float>& velocity,

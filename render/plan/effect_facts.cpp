@@ -1,7 +1,6 @@
 #include "render/plan/effect_facts.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/parallel.h"
 #include "engine/scene/transforms.h"
@@ -23,7 +22,8 @@ float smallest_green(const TextureSet& set, const TextureUse& use) {
     return use.texture == no_index ? 1.0f : set.textures[use.texture].smallest.y;
 }
 
-void add_layers(const MaterialValues& values, const MaterialTextures& textures, const TextureSet& set,
+/// @param has_base  some of it is neither metal nor glass
+void add_layers(const MaterialValues& values, const MaterialTextures& textures, const TextureSet& set, bool has_base,
                 MaterialFacts& facts) {
     const auto add_lobe = [&](float reflectance, float least, float most) {
         facts.reflectance = std::max(facts.reflectance, std::min(reflectance, 1.0f));
@@ -32,22 +32,19 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
         facts.glossy = true;
         facts.least_width = std::min(facts.least_width, std::max(least * least, min_ggx_alpha));
     };
-    const float metallic = values.gloss.metallic * largest_texel(set, textures[TextureSlot::metallic_roughness]).z;
-    const float dielectric =
-        values.gloss.specular *
-        (values.glass.transmission < 1.0f || textures[TextureSlot::transmission].texture != no_index ? 1.0f : 0.0f) *
-        (values.gloss.metallic < 1.0f || textures[TextureSlot::metallic_roughness].texture != no_index ? 1.0f : 0.0f);
+    const TextureUse& gloss = textures[TextureSlot::metallic_roughness];
+    const float metallic = values.gloss.metallic * largest_texel(set, gloss).z;
+    const float dielectric = has_base ? values.gloss.specular : 0.0f;
     const bool stretched = values.layers.anisotropy > 0.0f;
     if (metallic > 0.0f || dielectric > 0.0f) {
-        const float least = values.gloss.roughness * smallest_green(set, textures[TextureSlot::metallic_roughness]);
-        const float most = values.gloss.roughness * largest_texel(set, textures[TextureSlot::metallic_roughness]).y;
-        add_lobe(std::max(metallic, dielectric), least, stretched ? 1.0f : most);
+        add_lobe(std::max(metallic, dielectric), values.gloss.roughness * smallest_green(set, gloss),
+                 stretched ? 1.0f : values.gloss.roughness * largest_texel(set, gloss).y);
     }
     if (values.layers.clearcoat > 0.0f) {
-        const float least =
-            values.layers.clearcoat_roughness * smallest_green(set, textures[TextureSlot::clearcoat_roughness]);
-        add_lobe(values.layers.clearcoat, least,
-                 values.layers.clearcoat_roughness * largest_texel(set, textures[TextureSlot::clearcoat_roughness]).y);
+        const TextureUse& coat = textures[TextureSlot::clearcoat_roughness];
+        const float roughness = values.layers.clearcoat_roughness;
+        add_lobe(values.layers.clearcoat, roughness * smallest_green(set, coat),
+                 roughness * largest_texel(set, coat).y);
     }
     if (values.layers.sheen_color != Rgb(0.0f)) add_lobe(largest_channel(values.layers.sheen_color), 1.0f, 1.0f);
     facts.glass = values.glass.transmission > 0.0f && values.gloss.metallic < 1.0f;
@@ -82,8 +79,9 @@ MaterialFacts find_material_facts(const Material* material, const MaterialValues
         values.gloss.metallic >= 1.0f && textures[TextureSlot::metallic_roughness].texture == no_index;
     const bool pure_glass =
         values.glass.transmission >= 1.0f && textures[TextureSlot::transmission].texture == no_index;
-    if (!pure_metal && !pure_glass) facts.diffuse = base;
-    add_layers(values, textures, set, facts);
+    const bool has_base = !pure_metal && !pure_glass;
+    if (has_base) facts.diffuse = base;
+    add_layers(values, textures, set, has_base, facts);
     return facts;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "render/compare/compare_luminance.h"
 #include "render/compare/compare_threshold.h"
@@ -12,19 +11,15 @@ namespace aleph {
 
 namespace {
 
-double mean_ratio(const LuminanceError& error, const Image<float>& threshold) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < threshold.size(); ++i) sum += std::abs(error.error.pixels[i]) / threshold.pixels[i];
-    return threshold.size() == 0 ? 0.0 : sum / static_cast<double>(threshold.size());
-}
-
 /// Errors in the thresholds of one viewer.
 void measure_viewer(const LuminanceError& error, const Image<float>& threshold, const std::string& suffix,
                     MetricValues& out) {
-    const ThresholdFigures figures = summarize(measure_error(error, threshold));
+    const ThresholdFigures figures = measure_error(error, threshold);
     out["share_beyond" + suffix] = figures.percent_beyond();
     if (figures.noise) out["share_certain" + suffix] = figures.percent(static_cast<double>(figures.noise->certain));
-    out["mean_error" + suffix] = mean_ratio(error, threshold);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < threshold.size(); ++i) sum += std::abs(error.error.pixels[i]) / threshold.pixels[i];
+    out["mean_error" + suffix] = sum / static_cast<double>(threshold.size());
     out["p99_error" + suffix] = figures.percentile_99;
 }
 
@@ -47,9 +42,9 @@ MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth
     MetricValues all;
     const LuminanceError error = compute_luminance_error(picture, reference);
     for (const Metric& metric : metrics) {
-        if (metric.viewer < 0 || !metric.name.starts_with("share_beyond")) continue;
-        measure_viewer(error, truth.thresholds.at(static_cast<std::size_t>(metric.viewer)),
-                       metric.name.substr(std::string("share_beyond").size()), all);
+        const std::string suffix = metric.name.substr(std::min(metric.name.find('.'), metric.name.size()));
+        if (metric.viewer < 0 || all.contains("mean_error" + suffix)) continue;
+        measure_viewer(error, truth.thresholds.at(static_cast<std::size_t>(metric.viewer)), suffix, all);
     }
     const LuminanceDifference difference = compare_luminance(picture, reference, {});
     all["relative_mse"] = difference.relative_mse - difference.noise_mse;
@@ -65,7 +60,7 @@ MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth
 
 ReferenceQuality measure_reference(const FrameTruth& truth) {
     const LuminanceError none = compute_luminance_error(truth.reference, truth.reference);
-    const ThresholdFigures figures = summarize(measure_error(none, truth.thresholds.front()));
+    const ThresholdFigures figures = measure_error(none, truth.thresholds.front());
     if (!figures.noise) return {};
     return {figures.percent(figures.noise->expected), figures.noise->percentile_99};
 }

@@ -40,21 +40,16 @@ constexpr Row rows[] = {
     {"wall_seconds", "seconds of a clock", "s", true, false},
 };
 
-Metric make_metric(const Row& row, const Study& study, int viewer) {
-    Metric metric{row.name, row.title, row.unit, row.cost, viewer};
-    if (viewer > 0) {
-        const std::string& name = study.viewers[static_cast<std::size_t>(viewer)].name;
-        metric.name += "." + name;
-        metric.title += fmt::format(" ({})", name);
-    }
-    return metric;
-}
-
 std::vector<Metric> make_all(const Study& study) {
     std::vector<Metric> all;
     for (const Row& row : rows) {
-        const int viewers = row.of_viewer ? static_cast<int>(study.viewers.size()) : 1;
-        for (int i = 0; i < viewers; ++i) all.push_back(make_metric(row, study, row.of_viewer ? i : -1));
+        const std::size_t viewers = row.of_viewer ? study.viewers.size() : 1;
+        for (std::size_t i = 0; i < viewers; ++i) {
+            all.push_back({row.name, row.title, row.unit, row.cost, row.of_viewer ? static_cast<int>(i) : -1});
+            if (i == 0) continue;
+            all.back().name += "." + study.viewers[i].name;
+            all.back().title += fmt::format(" ({})", study.viewers[i].name);
+        }
     }
     return all;
 }

@@ -125,15 +125,4 @@ SceneWithSettings with_settings_of(const PreparedStudyScene& scene, const Study&
     return out;
 }
 
-ReferencePictureOptions reference_options(const PreparedStudyScene& scene, const Study& study,
-                                          const std::string& folder) {
-    return {.passes = study.reference.passes,
-            .pass_spp = study.reference.spp,
-            .kind = study.reference.kind,
-            .full_light = !study.settings.contains("bounces"),
-            .folder = folder,
-            .name = scene.name,
-            .identity = scene.identity};
-}
-
 }  // namespace aleph

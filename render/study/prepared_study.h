@@ -6,7 +6,6 @@
 
 #include "render/settings/settings.h"
 #include "render/study/metric_table.h"
-#include "render/study/reference_picture.h"
 #include "render/study/study.h"
 
 namespace aleph {
@@ -42,10 +41,5 @@ PreparedStudy prepare_study(Study study);
 /// The scene with the settings of its file, of the study, and `more` in their places.
 /// @throws InputError
 SceneWithSettings with_settings_of(const PreparedStudyScene& scene, const Study& study, const SettingMap& more);
-
-/// How the reference of a scene is made.
-/// @param folder  that keeps references
-ReferencePictureOptions reference_options(const PreparedStudyScene& scene, const Study& study,
-                                          const std::string& folder);
 
 }  // namespace aleph

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-
 #include "engine/base/errors.h"
 #include "engine/scene/scene_hash.h"
 #include "render/frame/sequence.h"
@@ -17,22 +14,23 @@ namespace {
 
 constexpr std::uint32_t reference_seed = 0x70696374u;  // keeps references apart from all that they judge
 
-RenderSettings reference_settings(const RenderSettings& settings, const ReferencePictureOptions& options) {
-    if (options.kind == "settings") return settings;
+RenderSettings reference_settings(const RenderSettings& settings, const Study& study) {
+    if (study.reference.kind == "settings") return settings;
     RenderSettings out = traced_reference_settings(settings);
-    if (!options.full_light) out.light.bounces = settings.light.bounces;
-    out.sampling.spp = options.pass_spp;
+    if (study.settings.contains("bounces")) out.light.bounces = settings.light.bounces;
+    out.sampling.spp = study.reference.spp;
     return out;
 }
 
-/// Describes everything that the picture depends on, but for its scene.
-std::string describe_settings(const RenderSettings& settings, const ReferencePictureOptions& options) {
-    std::string text =
-        fmt::format("{} {} {} {} {}", settings.sampling.spp, settings.light.bounces, settings.light.path_depth,
-                    settings.picture.subdivision_level, static_cast<int>(settings.picture.filter));
-    if (options.kind != "settings") return text;
-    for (const auto& [key, value] : setting_map(settings)) text += fmt::format(" {}={}", key, setting_text(value));
-    return text;
+/// By everything that the picture depends on.
+std::filesystem::path name_file(const PreparedStudyScene& scene, const RenderSettings& settings,
+                                const std::string& kind, std::int64_t frame) {
+    const std::string all = kind == "settings" ? name_settings(setting_map(settings)) : "";
+    const std::string what = fmt::format(
+        "{} {} {} {} {} {} {} {}", program_build(), scene.identity, settings.sampling.spp, settings.light.bounces,
+        settings.light.path_depth, settings.picture.subdivision_level, static_cast<int>(settings.picture.filter), all);
+    return fmt::format("{}-{}-{}x{}-{}-{}.exr", scene.name, frame, settings.picture.width, settings.picture.height,
+                       kind, hash_bytes(what).substr(0, 16));
 }
 
 ChannelImage read_reference(const std::filesystem::path& path, const RenderSettings& settings) {
@@ -76,33 +74,20 @@ void add_indirect(ChannelImage& image, const ShadedFrame& shaded) {
     }
 }
 
-std::filesystem::path reference_picture_path(const RenderSettings& given, std::int64_t frame,
-                                             const ReferencePictureOptions& options) {
-    const RenderSettings settings = reference_settings(given, options);
-    const std::string what =
-        hash_bytes(program_build() + " " + options.identity + " " + describe_settings(settings, options)).substr(0, 16);
-    return std::filesystem::path(options.folder) / fmt::format("{}-{}-{}x{}-{}-{}.exr", options.name, frame,
-                                                               settings.picture.width, settings.picture.height,
-                                                               options.kind, what);
-}
-
-ChannelImage load_or_render_reference_picture(const Scene& scene, const RenderSettings& given, std::int64_t frame,
-                                              const ReferencePictureOptions& options,
-                                              const ReferenceProgress& progress) {
-    if (options.passes < 2) throw InputError("", "reference", "expected at least 2 passes: one has no variance");
-    const RenderSettings settings = reference_settings(given, options);
-    const std::filesystem::path path = reference_picture_path(given, frame, options);
-    ChannelImage reference;
-    if (std::filesystem::exists(path)) reference = read_reference(path, settings);
-    if (reference_passes(reference) >= options.passes) return reference;
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-    for (double done = reference_passes(reference); done < options.passes; ++done) {
-        const auto show = [&](double fraction, const char*) {
-            if (progress) progress(done + fraction);
-        };
-        const ChannelImage pass = render_pass(scene, settings, frame, done, show);
-        add_pass(reference, done == 0.0 ? pass : with_exposure_of(pass, reference));
-        write_exr(path, reference);
+ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const Study& study, std::int64_t frame,
+                                        const std::filesystem::path& folder, const ReferenceProgress& progress) {
+    const StudyReference& wanted = study.reference;
+    if (wanted.passes < 2) throw InputError("", "reference", "expected at least 2 passes: one has no variance");
+    const SceneWithSettings own = with_settings_of(scene, study, wanted.settings);
+    const RenderSettings settings = reference_settings(own.settings, study);
+    ReferencePicture reference{{}, folder / name_file(scene, settings, wanted.kind, frame)};
+    if (std::filesystem::exists(reference.file)) reference.picture = read_reference(reference.file, settings);
+    std::filesystem::create_directories(folder);
+    for (double done = reference_passes(reference.picture); done < wanted.passes; ++done) {
+        const auto show = [&](double fraction, const char*) { progress(done + fraction); };
+        const ChannelImage pass = render_pass(own.scene, settings, frame, done, show);
+        add_pass(reference.picture, done == 0.0 ? pass : with_exposure_of(pass, reference.picture));
+        write_exr(reference.file, reference.picture);
     }
     return reference;
 }

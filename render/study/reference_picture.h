@@ -4,44 +4,31 @@
 #include <array>
 #include <filesystem>
 #include <functional>
-#include <string>
 
 #include "engine/image/image_file.h"
-#include "engine/scene/scene.h"
 #include "render/compare/reference_passes.h"
 #include "render/pixels/shaded_frame.h"
-#include "render/settings/settings.h"
+#include "render/study/prepared_study.h"
 
 namespace aleph {
 
-/// Where reference pictures are kept, since they take minutes, and what they are.
-struct ReferencePictureOptions {
-    int passes = 4;  ///< renderings that it is the mean of, at least 2
-    /// Samples per pixel of the first. Each has one more than the one before (reference_picture.cpp).
-    int pass_spp = 32;
-    /// "path": traced paths. "settings": as the settings are.
-    std::string kind = "path";
-    bool full_light = true;  ///< at least 16 diffuse bounces; else as many as the settings say
-    std::string folder;
-    std::string name;      ///< of the scene, for the name of the file
-    std::string identity;  ///< of what is rendered (hash_scene): another one has another file
+struct ReferencePicture {
+    ChannelImage picture;
+    std::filesystem::path file;  ///< that keeps it; other builds of the program (program_build) have other files
 };
 
 /// Called as a reference is made, with the renderings that are finished.
 using ReferenceProgress = std::function<void(double passes)>;
 
 /// R, G, B, `indirect.R/G/B` unless it is traced, and `variance.Y` of a frame without a guide, with random numbers of
-/// its own. It is the mean of several renderings, whose differences tell its variance. Longest path,
-/// filter and levels of cages are those of the settings, and bounces but for `full_light`. Reads the file of this scene, frame and size if there is one, and
-/// adds the passes that it lacks. The file is written after every pass, so that a run can be stopped and taken up.
+/// its own. It is the mean of the passes of Study::reference, whose differences tell its variance. Longest path, filter
+/// and levels of cages are those of the settings; there are at least 16 diffuse bounces unless the study names them.
+/// Reads the file of this scene, frame and size if there is one, and adds the passes that it lacks. The file is written
+/// after every pass, so that a run can be stopped and taken up.
+/// @param folder  that keeps references, since they take minutes
 /// @throws InputError if the kept file is not such a reference
-ChannelImage load_or_render_reference_picture(const Scene& scene, const RenderSettings& settings, std::int64_t frame,
-                                              const ReferencePictureOptions& options,
-                                              const ReferenceProgress& progress = {});
-
-/// The file that keeps it. Other builds of the program (program_build) have other files.
-std::filesystem::path reference_picture_path(const RenderSettings& settings, std::int64_t frame,
-                                             const ReferencePictureOptions& options);
+ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const Study& study, std::int64_t frame,
+                                        const std::filesystem::path& folder, const ReferenceProgress& progress);
 
 /// Names of the channels of indirect light.
 inline constexpr std::array<const char*, 3> indirect_channels = {"indirect.R", "indirect.G", "indirect.B"};

@@ -13,39 +13,13 @@
 
 namespace aleph {
 
+/// To and from JSON. Files of other builds of the program have other names (digest).
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrameRun, frame, processor_seconds, wall_seconds, stages, rays, samples, records,
+                                   plan)
+
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json pairs_json(const std::vector<std::pair<std::string, double>>& pairs) {
-    Json json = Json::object();
-    for (const auto& [name, value] : pairs) json[name] = value;
-    return json;
-}
-
-std::vector<std::pair<std::string, double>> read_pairs(const Json& json) {
-    std::vector<std::pair<std::string, double>> pairs;
-    for (const auto& [name, value] : json.items()) pairs.emplace_back(name, value.get<double>());
-    return pairs;
-}
-
-Json to_json(const FrameRun& run) {
-    return {{"frame", run.frame},
-            {"processor_seconds", run.processor_seconds},
-            {"wall_seconds", run.wall_seconds},
-            {"stages", pairs_json(run.stages)},
-            {"rays", pairs_json(run.rays)},
-            {"samples", run.samples},
-            {"records", run.records},
-            {"plan", Json::parse(run.plan)}};
-}
-
-FrameRun read_frame(const Json& json) {
-    return {json.at("frame").get<std::int64_t>(),  json.at("processor_seconds").get<double>(),
-            json.at("wall_seconds").get<double>(), read_pairs(json.at("stages")),
-            read_pairs(json.at("rays")),           json.at("samples").get<double>(),
-            json.at("records").get<double>(),      json.at("plan").dump()};
-}
+using nlohmann::json;
 
 /// Names of files, which variants may not fit.
 std::string digest(const RunName& name) {
@@ -78,21 +52,23 @@ std::optional<std::vector<FrameRun>> RunStore::find(const RunName& name, const s
     const Bytes bytes = read_regular_file(path, path.string(), "");
     std::vector<FrameRun> runs;
     try {
-        const Json json = Json::parse(bytes.begin(), bytes.end());
-        for (const Json& frame : json.at("frames")) runs.push_back(read_frame(frame));
+        json::parse(bytes.begin(), bytes.end()).at("frames").get_to(runs);
     } catch (const nlohmann::json::exception&) {
         throw InputError(path.string(), "",
                          "is no finished run of a study; remove it, and the study will make it again");
     }
-    const bool complete = std::ranges::equal(runs, frames, {}, &FrameRun::frame);
+    const bool complete = std::ranges::equal(runs, frames, {}, &FrameRun::frame) &&
+                          std::ranges::all_of(runs, [](const FrameRun& run) { return json::accept(run.plan); });
     return complete ? std::optional(std::move(runs)) : std::nullopt;
 }
 
 void RunStore::save(const RunName& name, const std::vector<FrameRun>& frames) const {
-    Json json{{"scene", name.scene}, {"variant", name.variant}, {"seed", name.seed}, {"repeat", name.repeat}};
-    json["frames"] = Json::array();
-    for (const FrameRun& frame : frames) json["frames"].push_back(to_json(frame));
-    write_file(file(name), json.dump(1) + "\n");
+    const json run{{"scene", name.scene},
+                   {"variant", name.variant},
+                   {"seed", name.seed},
+                   {"repeat", name.repeat},
+                   {"frames", frames}};
+    write_file(file(name), run.dump(1) + "\n");
 }
 
 }  // namespace aleph

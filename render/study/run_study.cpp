@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "engine/base/parallel.h"
 #include "engine/scene/scene_hash.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
+#include "render/study/reference_picture.h"
 #include "render/study/run_store.h"
 #include "render/study/threshold_noise.h"
 #include "render/study/visible_metrics.h"
@@ -38,10 +38,10 @@ class StudyRunner {
   public:
     StudyRunner(const PreparedStudy& prepared, const std::filesystem::path& folder, const StudyProgress& progress)
         : prepared_(prepared), study_(prepared.study), store_(folder), progress_(progress) {
-        for (const PreparedStudyScene& scene : prepared.scenes) {
-            const auto frames = static_cast<double>(scene.frames.size());
-            work_ += frames * (frames_per_pass * study_.reference.passes + static_cast<double>(runs_of_scene()));
-        }
+        const double runs =
+            static_cast<double>(prepared.variants.size() * study_.runs.seeds.size()) * study_.runs.repeats;
+        for (const PreparedStudyScene& scene : prepared.scenes)
+            work_ += static_cast<double>(scene.frames.size()) * (frames_per_pass * study_.reference.passes + runs);
     }
 
     StudyResults run() {
@@ -49,20 +49,27 @@ class StudyRunner {
         std::vector<std::vector<std::vector<MeasuredRun>>> runs(
             prepared_.variants.size(), std::vector<std::vector<MeasuredRun>>(prepared_.scenes.size()));
         for_each_run([&](std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
-            if (is_made(v) || runs[v][s].empty()) runs[v][s].push_back(find_or_make(v, s, seed, repeat, repeat == 0));
+            if (!is_made(v) && !runs[v][s].empty()) return;
+            MeasuredRun& run =
+                runs[v][s].emplace_back(is_made(v) ? find_or_make(v, s, seed, repeat) : take_pictures(v, s));
+            if (repeat == 0) measure(s, run, noise_of(v).has_value());
         });
         for (std::size_t v = 0; v < runs.size(); ++v) {
             VariantResult result{prepared_.variants[v].name, prepared_.variants[v].settings, {}, {}, false};
             for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
                 std::ranges::move(summarize_runs(prepared_.scenes[s].name, runs[v][s]),
                                   std::back_inserter(result.frames));
+            if (study_.runs.seeds.size() > 1 && is_made(v)) {
+                std::vector<std::string> other;
+                for (const std::vector<MeasuredRun>& seeds : runs[v])
+                    std::ranges::copy(seeds.at(1).pictures, std::back_inserter(other));
+                add_seed_metrics(results_.frames, other, result.frames);
+            }
             average_frames(result);
-            if (study_.runs.seeds.size() > 1 && is_made(v))
-                add_seed_metrics(results_.frames, pictures_of(runs[v], 0), pictures_of(runs[v], 1), result);
             results_.variants.push_back(std::move(result));
         }
         results_.judges = study_.judges;
-        find_front(results_.variants, "processor_seconds", "share_seen");
+        find_front(results_.variants);
         return std::move(results_);
     }
 
@@ -72,11 +79,11 @@ class StudyRunner {
         work_ /= static_cast<double>(part.count);
         for (const PreparedStudyScene& scene : prepared_.scenes) {
             for (const int frame : scene.frames) {
-                if (is_ours()) find_or_make_reference(scene, frame);
+                if (is_ours()) make_reference(scene, frame);
             }
         }
         for_each_run([&](std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
-            if (is_made(v) && is_ours()) find_or_make(v, s, seed, repeat, false);
+            if (is_made(v) && is_ours()) find_or_make(v, s, seed, repeat);
         });
     }
 
@@ -90,18 +97,6 @@ class StudyRunner {
                 }
             }
         }
-    }
-
-    /// Lists the pictures of a seed, by its number, in all scenes.
-    static std::vector<std::string> pictures_of(const std::vector<std::vector<MeasuredRun>>& scenes, std::size_t seed) {
-        std::vector<std::string> pictures;
-        for (const std::vector<MeasuredRun>& runs : scenes)
-            pictures.insert(pictures.end(), runs.at(seed).pictures.begin(), runs.at(seed).pictures.end());
-        return pictures;
-    }
-
-    std::size_t runs_of_scene() const {
-        return prepared_.variants.size() * study_.runs.seeds.size() * static_cast<std::size_t>(study_.runs.repeats);
     }
 
     void show(double more, const std::string& what) const {
@@ -136,24 +131,22 @@ class StudyRunner {
         add_viewers(scene, truths);
         for (std::size_t i = 0; i < scene.frames.size(); ++i) {
             JudgingFrame& frame = results_.frames[first + i];
-            std::tie(truths[i].reference, frame.reference) = find_or_make_reference(scene, scene.frames[i]);
+            ReferencePicture reference = make_reference(scene, scene.frames[i]);
+            truths[i].reference = std::move(reference.picture);
+            frame.reference = std::move(reference.file);
             frame.quality = measure_reference(truths[i]);
             frame.thresholds = truths[i].thresholds;
         }
         return truths;
     }
 
-    /// @return the reference and its file
-    std::pair<ChannelImage, std::filesystem::path> find_or_make_reference(const PreparedStudyScene& scene, int frame) {
-        const SceneWithSettings own = with_settings_of(scene, study_, study_.reference.settings);
-        const ReferencePictureOptions options =
-            reference_options(scene, study_, (store_.folder() / "references").string());
-        const auto show_passes = [&](double passes) {
-            show(frames_per_pass * passes, fmt::format("reference of {} {}", scene.name, frame));
-        };
-        ChannelImage reference = load_or_render_reference_picture(own.scene, own.settings, frame, options, show_passes);
+    ReferencePicture make_reference(const PreparedStudyScene& scene, int frame) {
+        ReferencePicture reference =
+            find_or_make_reference(scene, study_, frame, store_.folder() / "references", [&](double passes) {
+                show(frames_per_pass * passes, fmt::format("reference of {} {}", scene.name, frame));
+            });
         done_ += frames_per_pass * study_.reference.passes;
-        return {std::move(reference), reference_picture_path(own.settings, frame, options)};
+        return reference;
     }
 
     std::optional<ThresholdNoise> noise_of(std::size_t v) const {
@@ -177,7 +170,6 @@ class StudyRunner {
             run.pictures.push_back(noise ? write_noisy(variant, s, i, *noise)
                                          : variant.pictures.at(scene.frames[i]).string());
         }
-        measure(s, run, noise.has_value());
         return run;
     }
 
@@ -194,16 +186,13 @@ class StudyRunner {
         return file.string();
     }
 
-    /// @param judged  its pictures are compared with the references
-    MeasuredRun find_or_make(std::size_t v, std::size_t s, std::uint32_t seed, int repeat, bool judged) {
+    MeasuredRun find_or_make(std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
         const PreparedStudyScene& scene = prepared_.scenes[s];
         const StudyVariant& variant = prepared_.variants[v];
-        if (!is_made(v)) return take_pictures(v, s);
         SceneWithSettings own = with_settings_of(scene, study_, variant.settings);
         own.settings.seed = seed;
         RunName name{scene.name, variant.name, identity(own, scene.frames), seed, repeat};
         MeasuredRun run;
-        run.repeat = repeat;
         const std::string what = fmt::format("{}: {}", scene.name, variant.name);
         if (auto finished = store_.find(name, scene.frames)) {
             run.frames = std::move(*finished);
@@ -221,23 +210,20 @@ class StudyRunner {
         }
         done_ += static_cast<double>(scene.frames.size());
         show(0.0, what);
-        if (!judged) return run;
         for (const FrameRun& frame : run.frames) run.pictures.push_back(store_.picture(name, frame.frame).string());
-        measure(s, run);
         return run;
     }
 
-    /// From the files, so that a study that went on has the numbers of one that was never stopped.
+    /// Compares its pictures with the references: from the files, so that a study that went on has the numbers of one
+    /// that was never stopped.
     /// @param exact  the pictures were made from the references: noise of these is no part of their differences
-    void measure(std::size_t s, MeasuredRun& run, bool exact = false) const {
-        std::vector<FrameTruth> without_noise;
-        if (exact) without_noise = truths_[s];
-        for (FrameTruth& truth : without_noise) {
-            std::erase_if(truth.reference.channels, [](const Channel& channel) {
-                return channel.name.starts_with("noise.") || channel.name == "variance.Y";
+    void measure(std::size_t s, MeasuredRun& run, bool exact) const {
+        std::vector<FrameTruth> truths = truths_[s];
+        for (FrameTruth& truth : truths) {
+            std::erase_if(truth.reference.channels, [&](const Channel& channel) {
+                return exact && (channel.name.starts_with("noise.") || channel.name == "variance.Y");
             });
         }
-        const std::vector<FrameTruth>& truths = exact ? without_noise : truths_[s];
         for (std::size_t i = 0; i < run.frames.size(); ++i)
             run.errors.push_back(measure_errors(read_image(run.pictures[i]), truths[i], prepared_.metrics));
         std::size_t first = 0;
@@ -252,11 +238,8 @@ class StudyRunner {
     }
 
     static std::string identity(const SceneWithSettings& own, const std::vector<int>& frames) {
-        std::string text =
-            fmt::format("{} frames {} threads {}", hash_scene(own.scene), fmt::join(frames, ","), thread_count());
-        for (const auto& [key, value] : setting_map(own.settings))
-            text += fmt::format(" {}={}", key, setting_text(value));
-        return text;
+        return fmt::format("{} frames {} threads {} {}", hash_scene(own.scene), fmt::join(frames, ","), thread_count(),
+                           name_settings(setting_map(own.settings)));
     }
 
     static void keep_channels(ChannelImage& picture) {

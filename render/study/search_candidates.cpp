@@ -37,10 +37,7 @@ class Deck {
 };
 
 /// What is rendered: without what has no effect.
-SettingMap make_candidate(const Study& study, const std::vector<std::size_t>& choice) {
-    SettingMap settings;
-    const std::vector<StudyAxis>& axes = study.search->settings;
-    for (std::size_t i = 0; i < axes.size(); ++i) settings[axes[i].setting] = axes[i].values[choice[i]];
+SettingMap make_candidate(const Study& study, SettingMap settings) {
     SettingMap all = settings;
     all.insert(study.settings.begin(), study.settings.end());
     const auto guide = all.find("guide");
@@ -56,15 +53,6 @@ SettingMap make_candidate(const Study& study, const std::vector<std::size_t>& ch
     settings["sampling"] = std::string("uniform");
     settings["error"] = 0.0;
     return settings;
-}
-
-/// Steps to the next combination; false after the last.
-bool advance(const std::vector<StudyAxis>& axes, std::vector<std::size_t>& choice) {
-    for (std::size_t i = axes.size(); i-- > 0;) {
-        if (++choice[i] < axes[i].values.size()) return true;
-        choice[i] = 0;
-    }
-    return false;
 }
 
 /// The part of a list that has the most neighbours; the first of several.
@@ -103,8 +91,8 @@ std::vector<StudyVariant> list_candidates(const Study& study) {
     const auto wanted = static_cast<std::size_t>(study.search->candidates);
     std::vector<StudyVariant> candidates;
     std::set<SettingMap> known;
-    const auto add = [&](const std::vector<std::size_t>& choice) {
-        SettingMap settings = make_candidate(study, choice);
+    const auto add = [&](SettingMap choice) {
+        SettingMap settings = make_candidate(study, std::move(choice));
         if (known.insert(settings).second)
             candidates.push_back({fmt::format("fixed {}", candidates.size() + 1), std::move(settings)});
     };
@@ -114,16 +102,16 @@ std::vector<StudyVariant> list_candidates(const Study& study) {
         combinations *= static_cast<double>(axis.values.size());
         decks.emplace_back(axis.values.size(), decks.size());
     }
-    std::vector<std::size_t> choice(axes.size(), 0);
     if (combinations <= static_cast<double>(wanted)) {
-        do add(choice);
-        while (advance(axes, choice));
+        std::ranges::for_each(list_combinations(axes), add);
         return candidates;
     }
     const std::size_t most_deals = 100 * wanted;  // where most combinations are equal ones
     for (std::size_t i = 0; i < most_deals && candidates.size() < wanted; ++i) {
-        for (std::size_t axis = 0; axis < axes.size(); ++axis) choice[axis] = decks[axis].deal();
-        add(choice);
+        SettingMap choice;
+        for (std::size_t axis = 0; axis < axes.size(); ++axis)
+            choice[axes[axis].setting] = axes[axis].values[decks[axis].deal()];
+        add(std::move(choice));
     }
     return candidates;
 }

@@ -8,18 +8,6 @@ namespace aleph {
 
 namespace {
 
-constexpr const char *cost_metric = "processor_seconds", *error_metric = "share_seen";
-
-CostPoint point_of(const VariantResult& variant) {
-    return {variant.metrics.at(cost_metric).value, variant.metrics.at(error_metric).value};
-}
-
-std::vector<CostPoint> points_of(const std::vector<VariantResult>& variants) {
-    std::vector<CostPoint> points;
-    for (const VariantResult& variant : variants) points.push_back(point_of(variant));
-    return points;
-}
-
 /// Pixels to render: for progress alone.
 double work_of(const PreparedStudy& prepared, const SearchRound& round) {
     constexpr double renderings_per_pass = 4.0;
@@ -43,10 +31,12 @@ void merge(StudyResults scene, StudyResults& all) {
     all.found += scene.found;
     for (VariantResult& variant : scene.variants) {
         const auto known = std::ranges::find(all.variants, variant.name, &VariantResult::name);
-        if (known == all.variants.end())
+        if (known == all.variants.end()) {
             all.variants.push_back(std::move(variant));
-        else
-            std::ranges::move(variant.frames, std::back_inserter(known->frames));
+            continue;
+        }
+        std::ranges::move(variant.frames, std::back_inserter(known->frames));
+        known->on_front = known->on_front || variant.on_front;
     }
 }
 
@@ -61,16 +51,7 @@ class Search {
 
     StudyResults run() {
         for (const PreparedStudyScene& scene : prepared_.scenes) merge(search(scene), results_);
-        for (VariantResult& variant : results_.variants) {
-            average_frames(variant);
-            variant.on_front = false;
-        }
-        for (const PreparedStudyScene& scene : prepared_.scenes) {
-            for (const VariantResult& variant : variants_of_scene(results_, scene.name)) {
-                const auto found = std::ranges::find(results_.variants, variant.name, &VariantResult::name);
-                found->on_front = found->on_front || variant.on_front;
-            }
-        }
+        std::ranges::for_each(results_.variants, average_frames);
         results_.judges = prepared_.study.judges;
         return std::move(results_);
     }
@@ -86,9 +67,10 @@ class Search {
             const StudyResults results = run_round(study, r, rounds[r]);
             results_.made += results.made;
             results_.found += results.found;
+            std::vector<CostPoint> points;
+            for (const VariantResult& variant : results.variants) points.push_back(find_point(variant).value());
             std::vector<StudyVariant> kept;
-            for (const std::size_t i : keep_best(points_of(results.variants), rounds[r + 1].candidates))
-                kept.push_back(std::move(left[i]));
+            for (const std::size_t i : keep_best(points, rounds[r + 1].candidates)) kept.push_back(std::move(left[i]));
             left = std::move(kept);
         }
         std::vector<StudyVariant> last = prepared_.variants;
@@ -136,7 +118,7 @@ std::vector<VariantResult> variants_of_scene(const StudyResults& results, const 
         average_frames(own);
         variants.push_back(std::move(own));
     }
-    find_front(variants, cost_metric, error_metric);
+    find_front(variants);
     return variants;
 }
 
@@ -149,7 +131,7 @@ std::vector<SceneSearch> summarize_search(const PreparedStudy& prepared, const S
         for (const VariantResult& variant : variants_of_scene(results, scene.name)) {
             const bool searched =
                 std::ranges::find(prepared.candidates, variant.name, &StudyVariant::name) != prepared.candidates.end();
-            (searched ? fixed : own).push_back({variant.name, variant.settings, point_of(variant)});
+            (searched ? fixed : own).push_back({variant.name, variant.settings, find_point(variant).value()});
         }
         std::vector<CostPoint> points;
         for (const SearchedPoint& point : fixed) points.push_back(point.point);

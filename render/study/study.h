@@ -82,8 +82,11 @@ struct Study {
     StudyRuns runs;
 };
 
-/// The variants of the sweep, each named by its settings ("error=1,guide=none"), then the named ones. The last axis
-/// changes fastest.
+/// Every combination of the axes' values; the last axis changes fastest.
+/// @throws InputError for more than 10,000
+std::vector<SettingMap> list_combinations(const std::vector<StudyAxis>& axes);
+
+/// The variants of the sweep, each named by its settings ("error=1,guide=none"), then the named ones.
 /// @throws InputError for more than 10,000, two variants of one name, or none at all unless there is a search
 std::vector<StudyVariant> list_variants(const Study& study);
 

@@ -27,25 +27,22 @@ SettingValue read_value(const nlohmann::json& value) {
     return value.get<std::string>();
 }
 
-SettingMap read_settings(const JsonRef& object) {
+SettingMap find_settings(const JsonRef& parent) {
     SettingMap settings;
-    for (const auto& [key, value] : object.json().items()) settings[key] = read_value(value);
+    if (const auto found = parent.find("settings")) {
+        for (const auto& [key, value] : found->json().items()) settings[key] = read_value(value);
+    }
     return settings;
-}
-
-SettingMap find_settings(const JsonRef& parent, std::string_view key) {
-    const auto found = parent.find(key);
-    return found ? read_settings(*found) : SettingMap();
 }
 
 StudyReference read_reference(const JsonRef& root) {
     StudyReference reference;
     const auto found = root.find("reference");
     if (!found) return reference;
-    if (const auto kind = found->find_string("kind")) reference.kind = *kind;
-    if (const auto passes = found->find_integer("passes", 2, 4096)) reference.passes = static_cast<int>(*passes);
-    if (const auto spp = found->find_integer("spp", 1, 65536)) reference.spp = static_cast<int>(*spp);
-    reference.settings = find_settings(*found, "settings");
+    reference.kind = found->json().value("kind", reference.kind);
+    reference.passes = found->json().value("passes", reference.passes);
+    reference.spp = found->json().value("spp", reference.spp);
+    reference.settings = find_settings(*found);
     if (reference.kind != "settings" && !reference.settings.empty())
         found->fail("only a reference of the kind \"settings\" has settings");
     return reference;
@@ -57,23 +54,13 @@ StudyAxis read_axis(const std::string& setting, const nlohmann::json& values) {
     return axis;
 }
 
-/// @param order  of the settings in the file
-std::vector<StudyAxis> read_sweep(const JsonRef& root, const std::vector<std::string>& order) {
-    std::vector<StudyAxis> sweep;
-    const auto found = root.find("sweep");
-    if (!found) return sweep;
-    for (const std::string& key : order) sweep.push_back(read_axis(key, found->json().at(key)));
-    return sweep;
-}
-
-/// Settings that the file names take its values; others have those of the default.
+/// Settings that the file names take its values; others have those of the default. The schema has checked the ranges.
 std::optional<StudySearch> read_search(const JsonRef& root) {
     const auto found = root.find("search");
     if (!found) return std::nullopt;
     StudySearch search = default_search();
-    if (const auto candidates = found->find_integer("candidates", 1, 10000))
-        search.candidates = static_cast<int>(*candidates);
-    if (const auto rounds = found->find_integer("rounds", 1, 10)) search.rounds = static_cast<int>(*rounds);
+    search.candidates = found->json().value("candidates", search.candidates);
+    search.rounds = found->json().value("rounds", search.rounds);
     const auto settings = found->find("settings");
     if (!settings) return search;
     const auto refuse = [&](const char* key, const char* reason) {
@@ -88,12 +75,6 @@ std::optional<StudySearch> read_search(const JsonRef& root) {
         search.settings.push_back(read_axis(key, values));
     }
     return search;
-}
-
-std::vector<std::string> read_texts(const JsonRef& root, std::string_view key) {
-    std::vector<std::string> texts;
-    if (const auto found = root.find(key)) texts = found->json().get<std::vector<std::string>>();
-    return texts;
 }
 
 /// The files by frame that a pattern such as name.####.exr names.
@@ -113,7 +94,7 @@ void read_lists(const JsonRef& root, const std::filesystem::path& folder, Study&
             {file.is_absolute() ? file : (folder / file).lexically_normal(), scene.find_string("frames").value_or("")});
     });
     for_each_object(root, "variants", [&](const JsonRef& variant, std::size_t) {
-        SettingMap settings = find_settings(variant, "settings");
+        SettingMap settings = find_settings(variant);
         std::string name = variant.find_string("name").value_or(name_settings(settings));
         if (name.empty()) variant.fail("a variant without settings needs a name");
         const auto pictures = variant.find("pictures");
@@ -123,7 +104,7 @@ void read_lists(const JsonRef& root, const std::filesystem::path& folder, Study&
         if (pictures) study.variants.back().pictures = find_pictures(*pictures, folder);
     });
     for_each_object(root, "viewers", [&](const JsonRef& viewer, std::size_t) {
-        study.viewers.push_back({viewer.require("name").string(), find_settings(viewer, "settings")});
+        study.viewers.push_back({viewer.require("name").string(), find_settings(viewer)});
     });
 }
 
@@ -149,18 +130,20 @@ Study parse_study(std::string_view text, const std::filesystem::path& path) {
     Study study;
     study.title = root.find_string("title").value_or(path.stem().string());
     study.description = root.find_string("description").value_or("");
-    study.settings = find_settings(root, "settings");
+    study.settings = find_settings(root);
     study.settings["size"] = root.find_string("size").value_or("320x240");
     study.reference = read_reference(root);
-    const auto order = json.key_order.find("sweep");
-    study.sweep = read_sweep(root, order == json.key_order.end() ? std::vector<std::string>() : order->second);
+    if (const auto order = json.key_order.find("sweep"); order != json.key_order.end()) {
+        for (const std::string& key : order->second)
+            study.sweep.push_back(read_axis(key, json.root.at("sweep").at(key)));
+    }
     read_lists(root, path.parent_path(), study);
-    study.effects = root.has("effects") && root.require("effects").boolean();
+    study.effects = json.root.value("effects", false);
     study.search = read_search(root);
-    study.metrics = read_texts(root, "metrics");
+    study.metrics = json.root.value("metrics", study.metrics);
     if (study.viewers.empty()) study.viewers.push_back(default_viewer());
-    if (const auto repeats = root.find_integer("repeats", 1, 1000)) study.runs.repeats = static_cast<int>(*repeats);
-    if (const auto seeds = root.find("seeds")) study.runs.seeds = seeds->json().get<std::vector<std::uint32_t>>();
+    study.runs.repeats = json.root.value("repeats", study.runs.repeats);
+    study.runs.seeds = json.root.value("seeds", study.runs.seeds);
     return study;
 }
 

@@ -29,7 +29,7 @@ Json values_json(const std::map<std::string, MeasuredValue>& values, const std::
         const auto found = values.find(metric.name);
         if (found == values.end()) continue;
         json[metric.name] = {{"value", found->second.value},
-                             {"error", found->second.error ? Json(*found->second.error) : Json(nullptr)}};
+                             {"error", found->second.error ? Json(*found->second.error) : Json()}};
     }
     return json;
 }
@@ -123,21 +123,10 @@ Json point_json(const SearchedPoint& point) {
     return {{"variant", point.variant}, {"processor_seconds", point.point.cost}, {"share_seen", point.point.error}};
 }
 
-const char* name_of(FrontCost::Bound bound) {
-    switch (bound) {
-        case FrontCost::Bound::between:
-            return "exact";
-        case FrontCost::Bound::at_most:
-            return "at most";
-        case FrontCost::Bound::more:
-            return "more than";
-    }
-    return "";
-}
-
 /// The rounds of a search and its results, scene by scene: the front of fixed settings, and what they take to show
 /// as little as each variant of the study.
 Json search_json(const PreparedStudy& prepared, const StudyResults& results) {
+    constexpr const char* bounds[] = {"exact", "at most", "more than"};
     Json json{{"candidates", prepared.candidates.size()}, {"scenes", Json::array()}};
     const std::vector<SceneSearch> summaries = summarize_search(prepared, results);
     for (std::size_t s = 0; s < summaries.size(); ++s) {
@@ -155,7 +144,7 @@ Json search_json(const PreparedStudy& prepared, const StudyResults& results) {
         for (const AgainstFixed& against : summaries[s].against) {
             Json entry = point_json(against.own);
             entry["fixed_seconds"] = against.fixed.cost;
-            entry["fixed_seconds_are"] = name_of(against.fixed.bound);
+            entry["fixed_seconds_are"] = bounds[static_cast<int>(against.fixed.bound)];
             scene["against"].push_back(std::move(entry));
         }
     }
@@ -167,14 +156,6 @@ std::string field(const std::string& text) {
     std::string quoted = "\"";
     for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
     return quoted + "\"";
-}
-
-std::set<std::string> list_settings(const StudyResults& results) {
-    std::set<std::string> keys;
-    for (const VariantResult& variant : results.variants) {
-        for (const auto& [key, value] : variant.settings) keys.insert(key);
-    }
-    return keys;
 }
 
 }  // namespace
@@ -238,7 +219,10 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
 }
 
 std::string study_csv(const PreparedStudy& prepared, const StudyResults& results) {
-    const std::set<std::string> settings = list_settings(results);
+    std::set<std::string> settings;
+    for (const VariantResult& variant : results.variants) {
+        for (const auto& [key, value] : variant.settings) settings.insert(key);
+    }
     std::string text = "scene,frame,variant";
     for (const std::string& key : settings) text += "," + field(key);
     for (const Metric& metric : prepared.metrics) text += fmt::format(",{0},{0}_error", field(metric.name));
@@ -252,9 +236,9 @@ std::string study_csv(const PreparedStudy& prepared, const StudyResults& results
             }
             for (const Metric& metric : prepared.metrics) {
                 const auto found = frame.metrics.find(metric.name);
-                text += found == frame.metrics.end() ? std::string(",") : fmt::format(",{}", found->second.value);
-                text += found == frame.metrics.end() || !found->second.error ? std::string(",")
-                                                                             : fmt::format(",{}", *found->second.error);
+                const bool known = found != frame.metrics.end();
+                text += known ? fmt::format(",{},", found->second.value) : ",,";
+                if (known && found->second.error) text += fmt::format("{}", *found->second.error);
             }
             text += "\n";
         }

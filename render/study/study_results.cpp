@@ -19,15 +19,13 @@ double part(const std::vector<std::pair<std::string, double>>& parts, const char
 }
 
 /// Mean of each part over the runs; all have the same parts.
-template <class Parts>
 std::vector<std::pair<std::string, double>> mean_parts(const std::vector<MeasuredRun>& runs, std::size_t frame,
-                                                       const Parts& parts_of) {
-    std::vector<std::pair<std::string, double>> mean = parts_of(runs.front().frames.at(frame));
+                                                       std::vector<std::pair<std::string, double>> FrameRun::*parts) {
+    std::vector<std::pair<std::string, double>> mean = runs.front().frames.at(frame).*parts;
     for (auto& [name, value] : mean) value = 0.0;
     for (const MeasuredRun& run : runs) {
-        const auto& parts = parts_of(run.frames.at(frame));
         for (std::size_t i = 0; i < mean.size(); ++i)
-            mean[i].second += parts.at(i).second / static_cast<double>(runs.size());
+            mean[i].second += (run.frames.at(frame).*parts).at(i).second / static_cast<double>(runs.size());
     }
     return mean;
 }
@@ -56,8 +54,8 @@ FrameResult summarize_frame(const std::string& scene, const std::vector<Measured
         for (const auto& [name, value] : run.errors.at(i)) values[name].push_back(value);
     }
     for (const auto& [name, list] : values) result.metrics[name] = mean_of(list);
-    result.stages = mean_parts(runs, i, [](const FrameRun& run) { return run.stages; });
-    result.rays = mean_parts(runs, i, [](const FrameRun& run) { return run.rays; });
+    result.stages = mean_parts(runs, i, &FrameRun::stages);
+    result.rays = mean_parts(runs, i, &FrameRun::rays);
     return result;
 }
 
@@ -85,33 +83,34 @@ void average_frames(VariantResult& variant) {
     if (variant.frames.empty()) return;
     const auto count = static_cast<double>(variant.frames.size());
     for (const auto& [name, first] : variant.frames.front().metrics) {
+        if (!std::ranges::all_of(variant.frames, [&](const FrameResult& f) { return f.metrics.contains(name); }))
+            continue;
         double sum = 0.0, squares = 0.0;
-        bool everywhere = true, with_error = true;
+        bool with_error = true;
         for (const FrameResult& frame : variant.frames) {
-            const auto found = frame.metrics.find(name);
-            if (found == frame.metrics.end()) {
-                everywhere = false;
-                break;
-            }
-            sum += found->second.value;
-            with_error = with_error && found->second.error.has_value();
-            squares += std::pow(found->second.error.value_or(0.0), 2);
+            const MeasuredValue& value = frame.metrics.at(name);
+            sum += value.value;
+            with_error = with_error && value.error.has_value();
+            squares += std::pow(value.error.value_or(0.0), 2);
         }
-        if (!everywhere) continue;
         MeasuredValue& mean = variant.metrics[name];
         mean.value = sum / count;
         if (with_error) mean.error = std::sqrt(squares) / count;
     }
 }
 
-void find_front(std::vector<VariantResult>& variants, const std::string& cost, const std::string& error) {
-    const auto has = [&](const VariantResult& v) { return v.metrics.contains(cost) && v.metrics.contains(error); };
+std::optional<CostPoint> find_point(const VariantResult& variant) {
+    const auto cost = variant.metrics.find("processor_seconds"), error = variant.metrics.find("share_seen");
+    if (cost == variant.metrics.end() || error == variant.metrics.end()) return std::nullopt;
+    return CostPoint{cost->second.value, error->second.value};
+}
+
+void find_front(std::vector<VariantResult>& variants) {
     for (VariantResult& variant : variants) {
-        variant.on_front = has(variant) && std::ranges::none_of(variants, [&](const VariantResult& other) {
-                               if (!has(other)) return false;
-                               const double dc = other.metrics.at(cost).value - variant.metrics.at(cost).value;
-                               const double de = other.metrics.at(error).value - variant.metrics.at(error).value;
-                               return dc <= 0.0 && de <= 0.0 && (dc < 0.0 || de < 0.0);
+        const std::optional<CostPoint> own = find_point(variant);
+        variant.on_front = own && std::ranges::none_of(variants, [&](const VariantResult& other) {
+                               const std::optional<CostPoint> point = find_point(other);
+                               return point && dominates(*point, *own);
                            });
     }
 }

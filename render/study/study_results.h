@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/study/measure_run.h"
+#include "render/study/pareto.h"
 #include "render/study/timed_run.h"
 
 namespace aleph {
@@ -34,9 +35,8 @@ struct FrameResult {
 
 /// A run with the errors of its pictures; frames are in the same order.
 struct MeasuredRun {
-    int repeat = 0;
     std::vector<FrameRun> frames;
-    std::vector<MetricValues> errors;   ///< of repeat 0; else empty
+    std::vector<MetricValues> errors;   ///< of the first repeat; else empty
     std::vector<std::string> pictures;  ///< files
 };
 
@@ -55,7 +55,10 @@ struct VariantResult {
 /// Fills the means over the frames of each variant. A metric that some frame lacks has none.
 void average_frames(VariantResult& variant);
 
-/// Fills VariantResult::on_front for two metrics of which less is better. Variants without them are not on it.
-void find_front(std::vector<VariantResult>& variants, const std::string& cost, const std::string& error);
+/// processor_seconds and share_seen; nothing for variants without them.
+std::optional<CostPoint> find_point(const VariantResult& variant);
+
+/// Fills VariantResult::on_front. Variants without a point are not on it.
+void find_front(std::vector<VariantResult>& variants);
 
 }  // namespace aleph

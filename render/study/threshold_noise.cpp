@@ -1,7 +1,5 @@
 #include "render/study/threshold_noise.h"
 
-#include <algorithm>
-
 #include "engine/base/errors.h"
 #include "engine/base/sampling.h"
 #include "render/compare/compare_luminance.h"

@@ -11,25 +11,22 @@
 
 namespace aleph {
 
-namespace {
-
-constexpr std::size_t most_variants = 10000;
-
-/// Adds every combination of values of the axes from `axis` on.
-void expand(const Study& study, std::size_t axis, SettingMap& settings, std::vector<StudyVariant>& out) {
-    if (axis == study.sweep.size()) {
-        if (out.size() == most_variants)
-            throw InputError("", "sweep", fmt::format("more than {} variants", most_variants));
-        out.push_back({name_settings(settings, study.sweep), settings});
-        return;
+std::vector<SettingMap> list_combinations(const std::vector<StudyAxis>& axes) {
+    constexpr std::size_t most = 10000;
+    std::vector<SettingMap> all(1);
+    for (const StudyAxis& axis : axes) {
+        std::vector<SettingMap> longer;
+        for (SettingMap& settings : all) {
+            for (const SettingValue& value : axis.values) {
+                if (longer.size() == most) throw InputError("", "sweep", fmt::format("more than {} variants", most));
+                settings[axis.setting] = value;
+                longer.push_back(settings);
+            }
+        }
+        all = std::move(longer);
     }
-    for (const SettingValue& value : study.sweep[axis].values) {
-        settings[study.sweep[axis].setting] = value;
-        expand(study, axis + 1, settings, out);
-    }
+    return all;
 }
-
-}  // namespace
 
 std::string name_settings(const SettingMap& settings, const std::vector<StudyAxis>& order) {
     std::string name;
@@ -49,9 +46,11 @@ std::string name_settings(const SettingMap& settings, const std::vector<StudyAxi
 
 std::vector<StudyVariant> list_variants(const Study& study) {
     std::vector<StudyVariant> variants;
-    SettingMap settings;
-    if (!study.sweep.empty()) expand(study, 0, settings, variants);
-    for (const StudyVariant& variant : study.variants) variants.push_back(variant);
+    if (!study.sweep.empty()) {
+        for (const SettingMap& settings : list_combinations(study.sweep))
+            variants.push_back({name_settings(settings, study.sweep), settings});
+    }
+    std::ranges::copy(study.variants, std::back_inserter(variants));
     if (variants.empty() && !study.search) throw InputError("", "sweep", "the study has no variants");
     std::set<std::string> names;
     for (const StudyVariant& variant : variants) {

@@ -3,17 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/compare/reference_passes.h"
+
 namespace aleph {
-
-namespace {
-
-void add_mean(const char* metric, VariantResult& variant) {
-    std::vector<double> values;
-    for (const FrameResult& frame : variant.frames) values.push_back(frame.metrics.at(metric).value);
-    variant.metrics[metric] = {mean_of(values).value, std::nullopt};
-}
-
-}  // namespace
 
 double find_ideal_samples(const Image<float>& seen, const Image<float>& samples) {
     std::vector<double> needed;
@@ -63,19 +55,17 @@ void add_visible_metrics(const VisibleErrors& errors, MetricValues& out) {
     if (errors.ideal_samples) out["ideal_samples"] = *errors.ideal_samples;
 }
 
-void add_seed_metrics(const std::vector<JudgingFrame>& frames, const std::vector<std::string>& one,
-                      const std::vector<std::string>& other, VariantResult& variant) {
+void add_seed_metrics(const std::vector<JudgingFrame>& frames, const std::vector<std::string>& other,
+                      std::vector<FrameResult>& results) {
     const std::vector<VisibleErrors> errors = measure_visible(frames, [&](std::size_t i) {
-        ChannelImage picture = read_image(one.at(i));
+        ChannelImage picture = read_image(results.at(i).picture);
         ChannelImage reference = with_exposure_of(read_image(other.at(i)), picture);
         return std::pair(std::move(picture), std::move(reference));
     });
     for (std::size_t i = 0; i < errors.size(); ++i) {
-        variant.frames.at(i).metrics["seed_seen"] = {errors[i].shares.seen, std::nullopt};
-        variant.frames.at(i).metrics["seed_flicker"] = {errors[i].shares.flicker, std::nullopt};
+        results.at(i).metrics["seed_seen"] = {errors[i].shares.seen, std::nullopt};
+        results.at(i).metrics["seed_flicker"] = {errors[i].shares.flicker, std::nullopt};
     }
-    add_mean("seed_seen", variant);
-    add_mean("seed_flicker", variant);
 }
 
 }  // namespace aleph

@@ -34,11 +34,11 @@ std::vector<VisibleErrors> measure_visible(std::span<const JudgingFrame> frames,
 /// Adds share_seen, share_flicker, share_lasting and, where they are known, share_noticed and ideal_samples.
 void add_visible_metrics(const VisibleErrors& errors, MetricValues& out);
 
-/// Adds seed_seen and seed_flicker to every frame of a variant and, as means, to the variant: the shares in which two
-/// renderings that differ in their random numbers alone are seen to differ.
-/// @param frames      of the variant, in their order
-/// @param one,other   files of the pictures of both seeds, by frame
-void add_seed_metrics(const std::vector<JudgingFrame>& frames, const std::vector<std::string>& one,
-                      const std::vector<std::string>& other, VariantResult& variant);
+/// Adds seed_seen and seed_flicker to every frame of a variant: the shares in which two renderings that differ in their
+/// random numbers alone are seen to differ.
+/// @param frames  of the variant, in their order
+/// @param other   files of the pictures of the other seed, by frame
+void add_seed_metrics(const std::vector<JudgingFrame>& frames, const std::vector<std::string>& other,
+                      std::vector<FrameResult>& results);
 
 }  // namespace aleph

@@ -25,12 +25,9 @@ using Pairs = std::vector<PicturePair>;
 VisibleMaps judge(const ProbeWindow& window, const Pairs& pairs, std::int64_t frame, const ViewingSettings& viewing) {
     VisibleDifference difference(viewing, frame);
     std::vector<VisibleMaps> maps;
-    const auto take = [&](std::vector<VisibleMaps> finished) {
-        for (VisibleMaps& each : finished) maps.push_back(std::move(each));
-    };
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        take(difference.add(window.frames[i].frame, pairs[i], window.frames[i].motion));
-    take(difference.finish());
+    for (std::size_t i = 0; i < pairs.size() && maps.empty(); ++i)
+        maps = difference.add(window.frames[i].frame, pairs[i], window.frames[i].motion);
+    if (maps.empty()) maps = difference.finish();
     return std::move(maps.front());
 }
 

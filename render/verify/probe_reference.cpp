@@ -15,38 +15,16 @@ constexpr int track_reach = 1;  // pixels around a tracked place
 constexpr int context = 40;     // pixels around all parts
 constexpr int alignment = 16;   // pixels, so that coarse levels lie as in the whole picture
 
-MotionMaps read_maps(const FrameOutput& output) {
-    const MotionField& field = output.motion;
-    const int width = output.hits.width, height = output.hits.height;
-    MotionMaps maps{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height),
-                    Image<float>(width, height)};
-    for (std::size_t i = 0; i < maps.u.size(); ++i) {
-        maps.u.pixels[i] = static_cast<float>(field.displacement.pixels[i].x);
-        maps.v.pixels[i] = static_cast<float>(-field.displacement.pixels[i].y);
-        maps.valid.pixels[i] = static_cast<float>(static_cast<int>(field.validity.pixels[i]));
-        maps.object.pixels[i] = static_cast<float>(static_cast<int>(output.hits.pixels[i].instance));
-    }
-    return maps;
-}
-
 MotionMaps crop_maps(const MotionMaps& maps, const PictureArea& area) {
     return {crop(maps.u, area), crop(maps.v, area), crop(maps.valid, area), crop(maps.object, area)};
 }
 
-void mark(PicturePart& part, int x, int y, int reach) {
-    for (int row = std::max(0, y - reach); row <= std::min(part.height - 1, y + reach); ++row) {
-        for (int column = std::max(0, x - reach); column <= std::min(part.width - 1, x + reach); ++column)
-            part(column, row) = 1;
-    }
-}
-
-PicturePart block_part(const PictureArea& block, int width, int height) {
-    PicturePart part(width, height, std::uint8_t{0});
-    for (int y = std::max(0, block.y - margin); y < std::min(height, block.y + block.height + margin); ++y) {
-        for (int x = std::max(0, block.x - margin); x < std::min(width, block.x + block.width + margin); ++x)
+/// Marks an area and the pixels around it.
+void mark(PicturePart& part, const PictureArea& area, int around) {
+    for (int y = std::max(0, area.y - around); y < std::min(part.height, area.y + area.height + around); ++y) {
+        for (int x = std::max(0, area.x - around); x < std::min(part.width, area.x + area.width + around); ++x)
             part(x, y) = 1;
     }
-    return part;
 }
 
 PicturePart tracked_part(const PicturePart& part, const TrackImage& track) {
@@ -54,7 +32,7 @@ PicturePart tracked_part(const PicturePart& part, const TrackImage& track) {
     for (std::size_t i = 0; i < part.size(); ++i) {
         const glm::vec2 p = track.pixels[i];
         if (part.pixels[i] == 0 || std::isnan(p.x)) continue;
-        mark(out, static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)), track_reach);
+        mark(out, {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)), 1, 1}, track_reach);
     }
     return out;
 }
@@ -89,6 +67,20 @@ void add_to_mean(Image<Rgb>& mean, int count, const Image<Rgb>& picture, int add
 
 }  // namespace
 
+MotionMaps read_maps(const FrameOutput& output) {
+    const MotionField& field = output.motion;
+    const int width = output.hits.width, height = output.hits.height;
+    MotionMaps maps{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height),
+                    Image<float>(width, height)};
+    for (std::size_t i = 0; i < maps.u.size(); ++i) {
+        maps.u.pixels[i] = static_cast<float>(field.displacement.pixels[i].x);
+        maps.v.pixels[i] = static_cast<float>(-field.displacement.pixels[i].y);
+        maps.valid.pixels[i] = static_cast<float>(static_cast<int>(field.validity.pixels[i]));
+        maps.object.pixels[i] = static_cast<float>(static_cast<int>(output.hits.pixels[i].instance));
+    }
+    return maps;
+}
+
 std::vector<std::int64_t> list_window(std::int64_t frame, int reach, const FrameRange& range,
                                       std::span<const std::int64_t> cuts) {
     const auto is_cut = [&](std::int64_t at) { return std::ranges::find(cuts, at) != cuts.end(); };
@@ -111,12 +103,11 @@ ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence) {
         window.frames.push_back({frame, read_maps(sequence.find_motion(frame)), {}, {}});
     }
     const int width = window.frames[own].motion.u.width, height = window.frames[own].motion.u.height;
-    std::vector<const MotionMaps*> forward, backward;
-    for (std::size_t i = own; i < window.frames.size(); ++i) forward.push_back(&window.frames[i].motion);
-    for (std::size_t i = own + 1; i-- > 0;) backward.push_back(&window.frames[i].motion);
-    const std::vector<TrackImage> after = track_forward(forward, static_cast<int>(forward.size()) - 1);
-    const std::vector<TrackImage> before = track_backward(backward, static_cast<int>(backward.size()) - 1);
-    const PicturePart part = block_part(place.block, width, height);
+    std::vector<const MotionMaps*> motion;
+    for (const ProbeFrame& each : window.frames) motion.push_back(&each.motion);
+    const auto [after, before] = track_surfaces(motion, own);
+    PicturePart part(width, height, std::uint8_t{0});
+    mark(part, place.block, margin);
     window.frames[own].part = part;
     for (std::size_t k = 0; k < after.size(); ++k) window.frames[own + 1 + k].part = tracked_part(part, after[k]);
     for (std::size_t k = 0; k < before.size(); ++k) window.frames[own - 1 - k].part = tracked_part(part, before[k]);

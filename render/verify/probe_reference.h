@@ -13,8 +13,8 @@ namespace aleph {
 /// A frame of a probe's window.
 struct ProbeFrame {
     std::int64_t frame = 0;
-    MotionMaps motion;       ///< of the area
-    PicturePart part;        ///< pixels that the reference is rendered for, of the whole picture
+    MotionMaps motion;  ///< of the area
+    PicturePart part;   ///< pixels that the reference is rendered for, of the whole picture
     /// Of the area, two means of as many samples, whose mean is the reference and whose difference its noise; 0 beyond
     /// the part.
     std::array<Image<Rgb>, 2> halves;
@@ -28,6 +28,9 @@ struct ProbeWindow {
     PictureArea area;   ///< all parts and what the eye is adapted to around them, at multiples of 16 pixels
     PictureArea block;  ///< relative to the area
 };
+
+/// The motion of a frame as the instrument takes it.
+MotionMaps read_maps(const FrameOutput& output);
 
 /// Frames that the instrument looks at for one of them: within the range, without a cut between.
 std::vector<std::int64_t> list_window(std::int64_t frame, int reach, const FrameRange& range,

@@ -62,19 +62,17 @@ struct MeanDifference {
     int seeds = 0;
 
     void add(const Image<double>& differences) {
-        if (seeds == 0) mean = variance = Image<double>(differences.width, differences.height, 0.0);
-        ++seeds;
+        if (seeds++ == 0) mean = variance = squares_ = Image<double>(differences.width, differences.height);
         for (std::size_t i = 0; i < mean.size(); ++i) {
             const double delta = differences.pixels[i] - mean.pixels[i];
             mean.pixels[i] += delta / seeds;
-            sums_[i] += delta * (differences.pixels[i] - mean.pixels[i]);  // Welford 1962
-            variance.pixels[i] = seeds > 1 ? sums_[i] / (seeds - 1) / seeds : 0.0;
+            squares_.pixels[i] += delta * (differences.pixels[i] - mean.pixels[i]);  // Welford 1962
+            variance.pixels[i] = seeds > 1 ? squares_.pixels[i] / (seeds - 1) / seeds : 0.0;
         }
     }
-    void reserve(std::size_t pixels) { sums_.assign(pixels, 0.0); }
 
   private:
-    std::vector<double> sums_;
+    Image<double> squares_;
 };
 
 /// Standard errors from the variances of a pixel and the 24 around it, whichever tells more: a few seeds alone miss
@@ -117,12 +115,10 @@ std::vector<Trial> list_trials(const EffectsPlan& plan) {
     for (const auto& [effect, name, description] : effect_list) {
         const PlannedEffect& planned = plan.of(effect);
         if (planned.decision == Decision::simulate || planned.by_user || !planned.bound) continue;
-        const bool one = planned.bound->luminance > 0.0 || std::ranges::find(alone, effect) != std::end(alone);
-        if (!one) {
+        if (planned.bound->luminance > 0.0 || std::ranges::find(alone, effect) != std::end(alone))
+            trials.push_back({name, EffectSet(effect), *planned.bound});
+        else
             others.effects.add(effect);
-            continue;
-        }
-        trials.push_back({name, EffectSet(effect), *planned.bound});
     }
     if (!others.effects.empty()) trials.push_back(others);
     return trials;
@@ -160,7 +156,6 @@ Finding compare_with_bound(const Scene& scene, const RenderSettings& settings, s
     const double white = scene.film.viewing.display_white;
     Finding finding;
     MeanDifference difference;
-    difference.reserve(planned.color.size());
     Image<std::uint8_t> changed(planned.color.width, planned.color.height, 0);
     for (int i = 0; i < (bound.luminance > 0.0 ? seeds : 1); ++i) {
         RenderSettings plain = settings, forced = settings;
@@ -269,7 +264,6 @@ int main(int argc, char** argv) {
     app.add_flag("--quick", options.quick, "a few frames of scenes of this repository, small: about 20 seconds");
     aleph::add_value(app, "--seeds", options.seeds, "pairs of renderings where a bound is above 0, at least 2");
     app.add_flag("-q,--quiet", options.quiet, "do not show progress");
-    aleph::add_study_program_options(app, options.study);
     return aleph::run_study_program(app, options.study, argc, argv, [&] {
         if (options.quick) aleph::make_quick(options);
         return aleph::run_effects(options);

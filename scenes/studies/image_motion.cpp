@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -41,29 +42,22 @@ std::vector<bool> find_movers(const Scene& scene, int frame) {
     return moves;
 }
 
-/// A part of the picture.
-struct Region {
-    std::string name;
-    std::function<bool(std::size_t pixel)> holds;
-};
+/// Whether a pixel is of a part of the picture.
+using Region = std::function<bool(std::size_t pixel)>;
 
-std::vector<Region> list_regions(const FrameOutput& model, const std::vector<bool>& movers) {
+/// What moves, what does not, and what the next frame hides: there points cannot be found.
+std::array<Region, 3> list_regions(const FrameOutput& model, const std::vector<bool>& movers) {
     const auto on_mover = [&](std::size_t i) {
         const int instance = model.hits.pixels[i].instance;
         return instance != no_index && movers[instance];
     };
     const auto validity = [&](std::size_t i) { return model.motion.validity.pixels[i]; };
-    // Points that the next frame does not show cannot be found: they are a region of their own.
     const auto shown = [=](std::size_t i) {
         return validity(i) == MotionValidity::valid || validity(i) == MotionValidity::background;
     };
-    return {{"moving object", [=](std::size_t i) { return shown(i) && on_mover(i); }},
-            {"background", [=](std::size_t i) { return shown(i) && !on_mover(i); }},
-            {"hidden in the next frame", [=](std::size_t i) { return validity(i) == MotionValidity::hidden; }}};
-}
-
-double length_of(const glm::dvec2& v) {
-    return std::hypot(v.x, v.y);
+    return {[=](std::size_t i) { return shown(i) && on_mover(i); },
+            [=](std::size_t i) { return shown(i) && !on_mover(i); },
+            [=](std::size_t i) { return validity(i) == MotionValidity::hidden; }};
 }
 
 /// Errors of the valid displacements within a region, pixels, sorted; and the share that is valid.
@@ -85,27 +79,27 @@ struct RegionErrors {
 RegionErrors find_errors(const MotionField& field, const MotionField& truth, const Region& region) {
     RegionErrors errors;
     for (std::size_t i = 0; i < truth.displacement.size(); ++i) {
-        if (!region.holds(i)) continue;
+        if (!region(i)) continue;
         ++errors.pixels;
         const MotionValidity validity = field.validity.pixels[i];
         if (validity != MotionValidity::valid && validity != MotionValidity::background) continue;
-        errors.sorted.push_back(length_of(field.displacement.pixels[i] - truth.displacement.pixels[i]));
+        errors.sorted.push_back(glm::length(field.displacement.pixels[i] - truth.displacement.pixels[i]));
     }
-    std::sort(errors.sorted.begin(), errors.sorted.end());
+    std::ranges::sort(errors.sorted);
     return errors;
 }
 
 Image<float> lengths_of(const Image<glm::dvec2>& displacement) {
     Image<float> lengths(displacement.width, displacement.height);
     for (std::size_t i = 0; i < lengths.size(); ++i)
-        lengths.pixels[i] = static_cast<float>(length_of(displacement.pixels[i]));
+        lengths.pixels[i] = static_cast<float>(glm::length(displacement.pixels[i]));
     return lengths;
 }
 
 /// An even number of pixels that 99.8 % of the motion stays under.
 double scale_of(const Image<float>& lengths) {
     std::vector<float> sorted = lengths.pixels;
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     return std::max(2.0, std::ceil(static_cast<double>(sorted[sorted.size() * 998 / 1000]) / 2.0) * 2.0);
 }
 
@@ -187,7 +181,7 @@ void print_table(const Motions& motions, const std::vector<bool>& movers, bool m
     const StudyTable table({"motion from", "object: valid (%)", "median", "95 %", "background: valid (%)", "median",
                             "95 %", "hidden: valid (%)", "processor seconds"},
                            1, markdown);
-    const std::vector<Region> regions = list_regions(motions.now, movers);
+    const std::array<Region, 3> regions = list_regions(motions.now, movers);
     for (const FoundMotion& found : motions.found) {
         std::vector<std::string> row{found.source};
         for (std::size_t i = 0; i < 2; ++i) {
@@ -237,6 +231,5 @@ int main(int argc, char** argv) {
     app.add_option("scene", options.scene, "a scene file")->required();
     aleph::add_value(app, "--frame", options.frame, "the first of two frames");
     app.add_option("-o,--output", options.picture, "file of the picture, .png or .jpg")->capture_default_str();
-    aleph::add_study_program_options(app, options.study);
     return aleph::run_study_program(app, options.study, argc, argv, [&] { return aleph::run_motion(options); });
 }

@@ -22,21 +22,10 @@ struct SheetOptions {
     int columns = 2, width = 320;
 };
 
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == separator)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    }
-    return parts;
-}
-
 /// CAPTION=FILE is the picture of an image file; CAPTION=FILE,CHANNEL,LOW,HIGH a channel in colours from LOW to HIGH.
 Panel read_panel(const std::string& text) {
     const std::size_t equals = text.find('=');
-    const std::vector<std::string> parts = split(text.substr(std::min(equals, text.size() - 1) + 1), ',');
+    const std::vector<std::string> parts = CLI::detail::split(text.substr(std::min(equals, text.size() - 1) + 1), ',');
     if (equals == std::string::npos || (parts.size() != 1 && parts.size() != 4))
         throw InputError(text, "", "expected CAPTION=FILE or CAPTION=FILE,CHANNEL,LOW,HIGH");
     const std::string caption = text.substr(0, equals);

@@ -35,7 +35,8 @@ run() {
       cp build/demo/errors.jpg scenes/studies/demo.jpg ;;
     pool)
       study pool pool
-      bash render/report/picture.sh build out/studies/pool/report.html scenes/studies/report.jpg ;;
+      # In the folder that has the packages.
+      (cd build/report && node ../../render/report/picture.mjs ../../out/studies/pool/report.html ../../scenes/studies/report.jpg) ;;
     knob) study knob knob -t 1 ;;
     effects) study effects effects -t 1 --repeats 3 --markdown ;;
     motion)

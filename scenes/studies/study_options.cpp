@@ -9,13 +9,6 @@
 
 namespace aleph {
 
-void add_study_program_options(CLI::App& app, StudyOptions& options) {
-    app.add_option("--size", options.size, "WIDTHxHEIGHT of the frames in pixels")->capture_default_str();
-    app.add_option("--set", options.sets, "KEY=VALUE: a setting of every rendering")->allow_extra_args(false);
-    add_value(app, "-t,--threads", options.threads, "number of threads; 0: all");
-    app.add_flag("--markdown", options.markdown, "print tables as Markdown");
-}
-
 RenderSettings scene_settings(const Scene& scene, const std::string& file, const StudyOptions& options) {
     RenderSettings settings;
     apply_settings(settings, scene.source.settings, file);
@@ -43,8 +36,12 @@ FrameOfScene parse_frame_of_scene(const std::string& text) {
     return {text.substr(0, at), frame};
 }
 
-int run_study_program(CLI::App& app, const StudyOptions& options, int argc, const char* const* argv,
+int run_study_program(CLI::App& app, StudyOptions& options, int argc, const char* const* argv,
                       const std::function<int()>& program) {
+    app.add_option("--size", options.size, "WIDTHxHEIGHT of the frames in pixels")->capture_default_str();
+    app.add_option("--set", options.sets, "KEY=VALUE: a setting of every rendering")->allow_extra_args(false);
+    add_value(app, "-t,--threads", options.threads, "number of threads; 0: all");
+    app.add_flag("--markdown", options.markdown, "print tables as Markdown");
     const auto run = [&] {
         const ThreadLimit limit(options.threads);
         return program();

@@ -11,16 +11,13 @@
 
 namespace aleph {
 
-/// Options that all of them have.
+/// Options that all of them have: --size, --set, --threads, --markdown.
 struct StudyOptions {
     std::string size = "320x240";  ///< of the frames, WIDTHxHEIGHT in pixels
     std::vector<std::string> sets{};
     int threads = 0;
     bool markdown = false;
 };
-
-/// --size, --set, --threads, --markdown.
-void add_study_program_options(CLI::App& app, StudyOptions& options);
 
 /// The settings of a scene at the size of the options, with those of --set in their places.
 /// @param file  of the scene, for errors
@@ -40,9 +37,9 @@ struct FrameOfScene {
 /// @throws InputError if no number follows the last @
 FrameOfScene parse_frame_of_scene(const std::string& text);
 
-/// Reads the command line and calls the program on the number of threads that the options ask for.
+/// Reads the command line, with these options too, and calls the program on the number of threads that they ask for.
 /// @param program  returns the exit code
-int run_study_program(CLI::App& app, const StudyOptions& options, int argc, const char* const* argv,
+int run_study_program(CLI::App& app, StudyOptions& options, int argc, const char* const* argv,
                       const std::function<int()>& program);
 
 }  // namespace aleph

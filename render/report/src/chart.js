@@ -1,12 +1,11 @@
 // The chart of error against time.
 import { chartNote, chartPoints, findMetric } from './chart_points.js';
-import { menu } from './controls.js';
-import { byId, fill } from './dom.js';
+import { menu, refill } from './controls.js';
+import { byId } from './dom.js';
 import { settingText, withUnit } from './format.js';
 import { select, toggleSelected } from './selection.js';
 import { drawChart, onResize, rampColor, seriesColors } from './vega_view.js';
 
-/** @param {object} study @param {object} store */
 export function showChart(study, store) {
   const node = byId('chart');
   const { values } = store;
@@ -69,15 +68,12 @@ function showControls(study, store) {
   const metrics = study.metrics.map(metric => [metric.name, withUnit(metric)]);
   const axes = [['none', 'nothing'], ...study.axes.map(axis => [axis.setting, axis.setting])];
   const frames = [['mean', 'mean of all'], ...study.frames.map(frame => [String(frame), String(frame)])];
-  const holder = byId('chart-controls');
-  const name = holder.contains(document.activeElement) ? document.activeElement.name : null;
-  fill(holder,
+  refill(byId('chart-controls'),
     menu('Horizontal axis', metrics, values.x, x => store.set({ x })),
     menu('Vertical axis', metrics, values.y, y => store.set({ y })),
     menu('Colour', axes, values.color, color => store.set({ color })),
     menu('Shape', axes, values.shape, shape => store.set({ shape })),
     study.frames.length > 1 ? menu('Frames', frames, values.over, over => store.set({ over })) : null);
-  if (name) holder.querySelector(`[name="${name}"]`)?.focus();
 }
 
 function axisSpec(study, values, axis, domains, ticks) {

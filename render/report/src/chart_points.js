@@ -2,7 +2,7 @@
 import { number, settingText, withError } from './format.js';
 import { metricOf, paretoFront } from './study.js';
 
-/** A metric's entry in the study. @param {object} study @param {string} name */
+/** A metric's entry in the study. */
 export function findMetric(study, name) {
   return study.metrics.find(metric => metric.name === name);
 }

@@ -74,12 +74,7 @@ export function position(scale, value) {
   return Math.min(1, Math.max(0, place));
 }
 
-/**
- * A map as colours of its scale.
- * @param {{width: number, height: number, values: Float32Array}} map
- * @param {{kind: string, low: number, high: number}} scale
- * @returns {ImageData}
- */
+/** A map as colours of its scale. @returns {ImageData} */
 export function mapImage(map, scale) {
   const image = new ImageData(map.width, map.height);
   const colors = palette(scale.kind);

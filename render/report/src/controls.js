@@ -1,15 +1,9 @@
 // Labelled form controls.
-import { make } from './dom.js';
+import { fill, make } from './dom.js';
 
 let count = 0;
 
-/**
- * A menu. `options` are [value, title] pairs, or {group, options} for a group of them.
- * @param {string} title
- * @param {Array<[string, string]|{group: string, options: Array<[string, string]>}>} options
- * @param {string} value
- * @param {(value: string) => void} onChange
- */
+/** A menu. `options` are [value, title] pairs, or {group, options} for a group of them. */
 export function menu(title, options, value, onChange) {
   const option = ([key, text]) => make('option', { value: key, selected: key === value }, text);
   const nodes = options.map(entry => Array.isArray(entry)
@@ -20,9 +14,7 @@ export function menu(title, options, value, onChange) {
 
 /**
  * A slider with its value as text.
- * @param {string} title
  * @param {{min: number, max: number, step: number, value: number, show: (value: number) => string}} range
- * @param {(value: number) => void} onInput
  */
 export function slider(title, range, onInput) {
   const output = make('output', {}, range.show(range.value));
@@ -37,29 +29,24 @@ export function slider(title, range, onInput) {
   return make('label', { class: 'control' }, make('span', {}, title, ' ', output), input);
 }
 
-/**
- * A few alternatives, of which one holds.
- * @param {string} title
- * @param {Array<[string, string]>} options
- * @param {string} value
- * @param {(value: string) => void} onChange
- */
+/** A few alternatives, of which one holds. @param {Array<[string, string]>} options  values and titles */
 export function choice(title, options, value, onChange) {
   const name = `choice-${++count}`;
-  return make('fieldset', { class: 'control choice' }, make('legend', {}, title),
+  return make('fieldset', { class: 'control' }, make('legend', {}, title),
     make('span', { class: 'segments' }, ...options.map(([key, text]) => make('label', {},
       make('input', { type: 'radio', name, value: key, checked: key === value, onchange: () => onChange(key) }),
       make('span', {}, text)))));
 }
 
-/** @param {string} title @param {boolean} value @param {(value: boolean) => void} onChange */
-export function toggle(title, value, onChange) {
-  return make('label', { class: 'control check' },
-    make('input', { type: 'checkbox', checked: value, onchange: event => onChange(event.target.checked) }),
-    make('span', {}, title));
+/** Makes controls anew in their place; the focus stays where it was. @param {HTMLElement} holder @param {...(Node|null)} controls */
+export function refill(holder, ...controls) {
+  const { name, type, value } = holder.contains(document.activeElement) ? document.activeElement : {};
+  fill(holder, ...controls);
+  const isSame = node => type === 'radio' ? node.type === type && node.value === value : node.name === name;
+  if (name) [...holder.querySelectorAll('[name]')].find(isSame)?.focus();
 }
 
-/** @param {string} text @param {() => void} onClick @param {string} [label] for screen readers */
+/** @param {string} [label]  for screen readers */
 export function button(text, onClick, label) {
   return make('button', { type: 'button', 'aria-label': label, title: label, onclick: onClick }, text);
 }

@@ -2,11 +2,7 @@
 
 /**
  * Makes an element. Properties that start with "on" are listeners; null and false leave a property out.
- * Children are nodes or text; text is never read as HTML.
- * @param {string} tag
- * @param {Object<string, any>} [properties]
- * @param {...(Node|string|number|null)} children
- * @returns {HTMLElement}
+ * @param {...(Node|string|number|null)} children  text is never read as HTML
  */
 export function make(tag, properties = {}, ...children) {
   const node = document.createElement(tag);
@@ -20,17 +16,29 @@ export function make(tag, properties = {}, ...children) {
   return node;
 }
 
-/** @param {string} id */
+/**
+ * Makes a table whose rows begin with a head.
+ * @param {Array<[string, string?]>} heads  titles, and the classes of their columns
+ * @param {Array<{cells: Array<Node|string|number>}>} rows  with properties of the row beside its cells
+ */
+export function makeTable(properties, heads, rows) {
+  const body = rows.map(({ cells: [first, ...others], ...row }) => make('tr', row, make('th', { scope: 'row' }, first),
+    ...others.map((cell, i) => make('td', { class: heads[i + 1][1] }, cell))));
+  return make('table', properties,
+    make('thead', {}, make('tr', {}, ...heads.map(([title, name]) => make('th', { scope: 'col', class: name }, title)))),
+    make('tbody', {}, ...body));
+}
+
 export function byId(id) {
   return document.getElementById(id);
 }
 
-/** Replaces what an element holds. @param {Element} node @param {...(Node|string|null)} children */
+/** Replaces what an element holds. */
 export function fill(node, ...children) {
   node.replaceChildren(...children.filter(child => child !== null && child !== undefined));
 }
 
-/** Tells screen readers of a change. @param {string} text */
+/** Tells screen readers of a change. */
 export function announce(text) {
   byId('live').textContent = text;
 }

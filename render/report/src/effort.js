@@ -1,5 +1,5 @@
 // Bars of time by stage and of rays by kind, for each frame of the selected variants; of the frame shown where these are many.
-import { byId, fill, make } from './dom.js';
+import { byId, fill, make, makeTable } from './dom.js';
 import { findVariant } from './study.js';
 import { drawChart, onResize } from './vega_view.js';
 
@@ -10,7 +10,6 @@ const charts = [
 
 const mostBars = 24;
 
-/** @param {object} study @param {object} store */
 export function showEffort(study, store) {
   const holder = byId('bars');
   const nodes = charts.map(chart => make('figure', { class: 'chart', role: 'img', 'aria-label': `${chart.title}, for each frame of the selected variants` }));
@@ -83,9 +82,8 @@ function tableOf(chart, rows) {
   const parts = [...new Set(rows.map(row => row.part))];
   const bars = [...new Set(rows.map(row => row.bar))];
   const amount = (bar, part) => rows.filter(row => row.bar === bar && row.part === part).reduce((sum, row) => sum + row.amount, 0);
-  return make('details', {}, make('summary', {}, `${chart.title} as a table`), make('div', { class: 'scroll', tabindex: 0 },
-    make('table', {}, make('thead', {}, make('tr', {}, make('th', { scope: 'col' }, 'Frame'),
-      ...parts.map(part => make('th', { scope: 'col', class: 'numeric' }, part)))),
-    make('tbody', {}, ...bars.map(bar => make('tr', {}, make('th', { scope: 'row' }, bar.replace('\n', ', ')),
-      ...parts.map(part => make('td', { class: 'numeric' }, amount(bar, part).toLocaleString('en', { maximumSignificantDigits: 4 })))))))));
+  const table = makeTable({}, [['Frame'], ...parts.map(part => [part, 'numeric'])], bars.map(bar => ({
+    cells: [bar.replace('\n', ', '), ...parts.map(part => amount(bar, part).toLocaleString('en', { maximumSignificantDigits: 4 }))],
+  })));
+  return make('details', {}, make('summary', {}, `${chart.title} as a table`), make('div', { class: 'scroll', tabindex: 0 }, table));
 }

@@ -1,6 +1,6 @@
 // The controls above the pictures.
-import { button, choice, menu, slider } from './controls.js';
-import { byId, fill } from './dom.js';
+import { button, choice, menu, refill, slider } from './controls.js';
+import { byId, make } from './dom.js';
 import { number } from './format.js';
 import { reference } from './panes.js';
 import { paneTitle } from './pane_text.js';
@@ -9,17 +9,12 @@ import { fitted, zoomAbout } from './viewport.js';
 /** @param {object} study @param {object} store @param {Array<{group: string, maps: object[]}>} groups */
 export function showFrameControls(study, store, groups) {
   const { values } = store;
-  const holder = byId('frame-controls');
-
   const draw = () => {
-    const focused = holder.contains(document.activeElement) ? document.activeElement : null;
-    const name = focused?.name;
-    const picked = focused?.value;
     const frames = study.frames.map(frame => [String(frame), String(frame)]);
     const shows = [['picture', 'Picture'], ...groups.map(({ group, maps }) => ({ group, options: maps.map(map => [map.key, map.title]) }))];
     const pictures = [reference, ...study.variants.map(variant => variant.id)].map(id => [id, paneTitle(study, id)]);
     const two = values.layout !== 'side';
-    fill(holder,
+    refill(byId('frame-controls'),
       menu('Frame', frames, String(values.frame), frame => store.set({ frame: Number(frame) })),
       choice('Layout', [['side', 'Side by side'], ['swipe', 'Swipe'], ['blink', 'Blink']], values.layout, layout => store.set({ layout })),
       two ? menu('A', pictures, values.a, a => store.set({ a })) : null,
@@ -35,20 +30,13 @@ export function showFrameControls(study, store, groups) {
         min: -6, max: 6, step: 0.25, value: values.stops, show: stops => `${stops > 0 ? '+' : ''}${number(stops)} stops`,
       }, stops => store.set({ stops })),
       zoomButtons(store));
-    // The controls are made anew; the focus stays where it was.
-    const same = name && [...holder.querySelectorAll('[name]')].find(node =>
-      node.type === 'radio' ? node.value === picked && focused.type === 'radio' : node.name === name);
-    same?.focus();
   };
   store.on(['layout', 'show', 'selected', 'frame', 'a', 'b'], draw);
   draw();
 }
 
 function zoomButtons(store) {
-  const group = document.createElement('span');
-  group.className = 'buttons';
   const zoom = factor => store.set({ view: zoomAbout(store.values.view, factor) });
-  group.append(button('−', () => zoom(1 / 1.5), 'Zoom out'), button('Fit', () => store.set({ view: fitted }), 'Fit the pictures'),
-    button('+', () => zoom(1.5), 'Zoom in'));
-  return group;
+  return make('span', { class: 'buttons' }, button('−', () => zoom(1 / 1.5), 'Zoom out'),
+    button('Fit', () => store.set({ view: fitted }), 'Fit the pictures'), button('+', () => zoom(1.5), 'Zoom in'));
 }

@@ -6,7 +6,6 @@ const line = parts => parts.filter(part => part !== undefined && part !== null &
 
 const counted = (count, one, many = `${one}s`) => `${count} ${count === 1 ? one : many}`;
 
-/** @param {object} study */
 export function showHead(study) {
   document.title = study.title ?? 'Study';
   fill(byId('title'), study.title ?? 'Study');
@@ -17,7 +16,7 @@ export function showHead(study) {
     ['Scene', line([study.scene, study.frames.length > 0 && `${study.frames.length === 1 ? 'frame' : 'frames'} ${study.frames.join(', ')}`, `${study.width} × ${study.height} pixels`])],
     ['Reference', study.reference && line([study.reference.kind, study.reference.passes && counted(study.reference.passes, 'pass', 'passes')])],
     ['Machine', line([host.processor ?? host.name, host.threads && counted(host.threads, 'thread')])],
-    ['Build', line([build.version, build.type, build.instructions])],
+    ['Build', build.version],
     ['Made', study.date && dateText(study.date)],
   ].filter(([, text]) => text);
   fill(byId('facts'), ...facts.map(fact));
@@ -25,9 +24,7 @@ export function showHead(study) {
   const details = [
     ['Command', study.command && make('code', {}, study.command)],
     ['Noise of the reference', study.reference?.note],
-    ['Model of vision', study.vision],
-    ['Display', study.display_white && line([`white is ${number(study.display_white)} cd/m²`,
-      study.exposure && `radiance is multiplied by ${number(study.exposure)}`])],
+    ['Display', study.display_white && `white is ${number(study.display_white)} cd/m²`],
     ['Settings varied', study.axes.map(axis => `${axis.setting}: ${axis.values.map(settingText).join(', ')}`).join('; ')],
     ['Host', line([host.name, host.processor, host.threads && counted(host.threads, 'thread'), host.memory_mib && `${number(host.memory_mib)} MiB`])],
     ['Compiler', build.compiler],

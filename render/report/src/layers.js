@@ -5,8 +5,7 @@
 import { byId } from './dom.js';
 
 const cacheBytes = 256 * 1024 * 1024;
-const cache = new Map(); // element id -> {bytes, promise of the decoded layer}, the last used at the end
-const done = new Set(); // element ids that are decoded
+const cache = new Map(); // element id -> {bytes, promise of the decoded layer, done}, the last used at the end
 let cachedBytes = 0;
 
 let halves; // value of each half-precision number
@@ -26,10 +25,7 @@ function halfValues() {
 
 function decodeBase64(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-  const binary = atob(text);
-  const bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
-  return bytes;
+  return Uint8Array.from(atob(text), character => character.charCodeAt(0));
 }
 
 async function inflate(packed) {
@@ -38,7 +34,7 @@ async function inflate(packed) {
 }
 
 /** Values of shuffled bytes. @param {Uint8Array} shuffled @param {number} count @param {"f16"|"f32"} type */
-export function unshuffle(shuffled, count, type) {
+function unshuffle(shuffled, count, type) {
   const values = new Float32Array(count);
   if (type === 'f16') {
     const table = halfValues();
@@ -55,19 +51,17 @@ export function unshuffle(shuffled, count, type) {
 async function decode(layer) {
   const text = byId(layer.element)?.textContent;
   if (!text) throw new Error(`the layer ${layer.element} is missing`);
-  const packed = decodeBase64(text.trim());
   const count = layer.width * layer.height * layer.channels;
   const size = layer.type === 'f16' ? 2 : 4;
-  const shuffled = await inflate(packed);
+  const shuffled = await inflate(decodeBase64(text.trim()));
   if (shuffled.length !== count * size) throw new Error(`the layer ${layer.element} is damaged`);
   return { width: layer.width, height: layer.height, channels: layer.channels, values: unshuffle(shuffled, count, layer.type) };
 }
 
 function dropOldest() {
   for (const [element, entry] of cache) {
-    if (cachedBytes <= cacheBytes || !done.has(element)) return;
+    if (cachedBytes <= cacheBytes || !entry.done) return;
     cache.delete(element);
-    done.delete(element);
     cachedBytes -= entry.bytes;
   }
 }
@@ -78,15 +72,13 @@ function dropOldest() {
  * @throws {Error} if its element is missing or damaged
  */
 export function readLayer(layer) {
-  const entry = cache.get(layer.element) ?? {
-    bytes: layer.width * layer.height * layer.channels * 4,
-    promise: decode(layer).then(decoded => {
-      done.add(layer.element);
-      cachedBytes += decoded.values.byteLength;
-      dropOldest();
-      return decoded;
-    }),
-  };
+  const entry = cache.get(layer.element) ?? { bytes: layer.width * layer.height * layer.channels * 4 };
+  entry.promise ??= decode(layer).then(decoded => {
+    entry.done = true;
+    cachedBytes += entry.bytes;
+    dropOldest();
+    return decoded;
+  });
   cache.delete(layer.element);
   cache.set(layer.element, entry);
   return entry.promise;
@@ -94,7 +86,7 @@ export function readLayer(layer) {
 
 /** Whether a layer is decoded already. @param {{element: string}|undefined} layer */
 export function isDecoded(layer) {
-  return layer !== undefined && done.has(layer.element);
+  return cache.get(layer?.element)?.done === true;
 }
 
 /** Whether another layer fits into the half of the cache that is for layers that are not asked for yet. */

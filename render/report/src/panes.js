@@ -1,9 +1,9 @@
 // The pictures of the selected variants and the reference: side by side, under a swipe, or blinking.
 import { announce, byId, fill, make } from './dom.js';
 import { mapImage, pictureImage } from './color.js';
-import { isDecoded, readLayer } from './layers.js';
+import { readLayer } from './layers.js';
 import { showLegend } from './legend.js';
-import { layersOf, makeMap, scaleOf } from './shown_maps.js';
+import { makeMap, scaleOf } from './shown_maps.js';
 import { paneCaption, paneTitle } from './pane_text.js';
 import { drawView, makeStage } from './stage.js';
 import { makeHandle, startBlinking } from './two_pictures.js';
@@ -13,19 +13,12 @@ export const reference = 'reference';
 const mostPanes = 9;
 
 function canvasOf(imageData) {
-  const canvas = document.createElement('canvas');
-  canvas.width = imageData.width;
-  canvas.height = imageData.height;
+  const canvas = make('canvas', { width: imageData.width, height: imageData.height });
   canvas.getContext('2d').putImageData(imageData, 0, 0);
   return canvas;
 }
 
-/**
- * Shows the panes, and keeps them as the store says.
- * @param {object} study
- * @param {object} store
- * @param {Array<{group: string, maps: object[]}>} groups  of listMaps
- */
+/** Shows the panes, and keeps them as the store says. @param {Array<{group: string, maps: object[]}>} groups  of listMaps */
 export function showPanes(study, store, groups) {
   const size = { width: study.width, height: study.height };
   const maps = groups.flatMap(entry => entry.maps);
@@ -111,20 +104,12 @@ export function showPanes(study, store, groups) {
 
   const mapOf = (item, map) => map ? makeMap(study, map, item.id === reference ? null : item.id, store.values.frame) : null;
 
-  function isReady(item, map) {
-    const layer = pictureLayer(item.id);
-    const needed = map ? layersOf(study, map, item.id === reference ? null : item.id, store.values.frame) : [];
-    return [layer, ...needed].every(entry => !entry || isDecoded(entry));
-  }
-
   async function update() {
     const mine = ++turn;
     const ids = arrange();
     const map = maps.find(entry => entry.key === store.values.show) ?? null;
     const chosen = map ? store.values.ranges[map.key] : undefined;
     const all = views.flatMap(view => view.items.map(item => ({ view, item })));
-    // What is decoded is shown first.
-    all.sort((left, right) => isReady(right.item, map) - isReady(left.item, map));
     let scale = map ? scaleOf(map, chosen, []) : null;
     const fromValues = map && map.scale !== 'category' && [map.low ?? chosen?.low, map.high ?? chosen?.high].includes(undefined);
     let made = [];

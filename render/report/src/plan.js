@@ -1,11 +1,11 @@
 // The plan of effects of the current variant and frame.
-import { byId, fill, make } from './dom.js';
+import { byId, fill, make, makeTable } from './dom.js';
 import { number } from './format.js';
 import { findVariant, variantFrame } from './study.js';
 
+const heads = [['Effect'], ['Decision'], ['Reason', 'reason'], ['Bound (cd/m²)', 'numeric'], ['Bound (thresholds)', 'numeric']];
 const decisions = { simulate: 'simulated', simplify: 'simplified', skip: 'left out' };
 
-/** @param {object} study @param {object} store */
 export function showPlan(study, store) {
   const node = byId('plan-body');
   const draw = () => {
@@ -16,20 +16,16 @@ export function showPlan(study, store) {
       return;
     }
     fill(node, make('p', { class: 'note' }, `${findVariant(study, current).label}, frame ${frame}`),
-      make('div', { class: 'scroll', tabindex: 0 }, make('table', {},
-        make('thead', {}, make('tr', {}, ...['Effect', 'Decision', 'Reason'].map(title => make('th', { scope: 'col' }, title)),
-          ...['Bound (cd/m²)', 'Bound (thresholds)'].map(title => make('th', { scope: 'col', class: 'numeric' }, title)))),
-        make('tbody', {}, ...plan.map(planRow)))));
+      make('div', { class: 'scroll', tabindex: 0 }, makeTable({}, heads, plan.map(planRow))));
   };
   store.on(['current', 'frame'], draw);
   draw();
 }
 
 function planRow(entry) {
-  return make('tr', { 'data-effect': entry.effect },
-    make('th', { scope: 'row' }, entry.effect.replaceAll('_', ' ')),
-    make('td', {}, make('span', { class: 'decision', 'data-decision': entry.decision }, decisions[entry.decision] ?? entry.decision)),
-    make('td', { class: 'reason' }, entry.reason ?? ''),
-    make('td', { class: 'numeric' }, number(entry.bound?.luminance)),
-    make('td', { class: 'numeric' }, number(entry.bound?.thresholds)));
+  const decision = make('span', { class: 'decision', 'data-decision': entry.decision }, decisions[entry.decision] ?? entry.decision);
+  return {
+    'data-effect': entry.effect,
+    cells: [entry.effect.replaceAll('_', ' '), decision, entry.reason ?? '', number(entry.bound?.luminance), number(entry.bound?.thresholds)],
+  };
 }

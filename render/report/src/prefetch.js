@@ -2,7 +2,6 @@
 import { hasRoom, isDecoded, readLayer } from './layers.js';
 import { sharedFrame, variantFrame } from './study.js';
 
-/** @param {object} study @param {object} store */
 export function prefetchPictures(study, store) {
   const idle = window.requestIdleCallback ?? (run => setTimeout(run, 50));
   let turn = 0;

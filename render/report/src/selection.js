@@ -2,10 +2,7 @@
 import { announce } from './dom.js';
 import { findVariant, metricOf, paretoFront } from './study.js';
 
-/**
- * Selects variants, in the order of the study.
- * @param {object} study @param {object} store @param {string[]} ids
- */
+/** Selects variants, in the order of the study. */
 export function select(study, store, ids) {
   const selected = study.variants.map(variant => variant.id).filter(id => ids.includes(id));
   const before = store.values.selected;
@@ -28,7 +25,6 @@ export function toggleSelected(study, store, id) {
   select(study, store, selected.includes(id) ? selected.filter(other => other !== id) : [...selected, id]);
 }
 
-/** @param {object} study @param {string[]} selected */
 export function selectionText(study, selected) {
   const labels = selected.slice(0, 3).map(id => findVariant(study, id).label);
   const more = selected.length > 3 ? ` and ${selected.length - 3} more` : '';

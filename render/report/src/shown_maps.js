@@ -16,7 +16,7 @@ const differenceMap = { key: 'computed.difference', title: 'Difference of lumina
 export const disagreementTitles = judge => ['not visible', 'visible by both', 'visible by our threshold only', `visible by ${judge} only`];
 const disagreementColors = [7, 2, 0, 5]; // grey, green, blue, orange of the categories
 
-/** The entries of the map menu, in groups. @param {object} study @returns {Array<{group: string, maps: object[]}>} */
+/** The entries of the map menu, in groups. @returns {Array<{group: string, maps: object[]}>} */
 export function listMaps(study) {
   const stored = name => study.pictures.some(frame => frame.maps?.[name])
     || study.variants.some(variant => variant.frames.some(frame => frame.maps?.[name]));
@@ -31,8 +31,7 @@ export function listMaps(study) {
     }
   }
   if (hasReference) computed.push(differenceMap);
-  const kept = study.maps.filter(map => stored(map.name))
-    .map(map => ({ ...map, key: map.name, low: map.low ?? undefined, high: map.high ?? undefined }));
+  const kept = study.maps.filter(map => stored(map.name)).map(map => ({ ...map, key: map.name }));
   return [{ group: computedTitle, maps: computed }, { group: 'Stored', maps: kept }].filter(entry => entry.maps.length > 0);
 }
 
@@ -53,22 +52,14 @@ function neededLayers(study, map, id, frame) {
   return Object.values(layers).every(Boolean) ? layers : null;
 }
 
-/** All layers that a pane with a map reads. */
-export function layersOf(study, map, id, frame) {
-  return Object.values(neededLayers(study, map, id, frame) ?? {});
-}
-
 /**
- * A map of one pane: {width, height, values}, with the number of pixels `beyond` one threshold for an error,
- * and `counts` of pixels for a disagreement; null if it has none there.
- * @param {object} study @param {object} map  of listMaps @param {string|null} id @param {number} frame
+ * A map (of listMaps) of one pane: {width, height, values}, with the number of pixels `beyond` one threshold for an
+ * error, and `counts` of pixels for a disagreement; null if it has none there.
  */
 export async function makeMap(study, map, id, frame) {
   const needed = neededLayers(study, map, id, frame);
   if (!needed) return null;
-  const names = Object.keys(needed);
-  const layers = Object.fromEntries((await Promise.all(names.map(name => readLayer(needed[name]))))
-    .map((layer, i) => [names[i], layer]));
+  const layers = Object.fromEntries(await Promise.all(Object.entries(needed).map(async ([name, layer]) => [name, await readLayer(layer)])));
   if (layers.stored) return layers.stored;
 
   const { width, height } = layers.picture;
@@ -82,7 +73,7 @@ export async function makeMap(study, map, id, frame) {
 }
 
 /** Luminance of a picture minus that of the reference, in cd/m². */
-export function luminanceError(picture, reference, displayWhite) {
+function luminanceError(picture, reference, displayWhite) {
   const error = luminance(picture);
   const wanted = luminance(reference);
   for (let i = 0; i < error.length; ++i) error[i] = (error[i] - wanted[i]) * displayWhite;
@@ -106,10 +97,7 @@ export function disagreementCategories(judge) {
   return disagreementTitles(judge.name).map((title, kind) => [disagreementColors[kind], title]);
 }
 
-/**
- * The range of a map's scale: as chosen, else as stored, else that of the maps shown.
- * @param {object} map @param {{low?: number, high?: number}|undefined} chosen @param {object[]} shown
- */
+/** The range of a map's scale: as chosen, else as stored, else that of the maps shown. */
 export function scaleOf(map, chosen, shown) {
   const scale = { kind: map.scale, low: chosen?.low ?? map.low, high: chosen?.high ?? map.high };
   if (scale.kind === 'category' || (scale.low !== undefined && scale.high !== undefined)) return scale;

@@ -101,11 +101,8 @@ function listenToPointers(node, store, size, onPixel) {
 
 /**
  * Draws images of one place over each other, and the cursor.
- * @param {HTMLCanvasElement} canvas
  * @param {Array<{image: HTMLCanvasElement, alpha: number}>} layers
- * @param {{zoom: number, x: number, y: number}} view
  * @param {{x: number, y: number}|null} cursor  a pixel of `size`
- * @param {{width: number, height: number}} size
  */
 export function drawView(canvas, layers, view, cursor, size) {
   const ratio = window.devicePixelRatio || 1;

@@ -1,9 +1,6 @@
 // What the reader has chosen on the page, with listeners for changes.
 
-/**
- * A store of named values. Listeners run once per frame of the screen, after one of their values changed.
- * @param {Object<string, any>} initial
- */
+/** A store of named values. Listeners run once per frame of the screen, after one of their values changed. */
 export function createStore(initial) {
   const values = { ...initial };
   const listeners = [];
@@ -19,7 +16,6 @@ export function createStore(initial) {
 
   return {
     values,
-    /** @param {Object<string, any>} update */
     set(update) {
       const waiting = changed.size > 0;
       for (const [name, value] of Object.entries(update)) {
@@ -29,7 +25,6 @@ export function createStore(initial) {
       }
       if (!waiting && changed.size > 0) requestAnimationFrame(notify);
     },
-    /** @param {string[]} names @param {(values: Object<string, any>) => void} run */
     on(names, run) {
       listeners.push({ names, run });
     },

@@ -1,11 +1,7 @@
 // The study's data, and look-ups in it.
 import { settingText } from './format.js';
 
-/**
- * Reads the study of this page. Parts that are absent become empty.
- * @param {string|undefined} text
- * @throws {Error} if there is none, or it is of another version
- */
+/** Reads the study of this page. Parts that are absent become empty. @throws {Error} if there is none, or it is of another version */
 export function readStudy(text) {
   if (!text) throw new Error('This page is a template without data. `aleph study` writes pages with data.');
   const study = JSON.parse(text);
@@ -22,17 +18,16 @@ export function readStudy(text) {
   return study;
 }
 
-/** @param {object} study @param {string} id */
 export function findVariant(study, id) {
   return study.variants.find(variant => variant.id === id);
 }
 
-/** A variant's data of one frame, or undefined. @param {object} study @param {string} id @param {number} frame */
+/** A variant's data of one frame, or undefined. */
 export function variantFrame(study, id, frame) {
   return findVariant(study, id)?.frames.find(entry => entry.frame === frame);
 }
 
-/** What all variants share of one frame, or undefined. @param {object} study @param {number} frame */
+/** What all variants share of one frame, or undefined. */
 export function sharedFrame(study, frame) {
   return study.pictures.find(entry => entry.frame === frame);
 }
@@ -42,12 +37,7 @@ export function findLayer(study, id, frame, name) {
   return variantFrame(study, id, frame)?.maps?.[name] ?? sharedFrame(study, frame)?.maps?.[name];
 }
 
-/**
- * A metric of a variant: {value, error} or null.
- * @param {object} variant
- * @param {string} name
- * @param {string} over  "mean", or the number of a frame
- */
+/** A metric of a variant: {value, error} or null. @param {string} over  "mean", or the number of a frame */
 export function metricOf(variant, name, over) {
   const metrics = over === 'mean' ? variant.metrics
     : variant.frames.find(entry => String(entry.frame) === over)?.metrics;

@@ -27,7 +27,6 @@ function compare(a, b) {
   return String(a).localeCompare(String(b), 'en', { numeric: true });
 }
 
-/** @param {object} study @param {object} store */
 export function showTable(study, store) {
   const { values } = store;
   const columns = columnsOf(study);

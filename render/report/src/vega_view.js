@@ -19,11 +19,7 @@ const config = {
 const views = new WeakMap();
 const tooltip = new Handler({ disableDefaultStyle: true });
 
-/**
- * Draws a chart into an element, in place of the one there.
- * @param {HTMLElement} node @param {object} spec  a Vega-Lite specification
- * @returns {Promise<View>}
- */
+/** Draws a chart into an element, in place of the one there. @param {object} spec  a Vega-Lite specification */
 export async function drawChart(node, spec) {
   views.get(node)?.finalize();
   const compiled = compile({ ...spec, config: { ...config, ...spec.config } }).spec;
@@ -36,7 +32,7 @@ export async function drawChart(node, spec) {
   return view;
 }
 
-/** Calls draw when the width of an element has changed and stays for a moment. @param {HTMLElement} node @param {() => void} draw */
+/** Calls draw when the width of an element has changed and stays for a moment. */
 export function onResize(node, draw) {
   let width = node.clientWidth;
   let timer = 0;
@@ -54,5 +50,4 @@ export function rampColor(place) {
 }
 
 /** Colours of named categories, the same in light and dark. */
-export const seriesColors = ['var(--series-1)', 'var(--series-2)', 'var(--series-3)', 'var(--series-4)', 'var(--series-5)',
-  'var(--series-6)', 'var(--series-7)', 'var(--series-8)'];
+export const seriesColors = [1, 2, 3, 4, 5, 6, 7, 8].map(number => `var(--series-${number})`);

@@ -1,13 +1,12 @@
 // The pixel walk: what is stored of one pixel, step by step, and its error.
-import { menu } from './controls.js';
-import { byId, fill, make } from './dom.js';
+import { menu, refill } from './controls.js';
+import { byId, fill, make, makeTable } from './dom.js';
 import { number } from './format.js';
 import { luminanceWeights } from './color.js';
 import { readLayer, valueAt } from './layers.js';
 import { reference } from './panes.js';
 import { findLayer, findVariant, sharedFrame, variantFrame } from './study.js';
 
-/** @param {object} study @param {object} store */
 export function showWalk(study, store) {
   const node = byId('walk');
   let turn = 0;
@@ -36,13 +35,10 @@ export function showWalk(study, store) {
 function showControls(study, store) {
   const { values } = store;
   const ids = values.selected.length > 0 ? values.selected : [values.current].filter(Boolean);
-  const holder = byId('pixel-controls');
-  const focused = holder.contains(document.activeElement);
-  fill(holder,
+  refill(byId('pixel-controls'),
     ids.length > 0 ? menu('Variant', ids.map(id => [id, findVariant(study, id).label]), values.current, current => store.set({ current })) : null,
     values.pixel ? make('p', { class: 'control place' }, make('span', {}, 'Pixel'),
       make('strong', {}, `column ${values.pixel.x}, row ${values.pixel.y}, frame ${values.frame}`)) : null);
-  if (focused) holder.querySelector('select')?.focus();
 }
 
 /** Reads stored values of the pixel; undefined where there are none. */
@@ -70,9 +66,13 @@ async function stepNode(step, read) {
   const bands = step.bands ? await bandsNode(step.bands, read) : null;
   if (known.length === 0 && !bands) return null;
   return make('li', {}, make('h3', {}, step.title), step.text ? make('p', {}, step.text) : null,
-    known.length > 0 ? make('dl', { class: 'values' }, ...known.map(channel =>
-      make('div', {}, make('dt', {}, channel.title ?? channel.name), make('dd', {}, valueNode(channel.name, channel.value, channel.unit))))) : null,
-    bands);
+    known.length > 0 ? valueList(known) : null, bands);
+}
+
+/** @param {Array<{name: string, title: string, value: number, unit: string}>} values */
+function valueList(values) {
+  return make('dl', { class: 'values' }, ...values.map(({ name, title, value, unit }) =>
+    make('div', {}, make('dt', {}, title), make('dd', {}, valueNode(name, value, unit)))));
 }
 
 /** Bands of spatial frequency: a row each, with bars for contrast and elevation, each relative to its largest. */
@@ -84,16 +84,13 @@ async function bandsNode(bands, read) {
   }
   const shown = columns.filter(column => column.values.some(value => value !== undefined));
   if (shown.length === 0) return null;
-  const cell = (column, i) => make('td', {}, column.values[i] === undefined ? '–' : make('span', { class: 'band' },
+  const cell = (column, i) => column.values[i] === undefined ? '–' : make('span', { class: 'band' },
     valueNode(column.names[i], column.values[i]),
     make('span', { class: 'band-track', 'aria-hidden': 'true' }, make('span', {
       class: 'band-bar', style: `inline-size: ${100 * Math.abs(column.values[i]) / column.largest}%`,
-    }))));
-  return make('table', { class: 'bands' },
-    make('thead', {}, make('tr', {}, make('th', { scope: 'col' }, 'cycles/degree'),
-      ...shown.map(column => make('th', { scope: 'col' }, column.title)))),
-    make('tbody', {}, ...bands.frequency.map((frequency, i) => make('tr', {},
-      make('th', { scope: 'row' }, number(frequency)), ...shown.map(column => cell(column, i))))));
+    })));
+  return makeTable({ class: 'bands' }, [['cycles/degree'], ...shown.map(column => [column.title])],
+    bands.frequency.map((frequency, i) => ({ cells: [number(frequency), ...shown.map(column => cell(column, i))] })));
 }
 
 async function resultNode(study, id, frame, read) {
@@ -112,6 +109,5 @@ async function resultNode(study, id, frame, read) {
   if (rows.length === 0) return null;
   return make('li', { class: 'result' }, make('h3', {}, 'Result'),
     make('p', {}, 'Luminance as displayed, and its difference from the reference. Beyond 1 threshold, a viewer can see it.'),
-    make('dl', { class: 'values' }, ...rows.map(([name, title, value, unit]) =>
-      make('div', {}, make('dt', {}, title), make('dd', {}, valueNode(name, value, unit))))));
+    valueList(rows.map(([name, title, value, unit]) => ({ name, title, value, unit }))));
 }

@@ -20,10 +20,7 @@ export async function launch() {
   return puppeteer.launch({ executablePath: chromium, headless: true, timeout: hang, protocolTimeout: hang, args: ['--no-sandbox', '--disable-gpu', '--force-device-scale-factor=1'] });
 }
 
-/**
- * Opens a page from a file, and notes everything that goes wrong in it.
- * @param {object} browser @param {string} file @param {{width?: number, height?: number, dark?: boolean, calm?: boolean, ready?: string}} [options]  `ready`: what shows that it is done
- */
+/** Opens a page from a file, and notes everything that goes wrong in it. `ready`: what shows that it is done. */
 export async function open(browser, file, { width = 1280, height = 900, dark = false, calm = false, ready = '[data-ready="true"]' } = {}) {
   const page = await browser.newPage();
   page.setDefaultTimeout(hang);
@@ -58,10 +55,7 @@ export function shownPanes(page) {
   return page.$$eval('#panes canvas[data-pane]', nodes => nodes.map(node => node.dataset.pane));
 }
 
-/**
- * Points at a place until a tooltip says what is expected. A chart that is drawn again hides its tooltip until the pointer moves.
- * @param {import('puppeteer-core').Page} page @param {{x: number, y: number}} place @param {string} pattern of a regular expression
- */
+/** Points at a place until a tooltip says what is expected. A chart that is drawn again hides its tooltip until the pointer moves. */
 export async function waitForTooltip(page, place, pattern) {
   for (let left = 20; left >= 0; --left) {
     await page.mouse.move(place.x + left % 2, place.y);
@@ -134,9 +128,4 @@ export async function brushAll(page) {
 /** Milliseconds from selecting to all frames drawn, for each selection so far. */
 export function selectionTimes(page) {
   return page.evaluate(() => performance.getEntriesByName('selection to frames').map(entry => entry.duration));
-}
-
-/** Milliseconds to the first contentful paint. */
-export function firstPaint(page) {
-  return page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime);
 }

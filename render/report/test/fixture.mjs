@@ -16,7 +16,7 @@ export const template = fs.readFileSync(path.join(process.env.BUILD, 'report-tem
 const sample = makeStudy(size);
 export const { study } = sample;
 
-const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'aleph-report-'));
+export const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'aleph-report-'));
 let browser;
 let opened = [];
 
@@ -35,11 +35,16 @@ afterEach(async () => {
   for (const { troubles, outside } of pages) assert.deepEqual([...troubles, ...outside()], []);
 });
 
-/** Opens the page with the data given, else those of `study`. @param {object} [options]  of open @param {object} [data]  of makeStudy; null for the template itself */
-export async function openPage(options, data = sample) {
-  const file = path.join(folder, 'report.html');
-  fs.writeFileSync(file, data ? fillTemplate(template, data) : template);
+/** Opens a page. @param {string} text  of the page @param {object} [options]  of open */
+export async function openText(text, options) {
+  const file = path.join(folder, 'page.html');
+  fs.writeFileSync(file, text);
   const result = await open(browser, file, options);
   opened.push(result);
   return result.page;
+}
+
+/** Opens the report with the data given, else those of `study`. @param {object} [data]  of makeStudy; null for the template itself */
+export function openPage(options, data = sample) {
+  return openText(data ? fillTemplate(template, data) : template, options);
 }

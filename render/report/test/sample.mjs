@@ -1,5 +1,5 @@
-// node sample.mjs TEMPLATE OUT [large]: a synthetic study in the page. Every stored value comes from a formula of its place,
-// so that tests can compare what the page shows with it. "large" has 320x240 pixels and about 20 MB of layers.
+// node sample.mjs TEMPLATE OUT: a synthetic study in the page. Every stored value comes from a formula of its place,
+// so that tests can compare what the page shows with it.
 import fs from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import zlib from 'node:zlib';
@@ -10,7 +10,7 @@ const guides = ['none', 'saliency'];
 const frequencies = [16, 8, 4, 2, 1, 0.5];
 
 /** The nearest half-precision number, as bits; for values of normal size. */
-export function halfBits(value) {
+function halfBits(value) {
   if (value === 0) return 0;
   const sign = value < 0 ? 0x8000 : 0;
   const size = Math.abs(value);
@@ -20,16 +20,17 @@ export function halfBits(value) {
   return sign | Math.round((exponent + 15 + fraction - 1) * 1024);
 }
 
-/** The value of half-precision bits, for what halfBits gives. */
+/** The value of half-precision bits. */
 export function halfValue(bits) {
   const exponent = bits >> 10 & 31;
   const fraction = bits & 1023;
-  const size = exponent === 0 ? fraction * 2 ** -24 : (1 + fraction / 1024) * 2 ** (exponent - 15);
+  const size = exponent === 31 ? (fraction ? NaN : Infinity)
+    : exponent === 0 ? fraction * 2 ** -24 : (1 + fraction / 1024) * 2 ** (exponent - 15);
   return bits & 0x8000 ? -size : size;
 }
 
 /** Values as the text of a layer's element. @param {Float32Array} values @param {"f16"|"f32"} type */
-export function packLayer(values, type) {
+function packLayer(values, type) {
   const size = type === 'f16' ? 2 : 4;
   const plain = Buffer.alloc(values.length * size);
   values.forEach((value, i) => type === 'f16' ? plain.writeUInt16LE(halfBits(value), 2 * i) : plain.writeFloatLE(value, 4 * i));
@@ -144,8 +145,7 @@ export function makeStudy(size) {
     schema_version: 1, title: 'sample: error against time', description: 'A synthetic study: every value comes from a formula.',
     scene: 'scenes/sample/scene.json', command: 'aleph study sample --sweep error=0.5,1,2 --sweep guide=none,saliency',
     date: '2026-11-23T08:00:00Z', host: { name: 'sample', processor: 'Sample processor', threads: 2, memory_mib: 24000 },
-    build: { version: '0.1.0', compiler: 'GCC 12.2', type: 'Release', instructions: 'x86-64-v3' },
-    ...size, frames, vision: 'thesis', exposure: 0.5, display_white: 100,
+    build: { version: '0.1.0', compiler: 'GCC 12.2' }, ...size, frames, display_white: 100,
     reference: { kind: 'gather', passes: 4, note: 'Its noise is a tenth of a visible threshold.' },
     axes: [{ setting: 'error', values: errors }, { setting: 'guide', values: guides }],
     metrics: [
@@ -190,7 +190,6 @@ export function fillTemplate(template, { study, layers }) {
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  const [template, out, large] = process.argv.slice(2);
-  const size = large ? { width: 320, height: 240 } : { width: 96, height: 64 };
-  fs.writeFileSync(out, fillTemplate(fs.readFileSync(template, 'utf8'), makeStudy(size)));
+  const [template, out] = process.argv.slice(2);
+  fs.writeFileSync(out, fillTemplate(fs.readFileSync(template, 'utf8'), makeStudy({ width: 96, height: 64 })));
 }

@@ -13,17 +13,11 @@ describe('selection', () => {
     assert.deepEqual(await shownPanes(page), ['reference', ...first]);
   });
 
-  it('follows a brush over the chart', async () => {
+  it('follows a brush over the chart, and ends it when it is made elsewhere', async () => {
     const page = await openPage();
     await brushAll(page);
     await waitForPanes(page, ['reference', ...all]);
     assert.deepEqual(await selectedRows(page), all);
-  });
-
-  it('ends the brush when it is made elsewhere', async () => {
-    const page = await openPage();
-    await brushAll(page);
-    await waitForPanes(page, ['reference', ...all]);
     const width = () => page.$eval('#chart .brush_brush path', node => node.getBoundingClientRect().width);
     assert.ok(await width() > 100);
     await page.click(`tr[data-variant="${all[2]}"]`);

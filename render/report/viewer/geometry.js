@@ -8,10 +8,7 @@ export function pixelsPerDegree(mmPerPixel, distance) {
   return 2 * distance * Math.tan(Math.PI / 360) / mmPerPixel;
 }
 
-/**
- * Screen pixels per picture pixel, so that the picture has its own pixels per degree.
- * @param {number} own pixels per degree of the picture
- */
+/** Screen pixels per picture pixel, so that the picture has its own pixels per degree. @param {number} own */
 export function scaleFor(own, mmPerPixel, distance) {
   return pixelsPerDegree(mmPerPixel, distance) / own;
 }

@@ -27,7 +27,7 @@ const lapse = 0.02;
 
 /**
  * Probability of a right answer: guessing gives .5 (Weibull 1951, with a fixed rate of lapses).
- * @param {number} level above 0 @param {number} scale level at which 63 % of the differences are seen @param {number} slope
+ * @param {number} scale level at which 63 % of the differences are seen
  */
 export function weibull(level, scale, slope) {
   return 0.5 + (0.5 - lapse) * (1 - Math.exp(-((level / scale) ** slope)));

@@ -1,5 +1,5 @@
 // The results as sentences, charts and tables.
-import { fill, make } from '../src/dom.js';
+import { fill, make, makeTable } from '../src/dom.js';
 import { fit, weibull, wilson } from './psychometric.js';
 import { byLevel, summarize } from './trials.js';
 
@@ -18,7 +18,7 @@ function svg(tag, attributes, ...children) {
 
 /** Right answers against level, with intervals, the fitted function and chance. */
 function drawChart({ levels, fitted, series }) {
-  const log = series.log && levels.every(row => row.level > 0);
+  const log = levels.every(row => row.level > 0);
   const place = value => (log ? Math.log(value) : value);
   const ends = [place(levels[0].level), place(levels.at(-1).level)];
   const room = Math.max(1e-6, ends[1] - ends[0]) * 0.08;
@@ -47,22 +47,12 @@ function drawChart({ levels, fitted, series }) {
   return chart;
 }
 
-function makeTable(heads, rows) {
-  const head = make('tr', {}, ...heads.map(name => make('th', { scope: 'col' }, name)));
-  const body = rows.map(({ cells: [first, ...others], ...data }) =>
-    make('tr', data, make('th', { scope: 'row' }, first), ...others.map(cell => make('td', {}, cell))));
-  return make('table', {}, make('thead', {}, head), make('tbody', {}, ...body));
-}
-
 function describeThreshold({ threshold, interval: [low, high] }) {
   const most = high === Infinity ? 'no limit' : high.toPrecision(3);
   return `${threshold.toPrecision(3)} (95 %: ${low ? low.toPrecision(3) : 0} to ${most})`;
 }
 
-/**
- * Rows of all trials, and per series its levels and its function.
- * @param {object[]} all results of viewers
- */
+/** Rows of all trials, and per series its levels and its function. @param {object[]} all results of viewers */
 export function evaluate(all) {
   const rows = summarize(all.flatMap(results => results.trials));
   const series = new Map(all.flatMap(results => results.series).map(one => [one.id, one]));
@@ -82,13 +72,13 @@ function drawViewers(all, functions) {
     });
     return { cells: [results.viewer || `viewer ${i + 1}`, results.trials.length, ...cells] };
   });
-  return makeTable(['viewer', 'trials', ...functions.map(({ series }) => series.title)], rows);
+  return makeTable({}, [['viewer'], ['trials'], ...functions.map(({ series }) => [series.title])], rows);
 }
 
 /** @param {HTMLElement} node @param {object[]} all results, one or more */
 export function drawResults(node, all) {
   const { rows, functions } = evaluate(all);
-  const table = makeTable(['test', 'scene', 'level', 'trials', 'right', 'share', '95 %'], rows.map(row => ({
+  const table = makeTable({}, [['test'], ['scene'], ['level'], ['trials'], ['right'], ['share'], ['95 %']], rows.map(row => ({
     'data-test': row.id, 'data-correct': row.correct, 'data-trials': row.trials,
     cells: [row.id, row.scene, row.level ?? '', row.trials, row.correct, percent(row.share), `${percent(row.interval[0])} to ${percent(row.interval[1])}`],
   })));

@@ -4,11 +4,7 @@ import { randomFrom, wilson } from './psychometric.js';
 /** @typedef {{scene: string, id: string, series: ?string, level: ?number}} Test */
 /** @typedef {Test & {testInterval: number, answer?: number}} Trial */
 
-/**
- * Every test as often as asked, in random order; in each trial the test is first or second at random.
- * @param {Test[]} tests @param {number} each @param {number} seed
- * @returns {Trial[]}
- */
+/** Every test as often as asked, in random order; in each trial the test is first or second at random. @returns {Trial[]} */
 export function makeTrials(tests, each, seed) {
   const random = randomFrom(seed);
   const trials = tests.flatMap(({ scene, id, series, level }) => Array.from({ length: each }, () => ({ scene, id, series, level })));
@@ -54,10 +50,7 @@ function isTrial(trial) {
     && (trial.level === null || Number.isFinite(trial.level)) && [1, 2].includes(trial.testInterval) && [1, 2].includes(trial.answer);
 }
 
-/**
- * Results that were saved, checked. @param {string} text
- * @throws Error saying what is wrong
- */
+/** Results that were saved, checked. @throws Error saying what is wrong */
 export function readResults(text) {
   const results = JSON.parse(text);
   if (results?.schema_version !== 2 || !Array.isArray(results.trials) || !Array.isArray(results.series)) throw new Error('it has no results of this test');

@@ -1,6 +1,5 @@
 // Which maps a report shows, and in which order they lead from a pixel's motion to its error.
 
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "perception/vision/band_frequencies.h"

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "engine/base/errors.h"
+#include "render/compare/visible_difference.h"
 #include "render/study/pages/report_layers.h"
 #include "render/study/pages/script_json.h"
 
@@ -17,25 +17,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view data_place = "<!-- STUDY DATA -->", layers_place = "<!-- STUDY LAYERS -->";
-
 /// Maps by how much a page needs them: of the frame, and of each variant.
 struct MapTier {
     std::vector<const char*> of_frame, of_variant;
 };
 
-const std::vector<MapTier>& map_tiers() {
-    static const std::vector<MapTier> tiers{
-        {{"threshold.Y", "aleph.Y", "velocity.image", "velocity.retinal", "saliency.Y", "forward.u", "forward.v",
-          "motion.valid"},
-         {"samples.Y", "error.Y", "alpha.acc"}},
-        {{"band.0", "band.1", "band.2", "band.3", "band.4", "band.5", "band.6", "elevation.0", "elevation.1",
-          "elevation.2", "elevation.3", "elevation.4", "elevation.5", "elevation.6"},
-         {"records.Y", "cache.count", "cache.radius"}},
-        {{"conspicuity.intensity", "conspicuity.color", "conspicuity.orientation", "conspicuity.motion"},
-         {"error.edges", "error.blur", "error.direct", "error.gloss", "error.indirect"}}};
-    return tiers;
-}
+const std::vector<MapTier> map_tiers{
+    {{"threshold.Y", "aleph.Y", "velocity.image", "velocity.retinal", "saliency.Y", "forward.u", "forward.v",
+      "motion.valid"},
+     {"samples.Y", "error.Y", "alpha.acc"}},
+    {{"band.0", "band.1", "band.2", "band.3", "band.4", "band.5", "band.6", "elevation.0", "elevation.1", "elevation.2",
+      "elevation.3", "elevation.4", "elevation.5", "elevation.6"},
+     {"records.Y", "cache.count", "cache.radius"}},
+    {{"conspicuity.intensity", "conspicuity.color", "conspicuity.orientation", "conspicuity.motion"},
+     {"error.edges", "error.blur", "error.direct", "error.gloss", "error.indirect"}}};
 
 /// Half precision for what is approximate anyway.
 LayerType type_of(std::string_view map) {
@@ -50,11 +45,6 @@ std::vector<const Image<float>*> colours(const ChannelImage& image) {
         channels.push_back(channel);
     }
     return channels;
-}
-
-/// Frames are numbers where the study has one scene, else names such as "pool 20".
-Json frame_label(const std::string& scene, std::int64_t frame, bool several) {
-    return several ? Json(fmt::format("{} {}", scene, frame)) : Json(frame);
 }
 
 class ReportWriter {
@@ -72,12 +62,14 @@ class ReportWriter {
     }
 
     void write() {
+        // Of the page's errors in visible thresholds.
+        json_["display_white"] = read_viewing(results_.frames.front().maps).viewing.display_white;
         label_frames();
         add_pictures();
         json_["maps"] = report_maps();
         json_["judges"] = Json::array();
         for (const StudyJudge& judge : results_.judges) add_judge(judge);
-        for (const MapTier& tier : map_tiers()) add_tier(tier);
+        for (const MapTier& tier : map_tiers) add_tier(tier);
         json_["walk"] = report_walk(results_);
         json_["layers_left_out"] = layers_.left_out();
     }
@@ -85,34 +77,33 @@ class ReportWriter {
     const std::string& elements() const { return layers_.elements(); }
 
   private:
-    bool several() const { return scenes_.size() > 1; }
+    /// Frames are numbers where the study has one scene, else names such as "pool 20".
+    Json label(const std::string& scene, std::int64_t frame) const {
+        return scenes_.size() > 1 ? Json(fmt::format("{} {}", scene, frame)) : Json(frame);
+    }
 
     void label_frames() {
         if (scenes_.size() == 1) json_["scene"] = *scenes_.begin();
         json_["frames"] = Json::array();
-        for (const JudgingFrame& frame : results_.frames)
-            json_["frames"].push_back(frame_label(frame.scene, frame.frame, several()));
+        for (const JudgingFrame& frame : results_.frames) json_["frames"].push_back(label(frame.scene, frame.frame));
         for (Json& variant : json_["variants"]) {
-            for (Json& frame : variant["frames"])
-                frame["frame"] = frame_label(frame["scene"], frame["frame"].get<std::int64_t>(), several());
+            for (Json& frame : variant["frames"]) frame["frame"] = label(frame["scene"], frame["frame"]);
         }
     }
-
-    LayerType picture_type() const { return exact_ ? LayerType::f32 : LayerType::f16; }
 
     void add_pictures() {
         json_["pictures"] = Json::array();
         for (const JudgingFrame& frame : results_.frames) {
             Json& entry = json_["pictures"].emplace_back();
-            entry["frame"] = frame_label(frame.scene, frame.frame, several());
-            const ChannelImage reference = read_image(frame.reference);
-            add(entry, "reference", colours(reference), picture_type());
-            entry["maps"] = Json::object();
+            entry["frame"] = label(frame.scene, frame.frame);
+            add_picture(entry, "reference", read_image(frame.reference));
         }
-        for_each_picture([&](Json& frame, const ChannelImage& picture) {
-            add(frame, "picture", colours(picture), picture_type());
-            frame["maps"] = Json::object();
-        });
+        for_each_picture([&](Json& frame, const ChannelImage& picture) { add_picture(frame, "picture", picture); });
+    }
+
+    void add_picture(Json& entry, const char* key, const ChannelImage& picture) {
+        add(entry, key, colours(picture), exact_ ? LayerType::f32 : LayerType::f16);
+        entry["maps"] = Json::object();
     }
 
     /// Its map of every picture; those that it lacks are left out.
@@ -193,21 +184,15 @@ class ReportWriter {
     bool exact_ = false;              ///< pictures as floats
 };
 
-void insert(std::string& page, std::string_view place, const std::string& text) {
-    const std::size_t at = page.find(place);
-    ALEPH_CHECK(at != std::string::npos, std::string(place));
-    page.replace(at, place.size(), text);
-}
-
 }  // namespace
 
 std::string make_report(std::string_view page, Json json, const StudyResults& results, std::size_t most_bytes) {
-    const std::size_t page_bytes = page.size() + script_json(json).size();
+    const std::size_t page_bytes = page.size() + script_json("study", json).size();
     ReportWriter writer(json, results, most_bytes > page_bytes ? most_bytes - page_bytes : 0);
     writer.write();
     std::string text(page);
-    insert(text, layers_place, writer.elements());
-    insert(text, data_place, "<script id=\"study\" type=\"application/json\">" + script_json(json) + "</script>");
+    insert(text, "<!-- STUDY LAYERS -->", writer.elements());
+    insert(text, "<!-- STUDY DATA -->", script_json("study", json));
     return text;
 }
 

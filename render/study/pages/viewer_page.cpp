@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "render/compare/compare_luminance.h"
 #include "render/study/pages/script_json.h"
@@ -40,7 +39,6 @@ const StudyAxis* find_level_axis(const Study& study) {
 /// Levels that belong to one psychometric function: of a setting that is swept, or of noise.
 struct LevelSeries {
     std::string key, title, unit;
-    bool log = false;  ///< all levels are above 0
 };
 
 std::optional<double> level_of(const VariantResult& variant, const LevelSeries& series) {
@@ -58,15 +56,8 @@ std::vector<LevelSeries> list_series(const Study& study, const StudyResults& res
         series.push_back({"error", "asked error", "visible thresholds"});
     else if (axis != nullptr && axis->setting != noise_key && axis->setting != zero_mean_noise_key)
         series.push_back({axis->setting, axis->setting, ""});
-    std::erase_if(series, [&](LevelSeries& one) {
-        one.log = true;
-        bool found = false;
-        for (const VariantResult& variant : results.variants) {
-            const std::optional<double> level = level_of(variant, one);
-            found = found || level;
-            one.log = one.log && level.value_or(1.0) > 0.0;
-        }
-        return !found;
+    std::erase_if(series, [&](const LevelSeries& one) {
+        return std::ranges::none_of(results.variants, [&](const auto& v) { return level_of(v, one).has_value(); });
     });
     return series;
 }
@@ -94,7 +85,6 @@ Json describe_tests(const StudyResults& results, const std::string& scene, const
 
 std::string make_viewer_test(std::string_view page, const PreparedStudy& prepared, const StudyResults& results,
                              const StudyContext& context) {
-    constexpr std::string_view place = "<!-- TEST DATA -->";
     const RenderSettings settings = with_settings_of(prepared.scenes.front(), prepared.study, {}).settings;
     Json json{{"schema_version", 2},
               {"title", prepared.study.title},
@@ -105,7 +95,7 @@ std::string make_viewer_test(std::string_view page, const PreparedStudy& prepare
               {"scenes", Json::array()}};
     const std::vector<LevelSeries> series = list_series(prepared.study, results);
     for (const LevelSeries& one : series)
-        json["series"].push_back({{"id", one.key}, {"title", one.title}, {"unit", one.unit}, {"log", one.log}});
+        json["series"].push_back({{"id", one.key}, {"title", one.title}, {"unit", one.unit}});
     for (const PreparedStudyScene& prepared_scene : prepared.scenes) {
         const Film film = with_settings_of(prepared_scene, prepared.study, {}).scene.film;
         Json& scene = json["scenes"].emplace_back();
@@ -120,10 +110,8 @@ std::string make_viewer_test(std::string_view page, const PreparedStudy& prepare
         }
     }
     std::string text(page);
-    const std::size_t at = text.find(place);
-    ALEPH_CHECK(at != std::string::npos, std::string(place));
-    return text.replace(at, place.size(),
-                        "<script id=\"test\" type=\"application/json\">" + script_json(json) + "</script>");
+    insert(text, "<!-- TEST DATA -->", script_json("test", json));
+    return text;
 }
 
 }  // namespace aleph

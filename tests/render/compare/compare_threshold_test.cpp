@@ -68,23 +68,6 @@ TEST(RatioHistogram, WhatIsNotFiniteIsBeyond) {
     EXPECT_EQ(histogram.percentile(0.5), infinity);
 }
 
-TEST(RatioHistogram, SumsAreThoseOfAllValues) {
-    RatioHistogram all, first, second;
-    std::mt19937 random(5);
-    std::lognormal_distribution<double> ratios(0.0, 2.0);
-    for (int i = 0; i < 2000; ++i) {
-        const double ratio = ratios(random);
-        all.add(ratio, 1.0);
-        (i % 3 ? first : second).add(ratio, 1.0);
-    }
-    first.add(second);
-    first.add(RatioHistogram{});
-    EXPECT_EQ(first.count(), all.count());
-    EXPECT_EQ(first.beyond(), all.beyond());
-    EXPECT_EQ(first.worst(), all.worst());
-    for (const double share : {0.01, 0.5, 0.99}) EXPECT_EQ(first.percentile(share), all.percentile(share));
-}
-
 TEST(CompareNoise, ByHand) {
     // Standard error .01 of Y is 1 cd/m2. The error is 2, 4.5 and 0 cd/m2, the threshold 1: 4.5 > 1 + 3.
     ChannelImage b = grey_image(3, 1, 0.5f), a = b;

@@ -15,8 +15,8 @@ MotionMaps uniform(float u, float v, float object = 1.0f) {
 
 TEST(SurfaceTrack, UniformMotionAddsUp) {
     const MotionMaps maps = uniform(1.25f, 0.5f);
-    const std::vector<const MotionMaps*> motion(4, &maps);
-    const auto after = track_forward(motion, 3), before = track_backward(motion, 3);
+    const std::vector<const MotionMaps*> motion(7, &maps);
+    const auto [after, before] = track_surfaces(motion, 3);
     ASSERT_EQ(after.size(), 3u);
     ASSERT_EQ(before.size(), 3u);
     for (int k = 1; k <= 3; ++k) {
@@ -40,7 +40,7 @@ TEST(SurfaceTrack, ZoomAndItsInverseMeet) {
         }
     }
     const std::vector<const MotionMaps*> motion(2, &zoom);
-    const glm::vec2 source = track_backward(motion, 1)[0](31, 4);
+    const glm::vec2 source = track_surfaces(motion, 1).before[0](31, 4);
     EXPECT_NEAR(source.x, 20.0f + 11.0f / 1.1f, 2e-3f);
     EXPECT_NEAR(source.y, 15.0f - 11.0f / 1.1f, 2e-3f);
 }
@@ -49,19 +49,18 @@ TEST(SurfaceTrack, EndsWhereSomethingElseIsInFront) {
     MotionMaps now = uniform(2.0f, 0.0f), next = uniform(2.0f, 0.0f);
     next.object(14, 10) = 2.0f;
     const std::vector<const MotionMaps*> motion{&now, &next};
-    const TrackImage after = track_forward(motion, 1)[0];
+    const TrackImage after = track_surfaces(motion, 0).after.at(0);
     EXPECT_TRUE(std::isnan(after(12, 10).x));
     EXPECT_FALSE(std::isnan(after(13, 10).x));
-    const std::vector<const MotionMaps*> back{&next, &now};
-    EXPECT_TRUE(std::isnan(track_backward(back, 1)[0](14, 10).x)) << "the object in front was not there";
+    EXPECT_TRUE(std::isnan(track_surfaces(motion, 1).before.at(0)(14, 10).x)) << "the object in front was not there";
 }
 
 TEST(SurfaceTrack, InvalidMotionLeadsNowhere) {
     MotionMaps maps = uniform(1.0f, 0.0f);
     maps.valid(5, 5) = -4.0f;
     const std::vector<const MotionMaps*> motion(2, &maps);
-    EXPECT_TRUE(std::isnan(track_forward(motion, 1)[0](5, 5).x));
-    EXPECT_TRUE(std::isnan(track_backward(motion, 1)[0](6, 5).x));
+    EXPECT_TRUE(std::isnan(track_surfaces(motion, 0).after.at(0)(5, 5).x));
+    EXPECT_TRUE(std::isnan(track_surfaces(motion, 1).before.at(0)(6, 5).x));
 }
 
 TEST(SurfaceTrack, MapsWithoutMotionAreAtRest) {

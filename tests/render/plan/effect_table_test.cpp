@@ -138,10 +138,6 @@ Rgb color_of(Effect effect) {
     return effect_table()[static_cast<std::size_t>(effect)].color;
 }
 
-TEST(EffectPicture, IsBlackWhereAllIsSimulated) {
-    for (const Rgb& pixel : Frame().picture().pixels) EXPECT_EQ(pixel, Rgb(0.0f));
-}
-
 TEST(EffectPicture, AnEffectColoursTheSurfacesThatHaveIt) {
     const Rgb none(0.0f);
     struct Case {

@@ -49,6 +49,8 @@ TEST(MeasureErrors, KnownDifferences) {
     EXPECT_NEAR(values.at("bias"), 100.0 * (7 * 0.03 - 13 * 0.01) / 50.0, 1e-4);
     EXPECT_NEAR(values.at("relative_mse"), (7 * 9e-4 + 13 * 1e-4) / 100.0 / 0.25, 1e-5);
     EXPECT_FALSE(values.contains("relative_mse_indirect")) << "neither picture has its indirect light alone";
+    const MetricValues alone = measure_errors(picture, truth_of(grey(0.5f), 0.0), {{"mean_error", "", "", false, 0}});
+    EXPECT_EQ(alone, (MetricValues{{"mean_error", values.at("mean_error")}}));
 }
 
 TEST(MeasureErrors, NoiseOfTheReferenceIsTakenOff) {

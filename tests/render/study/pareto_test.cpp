@@ -6,14 +6,6 @@
 namespace aleph {
 namespace {
 
-TEST(Pareto, OnlyLessOfOneDominates) {
-    EXPECT_TRUE(dominates({1.0, 2.0}, {1.0, 3.0}));
-    EXPECT_TRUE(dominates({1.0, 2.0}, {2.0, 2.0}));
-    EXPECT_FALSE(dominates({1.0, 2.0}, {1.0, 2.0})) << "equal";
-    EXPECT_FALSE(dominates({1.0, 2.0}, {2.0, 1.0}));
-    EXPECT_FALSE(dominates({2.0, 1.0}, {1.0, 2.0}));
-}
-
 TEST(Pareto, RanksAreFrontsOfWhatIsLeft) {
     const std::vector<CostPoint> points{{4.0, 4.0}, {1.0, 8.0}, {2.0, 4.0}, {8.0, 1.0},
                                         {4.0, 8.0}, {9.0, 9.0}, {2.0, 4.0}, {3.0, 5.0}};
@@ -60,20 +52,6 @@ TEST(Pareto, KeepsTheFirstOfEqualPoints) {
     const std::vector<CostPoint> points{{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}};
     EXPECT_EQ(keep_best(points, 1), std::vector<std::size_t>{0});
     EXPECT_EQ(list_front(points), std::vector<std::size_t>{0});
-}
-
-TEST(Pareto, HalvingKeepsTheFrontOfSyntheticCandidates) {
-    // Eight candidates on a front, and for each seven that cost more; a third of the points are kept, twice.
-    std::vector<CostPoint> points;
-    for (int i = 0; i < 8; ++i) {
-        for (int worse = 0; worse < 8; ++worse) points.push_back({std::exp2(i) * (1.0 + 0.1 * worse), std::exp2(-i)});
-    }
-    std::vector<std::size_t> left = keep_best(points, 22);
-    std::vector<CostPoint> rest;
-    for (const std::size_t i : left) rest.push_back(points[i]);
-    std::vector<std::size_t> last;
-    for (const std::size_t i : keep_best(rest, 8)) last.push_back(left[i]);
-    EXPECT_EQ(last, (std::vector<std::size_t>{0, 8, 16, 24, 32, 40, 48, 56}));
 }
 
 const std::vector<CostPoint> front{{4.0, 1.0}, {1.0, 16.0}, {5.0, 2.0}, {64.0, 0.25}};  // {5, 2} is beaten

@@ -6,6 +6,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "engine/gltf/files.h"
 #include "engine/image/image_file.h"
 #include "render/study/pages/report_layers.h"
 #include "render/study/pages/report_page.h"
@@ -20,30 +21,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string decode_base64(const std::string& text) {
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : text) {
-        const std::size_t digit = digits.find(c);
-        if (digit == std::string::npos) break;
-        bits = bits << 6 | static_cast<std::uint32_t>(digit);
-        count += 6;
-        if (count >= 8) out += static_cast<char>(bits >> (count -= 8) & 255);
-    }
-    return out;
-}
-
 /// The values of a layer, read as report_layers.h describes it.
 std::vector<float> decode(const std::string& text, std::size_t count, LayerType type) {
     const std::size_t width = type == LayerType::f16 ? 2 : 4;
-    const std::string packed = decode_base64(text);
+    const Bytes packed = decode_data_uri("data:;base64," + text, "", "").bytes;
     std::string bytes(count * width, '\0');
     uLongf size = bytes.size();
-    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
-                         packed.size()),
-              Z_OK);
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, packed.data(), packed.size()), Z_OK);
     EXPECT_EQ(size, bytes.size());
     std::vector<float> values;
     for (std::size_t i = 0; i < count; ++i) {
@@ -89,9 +73,17 @@ TEST(ReportLayers, KeepToTheirSize) {
     EXPECT_EQ(layers.left_out(), 1u);
 }
 
+/// Parses the data that the page's script would read.
+Json data_of(const std::string& page) {
+    const std::string start = "<script id=\"study\" type=\"application/json\">";
+    const std::size_t begin = page.find(start) + start.size();
+    return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
 /// A study of one frame of noise with two variants, and its JSON.
-struct ReportDraft {
-    explicit ReportDraft(const ScratchFolder& folder) {
+class ReportPage : public testing::Test {
+  protected:
+    ReportPage() {
         ChannelImage picture;
         std::uint32_t state = 1;
         for (const char* name : {"R", "G", "B", "samples.Y", "error.edges"}) {
@@ -118,26 +110,23 @@ struct ReportDraft {
             json["variants"].push_back({{"id", name}, {"frames", {{{"scene", "noise"}, {"frame", 7}}}}});
         }
     }
+    std::string make_page(std::size_t most_bytes = most_report_bytes) const {
+        return make_report("<head><!-- STUDY DATA --></head><body><!-- STUDY LAYERS --></body>", json, results,
+                           most_bytes);
+    }
+
+    const ScratchFolder folder;
     StudyResults results;
     Json json;
 };
 
-/// Parses the data that the page's script would read.
-Json data_of(const std::string& page) {
-    const std::string start = "<script id=\"study\" type=\"application/json\">";
-    const std::size_t begin = page.find(start) + start.size();
-    return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-}
-
-constexpr std::string_view page_draft = "<head><!-- STUDY DATA --></head><body><!-- STUDY LAYERS --></body>";
-
-TEST(ReportPage, HoldsPicturesAndMaps) {
-    const ScratchFolder folder;
-    const ReportDraft draft(folder);
-    const std::string page = make_report(page_draft, draft.json, draft.results);
+TEST_F(ReportPage, HoldsPicturesAndMaps) {
+    const std::string page = make_page();
     const Json data = data_of(page);
     // A text does not end the script.
-    expect_fields(data, R"({"title": "</script><b>", "frames": [7], "scene": "noise", "layers_left_out": 0})");
+    expect_fields(
+        data,
+        R"({"title": "</script><b>", "frames": [7], "scene": "noise", "layers_left_out": 0, "display_white": 100})");
     EXPECT_EQ(data["pictures"][0]["maps"]["threshold.Y"]["channels"], 1);
     const Json picture = data["variants"][1]["frames"][0]["picture"];
     EXPECT_EQ(picture["channels"], 3);
@@ -150,11 +139,9 @@ TEST(ReportPage, HoldsPicturesAndMaps) {
     EXPECT_TRUE(data["variants"][0]["frames"][0]["maps"].contains("error.edges"));
 }
 
-TEST(ReportPage, LeavesOutTheLeastNeededFirst) {
-    const ScratchFolder folder;
-    const ReportDraft draft(folder);
-    const std::size_t whole = make_report(page_draft, draft.json, draft.results).size();
-    const std::string page = make_report(page_draft, draft.json, draft.results, whole / 2);
+TEST_F(ReportPage, LeavesOutTheLeastNeededFirst) {
+    const std::size_t whole = make_page().size();
+    const std::string page = make_page(whole / 2);
     EXPECT_LT(page.size(), whole / 2 + 6000) << "the descriptions of layers and maps come on top";
     const Json data = data_of(page);
     EXPECT_GT(data["layers_left_out"], 0);
@@ -163,36 +150,33 @@ TEST(ReportPage, LeavesOutTheLeastNeededFirst) {
     EXPECT_FALSE(data["variants"][0]["frames"][0]["maps"].contains("error.edges"));
 }
 
-TEST(ReportPage, SeveralScenesHaveNamedFrames) {
-    const ScratchFolder folder;
-    ReportDraft draft(folder);
-    draft.results.frames.push_back(draft.results.frames[0]);
-    draft.results.frames[1].scene = "other";
-    const Json data = data_of(make_report(page_draft, draft.json, draft.results));
+TEST_F(ReportPage, SeveralScenesHaveNamedFrames) {
+    results.frames.push_back(results.frames[0]);
+    results.frames[1].scene = "other";
+    const Json data = data_of(make_page());
     EXPECT_EQ(data["frames"], Json::array({"noise 7", "other 7"}));
     EXPECT_FALSE(data.contains("scene")) << "the frames name theirs";
     EXPECT_EQ(data["variants"][0]["frames"][0]["frame"], "noise 7");
 }
 
-TEST(ReportPage, OtherJudgesHaveMapsOfTheSameNames) {
-    const ScratchFolder folder, judged;
-    ReportDraft draft(folder);
-    draft.results.judges = {{"other", judged.path()}};
-    EXPECT_THROW(make_report(page_draft, draft.json, draft.results), InputError) << "no map at all";
+TEST_F(ReportPage, OtherJudgesHaveMapsOfTheSameNames) {
+    const ScratchFolder judged;
+    results.judges = {{"other", judged.path()}};
+    EXPECT_THROW(make_page(), InputError) << "no map at all";
     write_exr(judged / "picture.exr", {{{"Y", Image<float>(31, 32, 2.0f)}}, {}});
-    EXPECT_THROW(make_report(page_draft, draft.json, draft.results), InputError) << "another size";
+    EXPECT_THROW(make_page(), InputError) << "another size";
     write_exr(judged / "picture.exr", {{{"Y", Image<float>(32, 32, 2.0f)}}, {}});
-    const Json data = data_of(make_report(page_draft, draft.json, draft.results));
+    const Json data = data_of(make_page());
     EXPECT_EQ(data["judges"][0]["map"], "judge.other");
     EXPECT_TRUE(data["variants"][0]["frames"][0]["maps"].contains("judge.other"));
-    draft.results.judges[0].frames = {{7, judged / "picture.exr"}};
-    EXPECT_THROW(make_report(page_draft, draft.json, draft.results), InputError) << "which variant is it of?";
-    draft.results.variants.pop_back();
-    const Json one = data_of(make_report(page_draft, draft.json, draft.results));
+    results.judges[0].frames = {{7, judged / "picture.exr"}};
+    EXPECT_THROW(make_page(), InputError) << "which variant is it of?";
+    results.variants.pop_back();
+    const Json one = data_of(make_page());
     EXPECT_TRUE(one["variants"][0]["frames"][0]["maps"].contains("judge.other"));
 }
 
-TEST(ReportPage, EveryMapOfTheWalkIsDescribedOnce) {
+TEST_F(ReportPage, EveryMapOfTheWalkIsDescribedOnce) {
     std::set<std::string> names;
     for (const Json& map : report_maps()) EXPECT_TRUE(names.insert(map["name"]).second) << map["name"];
     for (const Json& step : report_walk({})) {
@@ -221,8 +205,7 @@ TEST(ViewerPage, HoldsSequencesWithTheirLevels) {
     const auto json = nlohmann::json::parse(page.substr(start.size(), page.find("</script>") - start.size()));
     expect_fields(json, R"({"title": "</script>", "width": 16})");
     ASSERT_EQ(json["series"].size(), 3u);
-    expect_fields(json["series"][0], R"({"id": "noise", "log": false})");  // a level of 0
-    EXPECT_EQ(json["series"][1]["log"], true);
+    EXPECT_EQ(json["series"][0]["id"], "noise");
     EXPECT_EQ(json["series"][2]["title"], "spp") << "the first sweep with numbers";
     ASSERT_EQ(json["scenes"].size(), 1u);
     const auto& scene = json["scenes"][0];

@@ -15,16 +15,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Study small_study() {
+/// A small study in a folder of its own.
+class RunStudy : public testing::Test {
+  protected:
+    RunStudy() {
+        study.title = "small";
+        study.scenes = {{source_folder() / "scenes/cornell/scene.json", "3"}};
+        study.settings = {{"size", "20x15"}, {"light_step", 0.0}, {"filter", "box"}};
+        study.reference = {"path", 2, 256, {}};
+        study.sweep = {{"spp", {1.0, 4.0}}, {"guide", {std::string("none"), std::string("saliency")}}};
+        study.viewers = {{"own", {}}, {"castle", {{"vision", "castle"}, {"viewing.persistence", 1.0}}}};
+    }
+    StudyResults run(const StudyProgress& progress = {}) const {
+        return run_study(prepare_study(study), folder.path(), progress);
+    }
+
+    const ScratchFolder folder;
     Study study;
-    study.title = "small";
-    study.scenes = {{source_folder() / "scenes/cornell/scene.json", "3"}};
-    study.settings = {{"size", "20x15"}, {"light_step", 0.0}, {"filter", "box"}};
-    study.reference = {"path", 2, 256, {}};
-    study.sweep = {{"spp", {1.0, 4.0}}, {"guide", {std::string("none"), std::string("saliency")}}};
-    study.viewers = {{"own", {}}, {"castle", {{"vision", "castle"}, {"viewing.persistence", 1.0}}}};
-    return study;
-}
+};
 
 /// All numbers but those of time.
 std::vector<std::map<std::string, double>> numbers_of(const StudyResults& results) {
@@ -41,10 +49,8 @@ std::vector<std::map<std::string, double>> numbers_of(const StudyResults& result
     return numbers;
 }
 
-TEST(RunStudy, MeasuresEveryVariantAndKeepsIt) {
-    const ScratchFolder folder;
-    const PreparedStudy prepared = prepare_study(small_study());
-    const StudyResults first = run_study(prepared, folder.path());
+TEST_F(RunStudy, MeasuresEveryVariantAndKeepsIt) {
+    const StudyResults first = run();
     ASSERT_EQ(first.variants.size(), 4u);
     EXPECT_EQ(first.made, 4u);
     EXPECT_EQ(first.found, 0u);
@@ -69,7 +75,7 @@ TEST(RunStudy, MeasuresEveryVariantAndKeepsIt) {
     }
     EXPECT_NEAR(sum, aleph.pixels[7], 1e-4 * aleph.pixels[7]) << "(5.11)";
 
-    const StudyResults again = run_study(prepared, folder.path());
+    const StudyResults again = run();
     EXPECT_EQ(again.made, 0u);
     EXPECT_EQ(again.found, 4u);
     EXPECT_EQ(numbers_of(again), numbers_of(first));
@@ -78,12 +84,10 @@ TEST(RunStudy, MeasuresEveryVariantAndKeepsIt) {
         << "times are those of the finished run";
 }
 
-TEST(RunStudy, PicturesOfAnotherProgramAreJudgedAlikeWithoutCosts) {
-    const ScratchFolder folder;
-    Study study = small_study();
+TEST_F(RunStudy, PicturesOfAnotherProgramAreJudgedAlikeWithoutCosts) {
     study.sweep = {{"spp", {4.0}}};
     study.viewers = {{"own", {}}};
-    const StudyResults rendered = run_study(prepare_study(study), folder.path() / "own");
+    const StudyResults rendered = run();
     fs::copy(rendered.variants[0].frames[0].picture, folder.path() / "other.0003.exr");
     const std::string text = R"({"scenes": [{"scene": "SCENE", "frames": "3"}], "size": "20x15", "sweep": {"spp": [4]},
         "settings": {"light_step": 0, "filter": "box"}, "reference": {"passes": 2, "spp": 256}, "seeds": [0, 5],
@@ -116,13 +120,10 @@ TEST(RunStudy, PicturesOfAnotherProgramAreJudgedAlikeWithoutCosts) {
     refused("\"name\": \"other\",", "\"name\": \"other\", \"settings\": {\"spp\": 1},");
 }
 
-TEST(RunStudy, NoiseErrsByTheThreshold) {
-    const ScratchFolder folder;
-    Study study = small_study();
+TEST_F(RunStudy, NoiseErrsByTheThreshold) {
     study.sweep = {{"noise", {0.0, 0.5, 2.0}}};
     study.variants = {{"fair", {{"zero_mean_noise", 1.0}}}};
-    const PreparedStudy prepared = prepare_study(study);
-    const StudyResults results = run_study(prepared, folder.path());
+    const StudyResults results = run();
     const auto metric = [&](std::size_t variant, const char* name) {
         return results.variants.at(variant).metrics.at(name).value;
     };
@@ -137,7 +138,7 @@ TEST(RunStudy, NoiseErrsByTheThreshold) {
     EXPECT_LT(std::abs(metric(3, "bias")), 0.3 * metric(2, "bias"));
     EXPECT_FALSE(results.variants[1].metrics.contains("processor_seconds"));
     EXPECT_EQ(results.made, 0u);
-    EXPECT_EQ(numbers_of(run_study(prepared, folder.path())), numbers_of(results));
+    EXPECT_EQ(numbers_of(run()), numbers_of(results));
 
     const auto refuse = [&](const SettingMap& settings) {
         study.variants = {{"wrong", settings}};
@@ -178,12 +179,11 @@ TEST(ThresholdNoise, IsTheSameForASeedAndAnotherInEveryFrame) {
     EXPECT_GE(std::ranges::min(fair), 0.4599f);
 }
 
-TEST(RunStudy, DividedItEndsWithTheSameNumbers) {
-    const ScratchFolder whole, divided;
-    Study study = small_study();
+TEST_F(RunStudy, DividedItEndsWithTheSameNumbers) {
+    const ScratchFolder divided;
     study.runs.seeds = {0, 5};
     const PreparedStudy prepared = prepare_study(study);
-    const StudyResults expected = run_study(prepared, whole.path());
+    const StudyResults expected = run();
     for (const std::size_t index : {2, 0, 1}) make_part(prepared, divided.path(), {index, 3});
     const StudyResults joined = run_study(prepared, divided.path());
     EXPECT_EQ(joined.made, 0u);
@@ -191,14 +191,12 @@ TEST(RunStudy, DividedItEndsWithTheSameNumbers) {
     EXPECT_EQ(numbers_of(joined), numbers_of(expected));
 }
 
-TEST(RunStudy, StoppedAnywhereEndsWithTheSameNumbers) {
-    const ScratchFolder whole, stopped;
-    Study study = small_study();
+TEST_F(RunStudy, StoppedAnywhereEndsWithTheSameNumbers) {
+    const ScratchFolder whole;
     study.sweep.pop_back();
     study.runs.seeds = {0, 5};
     study.runs.repeats = 2;
-    const PreparedStudy prepared = prepare_study(study);
-    const StudyResults expected = run_study(prepared, whole.path());
+    const StudyResults expected = run_study(prepare_study(study), whole.path());
     EXPECT_EQ(expected.made, 8u);
     std::size_t stops = 0;
     for (int limit = 1; limit < 100; limit = 3 * limit + 1) {
@@ -207,31 +205,29 @@ TEST(RunStudy, StoppedAnywhereEndsWithTheSameNumbers) {
             if (++calls > limit) throw std::runtime_error("stopped");
         };
         try {
-            run_study(prepared, stopped.path(), stop);
+            run(stop);
             break;
         } catch (const std::runtime_error&) {
             ++stops;
         }
     }
     EXPECT_GE(stops, 2u);
-    const StudyResults resumed = run_study(prepared, stopped.path());
+    const StudyResults resumed = run();
     EXPECT_GT(resumed.found, 0u);
     EXPECT_EQ(numbers_of(resumed), numbers_of(expected));
     for (const VariantResult& variant : resumed.variants)
         EXPECT_TRUE(variant.metrics.at("share_beyond").error.has_value()) << "two seeds";
 }
 
-TEST(RunStudy, TwoSeedsTellWhatChanceChanges) {
-    const ScratchFolder folder;
-    Study study = small_study();
+TEST_F(RunStudy, TwoSeedsTellWhatChanceChanges) {
     study.sweep = {{"spp", {1.0}}};
     study.scenes[0].frames = "3,4,6";
-    const auto run = [&](std::vector<std::uint32_t> seeds) {
+    const auto run_seeds = [&](std::vector<std::uint32_t> seeds) {
         study.runs.seeds = std::move(seeds);
-        return run_study(prepare_study(study), folder.path()).variants.front();
+        return run().variants.front();
     };
-    EXPECT_FALSE(run({0}).metrics.contains("seed_seen"));
-    const VariantResult equal = run({0, 0}), other = run({0, 5});
+    EXPECT_FALSE(run_seeds({0}).metrics.contains("seed_seen"));
+    const VariantResult equal = run_seeds({0, 0}), other = run_seeds({0, 5});
     EXPECT_EQ(equal.metrics.at("seed_seen").value, 0.0) << "equal pictures";
     EXPECT_EQ(equal.metrics.at("seed_flicker").value, 0.0);
     EXPECT_GT(other.metrics.at("seed_seen").value, 0.0);
@@ -243,49 +239,40 @@ TEST(RunStudy, TwoSeedsTellWhatChanceChanges) {
     EXPECT_NE(std::ranges::find(apart.metrics, "seed_seen", &Metric::name), apart.metrics.end());
 }
 
-TEST(RunStudy, MakesAgainWhatIsMissingOrOfOtherSettings) {
-    const ScratchFolder folder;
-    Study study = small_study();
+TEST_F(RunStudy, MakesAgainWhatIsMissingOrOfOtherSettings) {
     study.sweep.pop_back();
-    run_study(prepare_study(study), folder.path());
+    run();
     for (const fs::directory_entry& entry : fs::directory_iterator(folder / "runs")) {
         if (entry.path().extension() == ".exr") {
             fs::remove(entry.path());
             break;
         }
     }
-    EXPECT_EQ(run_study(prepare_study(study), folder.path()).made, 1u) << "a picture is missing";
+    EXPECT_EQ(run().made, 1u) << "a picture is missing";
     study.settings["light_samples"] = 5.0;
-    EXPECT_EQ(run_study(prepare_study(study), folder.path()).made, 2u) << "another setting";
+    EXPECT_EQ(run().made, 2u) << "another setting";
     study.scenes[0].frames = "4";
-    EXPECT_EQ(run_study(prepare_study(study), folder.path()).made, 2u) << "another frame";
-}
-
-TEST(RunStudy, DamagedRunsAreNamed) {
-    const ScratchFolder folder;
-    Study study = small_study();
-    study.sweep = {{"spp", {1.0}}};
-    run_study(prepare_study(study), folder.path());
+    EXPECT_EQ(run().made, 2u) << "another frame";
     for (const fs::directory_entry& entry : fs::directory_iterator(folder / "runs")) {
         if (entry.path().extension() == ".json") std::ofstream(entry.path()) << "{\"frames\": [{}]}";
     }
-    EXPECT_THROW(run_study(prepare_study(study), folder.path()), InputError);
+    EXPECT_NE(find_refusal([&] { run(); }).file, "") << "damaged runs";
 }
 
-TEST(RunStudy, ChecksEverythingBeforeItRenders) {
-    const auto expect = [](const char* part, void (*change)(Study&)) {
-        Study study = small_study();
-        change(study);
-        EXPECT_THAT(find_refusal([&] { prepare_study(std::move(study)); }).message, testing::HasSubstr(part));
+TEST_F(RunStudy, ChecksEverythingBeforeItRenders) {
+    const auto expect = [&](const char* part, void (*change)(Study&)) {
+        Study changed = study;
+        change(changed);
+        EXPECT_THAT(find_refusal([&] { prepare_study(std::move(changed)); }).message, testing::HasSubstr(part));
     };
-    EXPECT_NO_THROW(prepare_study(small_study()));
-    expect("did you mean \"gather\"", [](Study& study) { study.sweep.push_back({"gathr", {1.0}}); });
-    expect("spp", [](Study& study) { study.sweep[0].values.push_back(-4.0); });
-    expect("one size", [](Study& study) { study.variants.push_back({"large", {{"size", "64x48"}}}); });
-    expect("seeds", [](Study& study) { study.variants.push_back({"other noise", {{"seed", 3.0}}}); });
-    expect("vision", [](Study& study) { study.viewers.push_back({"bad", {{"vision", "cat"}}}); });
-    expect("two scenes", [](Study& study) { study.scenes.push_back(study.scenes[0]); });
-    expect("no/such.json", [](Study& study) { study.scenes[0].file = "no/such.json"; });
+    EXPECT_NO_THROW(prepare_study(study));
+    expect("did you mean \"gather\"", [](Study& changed) { changed.sweep.push_back({"gathr", {1.0}}); });
+    expect("spp", [](Study& changed) { changed.sweep[0].values.push_back(-4.0); });
+    expect("one size", [](Study& changed) { changed.variants.push_back({"large", {{"size", "64x48"}}}); });
+    expect("seeds", [](Study& changed) { changed.variants.push_back({"other noise", {{"seed", 3.0}}}); });
+    expect("vision", [](Study& changed) { changed.viewers.push_back({"bad", {{"vision", "cat"}}}); });
+    expect("two scenes", [](Study& changed) { changed.scenes.push_back(changed.scenes[0]); });
+    expect("no/such.json", [](Study& changed) { changed.scenes[0].file = "no/such.json"; });
 }
 
 }  // namespace

@@ -151,15 +151,8 @@ TEST_F(Probes, SayOfBlocksWhatWholePicturesSay) {
             pair.reference.pixels[i] = 0.5f * (one.pixels[i] + other.pixels[i]);
             pair.noise.pixels[i] = 0.5f * (one.pixels[i] - other.pixels[i]);
         }
-        const FrameOutput moved = motion.find_motion(frame);
-        MotionMaps maps{Image<float>(24, 18), Image<float>(24, 18), Image<float>(24, 18), Image<float>(24, 18)};
-        for (std::size_t i = 0; i < maps.u.size(); ++i) {
-            maps.u.pixels[i] = static_cast<float>(moved.motion.displacement.pixels[i].x);
-            maps.v.pixels[i] = static_cast<float>(-moved.motion.displacement.pixels[i].y);
-            maps.valid.pixels[i] = static_cast<float>(static_cast<int>(moved.motion.validity.pixels[i]));
-            maps.object.pixels[i] = static_cast<float>(static_cast<int>(moved.hits.pixels[i].instance));
-        }
-        for (VisibleMaps& each : difference.add(frame, pair, std::move(maps))) whole.push_back(std::move(each));
+        const std::vector<VisibleMaps> done = difference.add(frame, pair, read_maps(motion.find_motion(frame)));
+        whole.insert(whole.end(), done.begin(), done.end());
     }
     difference.finish();
     ASSERT_EQ(whole.size(), 1u);
