@@ -11,7 +11,6 @@ namespace aleph {
 
 namespace {
 
-constexpr int rows_per_band = 32;
 constexpr auto max_aleph = static_cast<float>(highest_aleph);
 
 /// Buffers for one row.

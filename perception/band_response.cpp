@@ -8,10 +8,6 @@
 
 namespace aleph {
 
-namespace {
-constexpr int rows_per_band = 32;
-}
-
 BandLevels make_band_levels(LevelSize size, RowSource finest, const std::vector<Image<float>>& a, float grey) {
     BandLevels out;
     out.sizes = pyramid_sizes(size.width, size.height, band_count + 1);

@@ -12,7 +12,6 @@ namespace aleph {
 
 namespace {
 
-constexpr int rows_per_band = 32;
 constexpr std::size_t pixels_per_part = std::size_t{1} << 14;
 
 /// Prefix sums of luminance along every row: `reach` zeros on the left, `reach` times the total on the right, so that

@@ -31,39 +31,6 @@ configure() {
   cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DALEPH_SANITIZE= -DALEPH_TESTS=ON -DALEPH_PRECOMPILE=ON
 }
 
-golden() {
-  if ! compgen -G "$here/golden/*.exr" >/dev/null; then
-    echo "There are no golden images yet: skipped. tests/golden/golden.sh accept makes them."
-    return
-  fi
-  local code=0
-  bash "$here/golden/golden.sh" check || code=$?
-  record "$build" golden "$code"
-  return "$code"
-}
-
-processors() {
-  local code=0
-  bash "$here/golden/processors.sh" || code=$?
-  record "$build" processors "$code"
-  return "$code"
-}
-
-farm() {
-  local code=0
-  bash "$here/farm.sh" "$build/aleph" || code=$?
-  [ "$code" != 77 ] || return 0  # no Slurm, as it says
-  record "$build" farm "$code"
-  return "$code"
-}
-
-newcomer() {
-  local code=0
-  bash "$here/newcomer.sh" "$build/aleph" || code=$?
-  record "$build" newcomer "$code"
-  return "$code"
-}
-
 # Nothing can be tested without these.
 needed() {
   part "$@" || { printf '\n%s failed\n0 passed, 1 failed\n' "$1"; exit 1; }
@@ -82,10 +49,6 @@ needed "set-up" bash "$root/scenes/setup.sh" chromium qemu-user
 needed "configure" configure
 needed "build" cmake --build "$build" --parallel "$jobs"
 checked "$build" "tests" run_tests "$build"
-checked "$build" "golden images" golden
-checked "$build" "other processors" processors
-checked "$build" "newcomer" newcomer
-checked "$build" "Slurm" farm
 if [ "${1:-}" != quick ]; then
   checked "$root/build-address" "address sanitizer" bash "$here/sanitizers.sh" address
   checked "$root/build-thread" "thread sanitizer" bash "$here/sanitizers.sh" thread

@@ -15,17 +15,18 @@ case $kind in
   address)
     programs=(test_base test_pose test_image_io test_motion test_scene_file test_gltf
       test_alembic test_subdivide test_hostile)
-    # Tests of time, memory and size on large texts are for the Release build. test_hostile covers damaged scene files. A
-    # slow reading of image motion is arithmetic; its other tests run here.
+    # Tests of time, memory and size on large texts are for the Release build, and so are killed processes. test_hostile covers
+    # damaged scene files. Slow readings of image and raster motion are arithmetic; their other tests run here.
     filter='-HostileSceneFile.*:DamagedSceneFile.*:SceneJsonWrite.KF24*:SceneJsonWrite.ManyNames*:SceneJsonWrite.DT09*'
     filter+=':SceneJsonWrite.LoadOfSaveIsTheSameScene:Gltf.S13_5_KF24*:ImageMotion.EqualsTheSlowReadingOfTheModel'
+    filter+=':GuidedRefused.MoreWorkThanSeconds:Output.OU07_KilledWhile*:Raster.ShowsTheTriangleThatRaysHit'
     # Pyramids, cache, sampling and materials. Left out: what checks statistics, memory or a growth of work in millions.
     rows=(test_perception test_records test_materials test_paths test_lighting_keyframes)
     row_filter='SmallPictures.*:TextureControl.Nothing*:TextureControl.Corrected*:*.DT07*:*.PY*:*.IC*:*.MC*'
     row_filter+='-FlatPicture.*:Optimization.*:*.IC11_TheIndexFinds*:*.IC15*'
     row_filter+=':PathValues.MC13*:Accumulation.*:FurnaceScenes.*:Path.MC14*:Path.MC19*:PathLights.MC23*'
     # Pictures that are compared by what they show, and two processes with one cache file.
-    row_filter+=':*.IC14_*Between*:*.IC14_LightOf*:*.IC22_TwoProcesses*:*.IC23_*:MotionBlur.MC27_IndirectLight*'
+    row_filter+=':*.IC14_*Between*:*.IC14_LightOf*:*.IC17_*Radii*:*.IC22_TwoProcesses*:*.IC23_*:MotionBlur.MC27_IndirectLight*'
     optimize=-O1
     ;;
   thread)

@@ -76,6 +76,9 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
 #endif
 }
 
+/// Rows that one thread takes at a time where a row is quick work.
+inline constexpr int rows_per_band = 32;
+
 /// parallel_for over the rows of an image: body(begin, end) takes rows as int.
 /// @param rows_per_chunk  at least 1
 template <class Body>

@@ -13,7 +13,6 @@ namespace aleph {
 
 namespace {
 
-constexpr int rows_per_band = 32;
 constexpr double feature_floor = 1e-6;  // of max |A|
 constexpr double motion_floor = 1e-3;   // deg/s
 constexpr double summed_floor = 1e-6;   // of sums of maps in [0,1]

@@ -38,5 +38,4 @@ if [ "$code" = 0 ]; then
     CHROMIUM=$browser REPORT=$report node --test --test-reporter=spec "$here/test/report_check.mjs" || code=1
   fi
 fi
-record "$build" report_page "$code"
 exit "$code"

@@ -6,8 +6,6 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 build=${BUILD:-$root/build}
 work=$build/consumer
-source "$here/../results.sh"
-trap 'record "$build" consumer $?' EXIT
 rm -rf "$work"
 mkdir -p "$work"
 cmake --install "$build" --prefix "$work/made" >"$work/install.log"

@@ -4,7 +4,5 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$1 python=$2
 shift 2
-source "$here/../results.sh"
-trap 'record "$build" python $?' EXIT
 export PYTHONPATH=$build/python ALEPH=$build/aleph PYTHONDONTWRITEBYTECODE=1 MPLCONFIGDIR=$build/python
 "$python" -m pytest -q --no-header -p no:cacheprovider "$here" "$@"
