@@ -37,14 +37,6 @@ inline float smith_g1(const glm::vec2& alpha, const glm::vec3& v) {
     return 1.0f / (1.0f + smith_lambda(alpha, v));
 }
 
-/// Share of the light that a lobe of reflectance 1 loses, because microfacets hide each other and none reflects twice:
-/// within .007, for widths up to .15. A fit to the integral of the functions above over the hemisphere.
-/// @param cosine  between view and normal
-inline float ggx_loss(float alpha, float cosine) {
-    const float x = alpha / std::max(cosine, 1e-4f), x2 = x * x;
-    return 0.5527f * x2 * (1.0f + 1.0739f * cosine) / (1.0f - 0.3809f * x + 2.6673f * x2 + 1.9127f * x * x2);
-}
-
 /// A half vector that `view` sees, for u in [0,1)^2.
 inline glm::vec3 sample_visible_normal(const glm::vec2& alpha, const glm::vec3& view, const glm::vec2& u) {
     const glm::vec3 stretched = glm::normalize(glm::vec3(alpha.x * view.x, alpha.y * view.y, view.z));

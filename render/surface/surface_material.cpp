@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/surface/glossy_albedo.h"
 #include "render/surface/sheen.h"
 
 namespace aleph {
@@ -158,14 +159,13 @@ void blur_caustics(const ShadingScene& shading, ViewedSurface& surface) {
     const float width = shading.caustic_width;
     material.coat.alpha = std::max(material.coat.alpha, width);
     if (material.passes_straight() || material.gloss.alpha >= width) return;
-    // Wider microfacets hide more of each other.
+    // Wider microfacets hide more of each other, and fewer of them are seen at grazing angles.
     const float cosine = std::abs(glm::dot(surface.point.normal, surface.view));
-    const float kept = (1.0f - ggx_loss(material.gloss.alpha, cosine)) / (1.0f - ggx_loss(width, cosine));
-    if (material.gloss.stretch == 0.0f) {
-        material.gloss.f0 *= kept;
-        material.gloss.f90 *= kept;
-    }
+    const AlbedoParts narrow = ggx_albedo(mean_alpha(material), cosine);
     material.gloss.alpha = width;
+    const AlbedoParts wide = ggx_albedo(mean_alpha(material), cosine);
+    material.gloss.f0 *= narrow.straight / wide.straight;
+    material.gloss.f90 *= narrow.grazing / wide.grazing;
 }
 
 glm::vec3 keep_visible(const glm::vec3& normal, const glm::vec3& fallback, const glm::vec3& geometric,

@@ -17,8 +17,8 @@ namespace aleph {
 struct GlossyLayer {
     Rgb f0{0.0f};      ///< reflectance at normal incidence
     float f90 = 0.0f;  ///< reflectance at grazing incidence
-    /// Largest channel of the dielectric f0, and the reflectance at grazing incidence where it exceeds f90: light that
-    /// does not reach the Lambert layer.
+    /// Largest channel of the dielectric f0, and the reflectance at grazing incidence: light that does not reach the
+    /// Lambert layer.
     float f0_max = 0.0f, f90_max = 0.0f;
     float alpha = 1.0f;       ///< GGX width: roughness squared
     float stretch = 0.0f;     ///< anisotropy: widens the lobe along `tangent` from alpha towards 1
