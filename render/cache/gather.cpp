@@ -141,7 +141,7 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     const RayFootprint footprint =
         make_cone_footprint(met, direction, scratch.hits[i].distance, lighting.solid_angle(i));
     ViewedSurface surface = view_surface(shading, met, -direction, footprint);
-    blur_caustics(shading, surface.material);
+    blur_caustics(shading, surface);
     const LitSurface lit(surface);
     LobeShares shares{};
     if (lighting.options.depth > 0 && surface.material.has_specular()) {

@@ -1,78 +1,19 @@
 #include "render/path/glossy_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "render/pixels/lattice.h"
 #include "render/settings/numbers.h"
-#include "render/surface/fresnel.h"
+#include "render/surface/glossy_albedo.h"
 #include "render/surface/sheen.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr int rows = 24, columns = 24;
-
 /// GGX width (roughness .3) from which irradiance can stand in: highlights of narrower lobes are noise where lights
 /// alone are sampled.
 constexpr float narrowest = 0.09f;
-
-/// Parts of the albedo that are proportional to the reflectance straight on and at grazing incidence.
-struct AlbedoParts {
-    float straight = 0.0f, grazing = 0.0f;
-};
-
-/// Rows by roughness (the square root of alpha), columns by the square root of the cosine.
-using Table = std::array<std::array<AlbedoParts, columns>, rows>;
-
-AlbedoParts integrate_albedo(float alpha, float cos_view) {
-    constexpr int count = 512;
-    const glm::vec2 widths(std::max(alpha, min_ggx_alpha));
-    const glm::vec3 view(std::sqrt((1.0f - cos_view) * (1.0f + cos_view)), 0.0f, cos_view);
-    AlbedoParts parts;
-    for (int i = 0; i < count; ++i) {
-        const glm::vec3 h = sample_visible_normal(widths, view, lattice_point(i, count, glm::vec2(0.0f)));
-        const float cosine = glm::dot(view, h);
-        const glm::vec3 light = 2.0f * cosine * h - view;
-        if (!(light.z > 0.0f)) continue;
-        const float weight = smith_g2(widths, view, light) / (smith_g1(widths, view) * static_cast<float>(count));
-        const float grazing = schlick_power(cosine);
-        parts.straight += weight * (1.0f - grazing);
-        parts.grazing += weight * grazing;
-    }
-    return parts;
-}
-
-Table make_table() {
-    Table table{};
-    for (int i = 0; i < rows; ++i) {
-        for (int k = 0; k < columns; ++k) {
-            const float roughness = static_cast<float>(i) / (rows - 1), root = static_cast<float>(k) / (columns - 1);
-            table[i][k] = integrate_albedo(roughness * roughness, std::max(root * root, 1e-4f));
-        }
-    }
-    return table;
-}
-
-AlbedoParts mix(const AlbedoParts& a, const AlbedoParts& b, float share) {
-    return {a.straight + (b.straight - a.straight) * share, a.grazing + (b.grazing - a.grazing) * share};
-}
-
-AlbedoParts find_parts(float alpha, float cos_view) {
-    static const Table table = make_table();
-    const float row = std::sqrt(std::clamp(alpha, 0.0f, 1.0f)) * (rows - 1);
-    const float column = std::sqrt(std::clamp(cos_view, 0.0f, 1.0f)) * (columns - 1);
-    const int i = std::min(static_cast<int>(row), rows - 2), k = std::min(static_cast<int>(column), columns - 2);
-    const float a = row - static_cast<float>(i), b = column - static_cast<float>(k);
-    return mix(mix(table[i][k], table[i][k + 1], b), mix(table[i + 1][k], table[i + 1][k + 1], b), a);
-}
-
-float mean_alpha(const SurfaceMaterial& material) {
-    const glm::vec2 widths = material.widths();
-    return 0.5f * (widths.x + widths.y);
-}
 
 /// Share of uniform light that a lobe reflects, and how far real light is from uniform, relative.
 struct LobeStandIn {
@@ -96,7 +37,7 @@ LobeStandIn find_stand_in(const LitSurface& lit, Lobe lobe) {
         case Lobe::gloss: {
             const float alpha = mean_alpha(material);
             if (!(std::min(material.widths().x, material.widths().y) >= narrowest)) break;
-            const AlbedoParts parts = find_parts(alpha, lit.view.z);
+            const AlbedoParts parts = ggx_albedo(alpha, lit.view.z);
             const Rgb albedo = glossy_albedo(material, lit.view.z);
             const float more = std::max(material.gloss.f90 - luminance(material.gloss.f0), 0.0f);
             const float grazing = more * parts.grazing / std::max(luminance(albedo), 1e-6f);
@@ -104,7 +45,7 @@ LobeStandIn find_stand_in(const LitSurface& lit, Lobe lobe) {
         }
         case Lobe::coat: {
             if (!(material.coat.alpha >= narrowest)) break;
-            const AlbedoParts parts = find_parts(material.coat.alpha, lit.coat_view.z);
+            const AlbedoParts parts = ggx_albedo(material.coat.alpha, lit.coat_view.z);
             return {Rgb((1.0f - lit.below_coat) * (parts.straight + parts.grazing)),
                     lobe_deviation(material.coat.alpha, lit.coat_view.z, 0.0f)};
         }
@@ -120,11 +61,6 @@ LobeStandIn find_stand_in(const LitSurface& lit, Lobe lobe) {
 }
 
 }  // namespace
-
-Rgb glossy_albedo(const SurfaceMaterial& material, float cos_view) {
-    const AlbedoParts parts = find_parts(mean_alpha(material), cos_view);
-    return material.gloss.f0 * parts.straight + Rgb(material.gloss.f90 * parts.grazing);
-}
 
 SampledLobes choose_sampled_lobes(const LitSurface& lit, const Rgb& irradiance, float tolerance) {
     SampledLobes out;

@@ -7,11 +7,6 @@
 
 namespace aleph {
 
-/// Share of uniform light that the glossy layer reflects to the viewer, from a table; within .005 for an isotropic
-/// lobe. An anisotropic one counts as the isotropic one of the mean width.
-/// @param cos_view  with the shading normal
-Rgb glossy_albedo(const SurfaceMaterial& material, float cos_view);
-
 /// The lobes of a surface that rays are cast from, and what stands in for the others.
 struct SampledLobes {
     LobeShares shares{};  ///< sum to 1, or are all 0

@@ -88,7 +88,7 @@ class Path {
     /// Adds the light of the surface and of everything beyond.
     void scatter_at(ViewedSurface& surface) {
         while (state_.left.depth > 0) {
-            if (state_.turned) blur_caustics(context_.shading, surface.material);
+            if (state_.turned) blur_caustics(context_.shading, surface);
             const bool known = add_known(surface);
             if (!survive()) return;
             --state_.left.depth;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "engine/base/pixel_loops.h"
+#include "engine/rays/first_hits.h"
 
 namespace aleph {
 
@@ -14,18 +15,15 @@ constexpr int rays_of_a_sample = 16;
 constexpr double small_lamp = 1.5;  // pixels, largest radius of lamps that the pixels' centres may miss
 constexpr std::uint32_t edge_key_mask = 0x65646765u;  // apart from the samples' own places
 
-bool is_bright(const ShadingScene& shading, const CameraView& view, const SampleHits& centers, int x, int y,
-               double exposure) {
-    const Hit& hit = centers.hits(x, y);
-    if (hit.instance == no_index) {
-        const glm::vec3 direction(make_sample_ray(view, centers.place, x, y).direction);
-        return luminance(environment_radiance(shading, direction)) * exposure >= bright;
-    }
+/// @param direction  of the ray that met it
+bool is_bright(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction, double exposure) {
+    if (hit.instance == no_index) return luminance(environment_radiance(shading, direction)) * exposure >= bright;
     const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
     return material.emits && luminance(material.values.emission) * exposure >= bright;
 }
 
 /// Marks the pixels that small lamps lie in, whether something hides them or not.
+/// @param seen  with a margin of `reach` pixels around the picture
 void mark_small_lamps(const LightingContext& context, const CameraView& view, double exposure,
                       Image<std::uint8_t>& seen) {
     for (const Emitter& lamp : context.lights.emitters) {
@@ -34,25 +32,42 @@ void mark_small_lamps(const LightingContext& context, const CameraView& view, do
         if (!(-center.z > view.near_plane)) continue;
         const double scale = view.orthographic ? view.pixels_per_unit : view.pixels_per_unit / -center.z;
         const glm::dvec2 at = project_camera_point(view, center);
-        if (!(lamp.radius * scale <= small_lamp && at.x >= 0.0 && at.x < seen.width && at.y >= 0.0 &&
-              at.y < seen.height))
+        const glm::dvec2 place = at + static_cast<double>(reach);
+        if (!(lamp.radius * scale <= small_lamp && place.x >= 0.0 && place.x < seen.width && place.y >= 0.0 &&
+              place.y < seen.height))
             continue;
-        seen(static_cast<int>(at.x), static_cast<int>(at.y)) = 1;
+        seen(static_cast<int>(place.x), static_cast<int>(place.y)) = 1;
     }
 }
 
 }  // namespace
 
 Image<std::uint8_t> find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                                      double exposure) {
-    Image<std::uint8_t> seen(centers.hits.width, centers.hits.height), edges = seen;
-    parallel_pixels(seen, 16, [&](int x, int y) {
-        seen(x, y) = is_bright(context.shading, view, centers, x, y, exposure) ? 1 : 0;
-    });
+                                      double exposure, std::uint64_t& rays_cast) {
+    const int width = centers.hits.width, height = centers.hits.height;
+    Image<std::uint8_t> edges(width, height), seen(width + 2 * reach, height + 2 * reach);
+    const auto make_ray = [&](int x, int y) { return make_sample_ray(view, centers.place, x, y); };
+    const auto mark = [&](int left, int top, const Image<Hit>& hits) {
+        parallel_pixels(hits, 16, [&](int x, int y) {
+            const glm::vec3 direction(make_ray(left + x, top + y).direction);
+            seen(left + x + reach, top + y + reach) = is_bright(context.shading, hits(x, y), direction, exposure);
+        });
+    };
+    mark(0, 0, centers.hits);
+    // Filters of the outermost pixels reach beyond the picture.
+    for (const auto& [left, top, columns, rows] :
+         {std::array{-reach, -reach, width + 2 * reach, reach}, std::array{-reach, height, width + 2 * reach, reach},
+          std::array{-reach, 0, reach, height}, std::array{width, 0, reach, height}}) {
+        Image<Hit> hits(columns, rows);
+        cast_rays(
+            context.rays, [&](int x, int y) { return make_ray(left + x, top + y); }, centers.place.blend, hits);
+        rays_cast += hits.size();
+        mark(left, top, hits);
+    }
     mark_small_lamps(context, view, exposure, seen);
-    parallel_pixels(seen, 16, [&](int x, int y) {
+    parallel_pixels(edges, 16, [&](int x, int y) {
         bool any = false, all = true;
-        visit_around(seen, x, y, reach, [&](int nx, int ny) {
+        visit_around(seen, x + reach, y + reach, reach, [&](int nx, int ny) {
             any = any || seen(nx, ny) != 0;
             all = all && seen(nx, ny) != 0;
         });

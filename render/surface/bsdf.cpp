@@ -1,6 +1,5 @@
 #include "render/surface/bsdf.h"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "render/settings/numbers.h"
@@ -8,20 +7,12 @@
 
 namespace aleph {
 
-namespace {
-
-float grazing_loss(const SurfaceMaterial& material) {
-    return std::max(material.gloss.f90, material.gloss.f90_max);
-}
-
-}  // namespace
-
 float diffuse_transmission(const SurfaceMaterial& material, float cosine) {
-    return 1.0f - (material.gloss.f0_max + (grazing_loss(material) - material.gloss.f0_max) * schlick_power(cosine));
+    return 1.0f - (material.gloss.f0_max + (material.gloss.f90_max - material.gloss.f0_max) * schlick_power(cosine));
 }
 
 float mean_diffuse_transmission(const SurfaceMaterial& material) {
-    return 1.0f - (material.gloss.f0_max + (grazing_loss(material) - material.gloss.f0_max) / 21.0f);
+    return 1.0f - (material.gloss.f0_max + (material.gloss.f90_max - material.gloss.f0_max) / 21.0f);
 }
 
 Rgb evaluate_diffuse(const SurfaceMaterial& material, float cos_view, float cos_light) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/surface/glossy_albedo.h"
 #include "render/surface/sheen.h"
 
 namespace aleph {
@@ -152,10 +153,19 @@ void remove_specular(SurfaceMaterial& material) {
 
 }  // namespace
 
-void blur_caustics(const ShadingScene& shading, SurfaceMaterial& material) {
+void blur_caustics(const ShadingScene& shading, ViewedSurface& surface) {
+    SurfaceMaterial& material = surface.material;
     if (shading.skipped.contains(Effect::caustics)) return remove_specular(material);
-    material.coat.alpha = std::max(material.coat.alpha, shading.caustic_width);
-    if (!material.passes_straight()) material.gloss.alpha = std::max(material.gloss.alpha, shading.caustic_width);
+    const float width = shading.caustic_width;
+    material.coat.alpha = std::max(material.coat.alpha, width);
+    if (material.passes_straight() || material.gloss.alpha >= width) return;
+    // Wider microfacets hide more of each other, and fewer of them are seen at grazing angles.
+    const float cosine = std::abs(glm::dot(surface.point.normal, surface.view));
+    const AlbedoParts narrow = ggx_albedo(mean_alpha(material), cosine);
+    material.gloss.alpha = width;
+    const AlbedoParts wide = ggx_albedo(mean_alpha(material), cosine);
+    material.gloss.f0 *= narrow.straight / wide.straight;
+    material.gloss.f90 *= narrow.grazing / wide.grazing;
 }
 
 glm::vec3 keep_visible(const glm::vec3& normal, const glm::vec3& fallback, const glm::vec3& geometric,
@@ -257,7 +267,9 @@ ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& poin
     }
     if (!textures.maps_normals || material == nullptr) return surface;
     const SurfacePoint unmapped = surface.point;
-    const Lookup look_up(shading, unmapped, footprint);
+    // The light that averaged normals reflect is not the mean of the light that normals reflect: up to a tenth
+    // brighter. Where several rays share a pixel, each takes the normal at its own point.
+    const Lookup look_up(shading, unmapped, footprint.whole_pixel ? footprint : RayFootprint{});
     if (surface.material.has_coat()) {
         surface.material.coat.normal =
             is_used(textures[TextureSlot::clearcoat_normal])

@@ -17,8 +17,8 @@ namespace aleph {
 struct GlossyLayer {
     Rgb f0{0.0f};      ///< reflectance at normal incidence
     float f90 = 0.0f;  ///< reflectance at grazing incidence
-    /// Largest channel of the dielectric f0, and the reflectance at grazing incidence where it exceeds f90: light that
-    /// does not reach the Lambert layer.
+    /// Largest channel of the dielectric f0, and the reflectance at grazing incidence: light that does not reach the
+    /// Lambert layer.
     float f0_max = 0.0f, f90_max = 0.0f;
     float alpha = 1.0f;       ///< GGX width: roughness squared
     float stretch = 0.0f;     ///< anisotropy: widens the lobe along `tangent` from alpha towards 1
@@ -91,10 +91,11 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
                                   const RayFootprint& footprint);
 
 /// The material as paths see it that a Lambert layer turned: lobes have at least the scene's caustic_width, so that
-/// light which a mirror or a narrow lobe sends from a small lamp to a diffuse surface is found by sampling the lamp, and
-/// not by chance (Kaplanyan and Dachsbacher 2013, "Path Space Regularization for Holistic and Robust Light Transport").
-/// Smooth sheets of glass still pass light straight. Without caustics there are no lobes.
-void blur_caustics(const ShadingScene& shading, SurfaceMaterial& material);
+/// light which a mirror or a narrow lobe sends from a small lamp to a diffuse surface is found by sampling the lamp,
+/// and not by chance (Kaplanyan and Dachsbacher 2013, "Path Space Regularization for Holistic and Robust Light
+/// Transport"). The glossy layer reflects as much light as before. Smooth sheets of glass still pass light straight.
+/// Without caustics there are no lobes.
+void blur_caustics(const ShadingScene& shading, ViewedSurface& surface);
 
 /// Share of the rays that the surface stops: less than 1 where a mask or blending lets some pass (Blend::random).
 float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint);

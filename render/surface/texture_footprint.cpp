@@ -26,7 +26,7 @@ RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& po
     const float cosine = -glm::dot(point.geometric, direction);
     const glm::vec3 slide = direction / std::max(cosine, min_cosine);
     return {size * (right + slide * glm::dot(point.geometric, right)),
-            -size * (up + slide * glm::dot(point.geometric, up)), 0.0f};
+            -size * (up + slide * glm::dot(point.geometric, up)), 0.0f, spacing == 1.0f};
 }
 
 RayFootprint make_cone_footprint(const SurfacePoint& point, const glm::vec3& direction, float distance,

@@ -12,6 +12,7 @@ struct RayFootprint {
     /// m, world: from this camera ray's point to its neighbours' points. The part is the parallelogram that they span.
     glm::vec3 dx{0.0f}, dy{0.0f};
     float width = 0.0f;  ///< m; for rays over a hemisphere or a light: side of a square of the ray's share of the area
+    bool whole_pixel = false;  ///< no other ray shows the pixel
 };
 
 /// The footprint of a camera ray, from the points where the rays of neighbouring samples meet the tangent plane

@@ -3,6 +3,7 @@
 #include "render/cache/gather.h"
 #include "render/settings/settings.h"
 #include "tests/support/indirect_pictures.h"
+#include "tests/support/lobes.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
 
@@ -56,15 +57,49 @@ TEST(Caustics, LobesAreWidenedWhereLightDoesNotPassStraight) {
     sheet.coat = {.strength = 1.0f, .alpha = 0.01f};
     SurfaceMaterial volume = sheet;
     volume.glass.volume = true;
-    for (SurfaceMaterial* material : {&mirror, &rough, &sheet, &volume}) blur_caustics(stage.shading, *material);
+    const auto blur = [&](SurfaceMaterial& material) {
+        ViewedSurface surface = make_viewed(material, {0.0f, 0.0f, 1.0f});
+        blur_caustics(stage.shading, surface);
+        material = surface.material;
+    };
+    for (SurfaceMaterial* material : {&mirror, &rough, &sheet, &volume}) blur(*material);
     EXPECT_EQ(mirror.gloss.alpha, 0.15f);
     EXPECT_EQ(rough.gloss.alpha, 0.4f);
     EXPECT_EQ(volume.gloss.alpha, 0.15f);
     EXPECT_TRUE(sheet.passes_straight());
     EXPECT_EQ(sheet.coat.alpha, 0.15f);
     stage.shading.skipped.add(Effect::caustics);
-    blur_caustics(stage.shading, mirror);
+    blur(mirror);
     EXPECT_FALSE(mirror.has_specular());
+}
+
+/// Without a correction they reflect up to a third less.
+TEST(Caustics, WidenedLobesReflectAsMuchAsBefore) {
+    Stage stage(make_ball_below_lamp());
+    stage.shading.caustic_width = find_caustic_width(RenderSettings{});
+    for (const float alpha : {0.01f, 0.05f, 0.1f}) {
+        for (const auto& [cosine, metallic] : {std::pair{0.05f, true},
+                                               {0.2f, true},
+                                               {0.5f, true},
+                                               {1.0f, true},
+                                               {0.1f, false},
+                                               {0.4f, false},
+                                               {1.0f, false}}) {
+            SurfaceMaterial material = metallic ? make_metal(alpha) : make_white_plastic(alpha);
+            if (!metallic) material.diffuse = Rgb(0.0f);
+            const ViewedSurface narrow = make_viewed(material, direction_of(cosine));
+            ViewedSurface wide = narrow;
+            blur_caustics(stage.shading, wide);
+            ASSERT_GT(wide.material.gloss.alpha, alpha);
+            EXPECT_TRUE(holds([&](Trial& trial) {
+                const int count = trial.times(20000);
+                const Mean before = mean_scattered(LitSurface(narrow), count, trial.seed);
+                const Mean after = mean_scattered(LitSurface(wide), count, trial.seed + 7);
+                trial.near(after, before.mean(), 0.012);
+            })) << alpha
+                << ' ' << cosine;
+        }
+    }
 }
 
 TEST(Caustics, PathsAndForcedCausticsAreNotBlurred) {

@@ -82,12 +82,13 @@ TEST(BrightEdges, AreWhereALampLiesThatNoCentreMeets) {
     add_camera(scene, {0.0, 0.0, quad_distance}, glm::dvec3(0.0), quad_fov);
     const Stage stage(scene, edges_width, edges_height);
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
-    const Image<std::uint8_t> edges = find_bright_edges(stage.lighting(), stage.view, centers, 1.0);
+    std::uint64_t rays = 0;
+    const Image<std::uint8_t> edges = find_bright_edges(stage.lighting(), stage.view, centers, 1.0, rays);
     for (const auto [x, y] : all_pixels(edges_width, edges_height)) {
         const bool near = std::abs(x - edges_width / 2) <= 2 && std::abs(y - (edges_height / 2 - 1)) <= 2;
         EXPECT_EQ(edges(x, y), near ? 1 : 0) << x << ' ' << y;
     }
-    EXPECT_EQ(find_bright_edges(stage.lighting(), stage.view, centers, 1e-3).pixels,
+    EXPECT_EQ(find_bright_edges(stage.lighting(), stage.view, centers, 1e-3, rays).pixels,
               Image<std::uint8_t>(edges_width, edges_height).pixels)
         << "dark";
 }
@@ -96,7 +97,8 @@ TEST(BrightEdges, AreWhereSomeOfTheNeighboursAreBright) {
     const Stage stage(make_quad_before(glm::dvec3(2.0), glm::dvec3(0.0)), edges_width, edges_height);
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
     const auto find = [&](double exposure) {
-        return find_bright_edges(stage.lighting(), stage.view, centers, exposure);
+        std::uint64_t rays = 0;
+        return find_bright_edges(stage.lighting(), stage.view, centers, exposure, rays);
     };
     const Image<std::uint8_t> edges = find(1.0);
     int found = 0;
@@ -114,6 +116,22 @@ TEST(BrightEdges, AreWhereSomeOfTheNeighboursAreBright) {
     EXPECT_GT(found, 30);
     EXPECT_LT(found, edges_width * edges_height / 2);
     for (const std::uint8_t edge : find(0.2).pixels) EXPECT_EQ(edge, 0) << "too dark";
+}
+
+TEST(BrightEdges, AreWhereALampBeginsOutsideThePicture) {
+    // From a fifth of a pixel beyond the right border.
+    const double side = 1.0, left = (edges_width / 2 + 0.2) / pixels_per_meter();
+    Scene scene;
+    scene.environment.radiance.reset();
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(300.0));
+    add_mesh(scene, make_quad(side, side, lamp), {left + 0.5 * side, 0.0, 0.0});
+    add_camera(scene, {0.0, 0.0, quad_distance}, glm::dvec3(0.0), quad_fov);
+    const Stage stage(scene, edges_width, edges_height);
+    std::uint64_t rays = 0;
+    const Image<std::uint8_t> edges =
+        find_bright_edges(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), 1.0, rays);
+    for (int x = 0; x < edges_width; ++x) EXPECT_EQ(edges(x, edges_height / 2), x >= edges_width - 2 ? 1 : 0) << x;
+    EXPECT_EQ(rays, (edges_width + 4u) * (edges_height + 4u) - edges.size());
 }
 
 TEST(NoiseThreshold, AdaptationIsToWhatTheDisplayShows) {

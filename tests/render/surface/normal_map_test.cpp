@@ -65,6 +65,35 @@ void expect_no_gain(const LitSurface& lit, std::uint32_t seed, const char* name)
         << ", cosine " << lit.cos_view;
 }
 
+/// Light from straight above on normals that lean 30 degrees to both sides, eight texels to a pixel. Their mean stands
+/// upright: with it alone the surface would be 15 % brighter.
+TEST(NormalMap, FinerThanAPixelItIsAsBrightAsItsNormalsAre) {
+    const auto make_scene = [](double scale) {
+        Scene scene = make_mapped_quad(list_kinds()[0].material, {});
+        scene.images[0].bytes = Image<glm::u8vec4>(2, 1);
+        scene.images[0].bytes.pixels = {{191, 128, 238, 255}, {64, 128, 238, 255}};
+        TextureRef& map = scene.materials[0].textures[TextureSlot::normal];
+        map.nearest = true;
+        map.uv_scale = {scale, 1.0};
+        scene.environment.radiance.reset();
+        scene.lights.clear();
+        scene.nodes.pop_back();
+        add_light(scene, Light::Kind::directional, glm::dvec3(100.0), glm::dvec3(0.0));
+        add_camera(scene, {0.0, 0.0, 2.0}, glm::dvec3(0.0), 0.8);
+        return scene;
+    };
+    RenderSettings settings = plain_settings(0.0, 1);
+    settings.sampling.spp = 4;
+    const double expected = 100.0 / pi * std::cos(glm::radians(30.0));
+    for (const double scale : {1.0, 24.0 * 4.0}) {
+        const Stage stage(make_scene(scale), 16, 12);
+        double sum = 0.0;
+        const Image<Rgb> picture = shade(stage, settings).color;
+        for (const Rgb& pixel : picture.pixels) sum += pixel.x;
+        EXPECT_NEAR(sum / static_cast<double>(picture.size()), expected, 0.005 * expected) << scale;
+    }
+}
+
 TEST(NormalMap, MC26_NoLightFromBehindAndNoGain) {
     for (const Kind& kind : list_kinds()) {
         for (const glm::u8vec4& texel : strong_texels) {
