@@ -16,7 +16,6 @@ namespace aleph {
 namespace {
 
 constexpr std::size_t batch = 1 << 16;  // triangles that are prepared together
-constexpr int rows_per_band = 8;
 constexpr double no_depth = std::numeric_limits<double>::infinity();
 
 /// a x + b y + c of a place on the plane of unproject_pixel: 0 on an edge, positive inside.
