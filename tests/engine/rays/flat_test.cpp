@@ -64,7 +64,7 @@ double count_differences(const RayScene& a, const RayScene& b, const std::vector
                      std::abs(x.distance - y.distance) > tolerance || std::abs(x.u - y.u) > 0.05f ||
                      std::abs(x.v - y.v) > 0.05f;
     }
-    EXPECT_GT(met, rays.size() / 3);
+    EXPECT_GT(met, rays.size() / 6);
     const std::vector<std::uint8_t> blocked = find_blocked(a, rays, blend),
                                     others_blocked = find_blocked(b, rays, blend);
     for (std::size_t i = 0; i < rays.size(); ++i) different += blocked[i] != others_blocked[i];
