@@ -50,7 +50,7 @@ needed "configure" configure
 needed "build" cmake --build "$build" --parallel "$jobs"
 checked "$build" "tests" run_tests "$build"
 if [ "${1:-}" != quick ]; then
-  checked "$root/build-address" "address sanitizer" bash "$here/sanitizers.sh" address
+  checked "$root/build-address" "address sanitizer" bash "$here/sanitizers.sh" readers
   checked "$root/build-thread" "thread sanitizer" bash "$here/sanitizers.sh" thread
 fi
 
