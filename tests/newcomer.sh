@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What people try with the command line on their first days, and what it has to answer. Under 20 seconds.
+# Commands that people try on their first days, and what they have to answer. About a minute.
 #   tests/newcomer.sh [PROGRAM]     PROGRAM: build/aleph
 set -uo pipefail
 
@@ -176,7 +176,7 @@ answers 2 '--output' aleph export first.json -o first.json
 silent aleph export first.json --bake -o first.glb
 answers 0 'frames    0 to 59 at 30 a second' aleph explain first.glb
 
-# What the scene holds, and which object a pixel shows.
+# Contents of the scene, and which object a pixel shows.
 answers 0 '1 light (1 of area)' aleph explain first.json
 answers 0 'lamp: 2 triangles of' aleph explain first.json
 answers 0 '"object_ids": [' aleph explain first.json --json

@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// Of a double, a vector, a quaternion (x, y, z, w) or a matrix (column by column), all of doubles.
+/// The parts of a double, a vector, a quaternion (x, y, z, w) or a matrix (column by column), all of doubles.
 template <class T>
 auto components(T& value) {
     using Number = std::conditional_t<std::is_const_v<T>, const double, double>;

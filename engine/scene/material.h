@@ -111,7 +111,7 @@ struct TextureSlots {
 
 // Groups of a material's properties: as tracks in a Material, as values at a time in MaterialValues (engine/pose).
 
-/// What reflects: metal, and the dielectric's surface.
+/// The reflecting part: metal, and the dielectric's surface.
 template <class Number, class Color>
 struct GlossOf {
     Number metallic{0.0};
@@ -123,7 +123,7 @@ struct GlossOf {
     bool operator==(const GlossOf&) const = default;
 };
 
-/// What passes the surface.
+/// Light that passes the surface.
 template <class Number, class Color>
 struct GlassOf {
     Number transmission{0.0};  ///< KHR_materials_transmission: share of light that passes the surface

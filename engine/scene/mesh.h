@@ -132,7 +132,7 @@ struct LimitSurfaceRef {
     bool operator==(const LimitSurfaceRef&) const { return true; }
 };
 
-/// What moves the points of a mesh: a point cache, or morph targets and then a skin.
+/// The mover of a mesh's points: a point cache, or morph targets and then a skin.
 struct Deformation {
     int points = no_index;                     ///< point cache
     std::vector<std::uint32_t> vertex_points;  ///< vertex to point of the cache; empty: one to one

@@ -138,7 +138,7 @@ struct FrameRange {
     bool operator==(const FrameRange&) const = default;
 };
 
-/// What surrounds the scene.
+/// The surroundings of the scene.
 struct Environment {
     std::optional<Track<glm::dvec3>> radiance;  ///< all around; factor on `image` where set; unset: black
     /// Index of an equirectangular picture: its middle column lies along -z, u grows towards +x, its top row is +y. Its

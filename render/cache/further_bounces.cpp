@@ -14,8 +14,8 @@ constexpr double looser = 2.5, loosest_record = 0.7;
 
 constexpr double sampled_accuracy = 0.05;  // stands for that of a picture without records
 
-/// Of a record, and its standard error where the light comes by few ways, as through a door: there few rays meet most
-/// of it, and their error would be that of whole walls.
+/// Rays of a record, and its standard error where the light comes by few ways, as through a door: there few rays meet
+/// most of it, and their error would be that of whole walls.
 constexpr int fewest_rays = 64, most_record_rays = 1024;
 constexpr double record_noise_aim = 0.15;
 

@@ -117,7 +117,7 @@ struct FurtherLight {
     RandomKey key;  ///< of the place
 };
 
-/// What the rays of a gather found.
+/// The findings of a gather's rays.
 struct GatheredRays {
     HemisphereStrata strata;
     // One for every ray that is cast, in the order of visit_blocks.

@@ -8,7 +8,7 @@
 
 namespace aleph {
 
-/// Of a record's gather, where their number follows from the light.
+/// The rays of a record's gather, where their number follows from the light.
 inline constexpr int most_rays = 8192;
 
 /// Rays for a gather at a pixel's accuracy. With CacheSettings::gather 0, as many as bring its standard error to a

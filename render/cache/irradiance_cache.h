@@ -41,7 +41,7 @@ struct RecordUse {
     }
 };
 
-/// What a record would be, by those around it.
+/// A record as those around it let expect it.
 struct ExpectedRecord {
     float irradiance = 0.0f;    ///< luminance
     float ray_variance = 0.0f;  ///< of a single gather ray, relative

@@ -113,7 +113,7 @@ class RecordIndex {
 
     int add_child(int cell, int octant);
 
-    /// What decides about most records, closer together in memory than the records.
+    /// The part that decides about most records, closer together in memory than the records.
     struct Member {
         glm::vec3 position{0.0f};
         RecordReach most;  ///< not lowered when the record shrinks

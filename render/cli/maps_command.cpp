@@ -126,7 +126,7 @@ void check_frames(const PreparedImages& images) {
         find_other_frame(images.files, images.prepared.scene.film.cuts, frame);
 }
 
-/// What the maps of all frames depend on.
+/// All that the maps of every frame depend on.
 std::string identity_of(const PreparedScene& prepared, const MapsOptions& options) {
     const auto& [color, motion, depth] = options.layers;
     return hash_bytes(fmt::format("{}\n{}\n{}\n{}\n{}",

@@ -19,7 +19,7 @@ void refuse_traced(const RenderSettings& settings);
 /// Pictures of a sequence; of those that were rendered, 1 GiB is kept.
 PictureKeeper keep_pictures(Sequence& sequence);
 
-/// What is checked, and for how long.
+/// The frames that are checked, and for how long.
 struct VerifyRequest {
     Scene scene;
     const RenderSettings& settings;

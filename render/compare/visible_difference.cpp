@@ -43,7 +43,7 @@ std::vector<Image<float>> find_background(const Image<float>& achromatic, int le
     return background;
 }
 
-/// What a coarser level has of an image that changes slowly.
+/// Every second pixel, for the coarser level, of an image that changes slowly.
 Image<float> even_pixels(const Image<float>& image) {
     Image<float> half((image.width + 1) / 2, (image.height + 1) / 2);
     for (int y = 0; y < half.height; ++y) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a viewer sees of the difference between two sequences: an instrument that judges pictures and guides nothing.
+// The difference between two sequences as a viewer sees it: an instrument that judges pictures and guides nothing.
 // README.md has its steps and their sources: castleCSF (Ashraf et al. 2024), FovVideoVDP (Mantiuk et al. 2021) and
 // ColorVideoVDP (Mantiuk et al. 2024).
 

@@ -69,7 +69,7 @@ struct TemporalResponse {
         if (channel == 1) return castle_red_green(frequency, omega, luminance, area);
         return castle_yellow_violet(frequency, omega, luminance, area);
     }
-    /// Of what changes at `omega` Hz along the motion: on the retina it changes faster or slower.
+    /// The sensitivity to what changes at `omega` Hz along the motion, on the retina faster or slower.
     double shifted(double omega) const {
         const double shift = frequency * slip;
         return std::sqrt(0.5 * (std::pow(at(omega + shift), 2.0) + std::pow(at(omega - shift), 2.0)));

@@ -1,5 +1,5 @@
 #pragma once
-// What the eye makes of a band's signal over the frames: filters along the motion that it follows.
+// The eye's response to a band's signal over the frames: filters along the motion that it follows.
 
 #include <vector>
 

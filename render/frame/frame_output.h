@@ -60,7 +60,7 @@ struct FrameRequest {
     PartialPicture partial{};
 };
 
-/// What each pixel may err by.
+/// The error that each pixel may have.
 struct ErrorLimits {
     Image<float> alpha;            ///< ambient accuracy
     Image<float> threshold;        ///< cd/m2, of an error that lasts

@@ -11,12 +11,12 @@
 
 namespace aleph {
 
-/// What is seen is the error's energy around a pixel, a sum of some eight independent parts. It is within this many
+/// Seen is the error's energy around a pixel, a sum of some eight independent parts. It is within this many
 /// times its own root mean square at 99 % of the pixels (chi-square of 8 degrees of freedom).
 inline constexpr double error_deviations = 1.585;
 
-/// What error of samples goes unseen, over what noise of single pixels does (NoiseVisibility): measured in pool and
-/// art-gallery with the instrument of compare/visible_difference.h (scenes/studies/README.md).
+/// The error of samples that goes unseen, over the noise of single pixels that does (NoiseVisibility): measured in pool
+/// and art-gallery with the instrument of compare/visible_difference.h (scenes/studies/README.md).
 inline constexpr double noise_allowance = 0.9;
 
 /// The same where an error of so many just visible differences is asked for; 0 or more. Up to 1 in proportion to it,

@@ -37,7 +37,7 @@ class Unblocked {
     Rgb light_{0.0f};
 };
 
-/// Of the quick estimate: the same points for every pixel, and no lobe is sampled.
+/// The quick estimate's choice: the same points for every pixel, and no lobe is sampled.
 constexpr glm::vec2 estimate_shift{0.0f, 0.25f};
 constexpr LobeShares estimate_shares{};
 

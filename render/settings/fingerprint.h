@@ -1,5 +1,5 @@
 #pragma once
-// What results were computed from, to recognise those that another run left.
+// The origin of results, to recognise those that another run left.
 
 #include <string>
 #include <vector>

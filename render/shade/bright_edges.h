@@ -14,7 +14,7 @@ namespace aleph {
 Image<std::uint8_t> find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                                       double exposure, std::uint64_t& rays_cast);
 
-/// What a ray's hit shows by itself: emission, or the environment where it met nothing.
+/// The light that a ray's hit shows by itself: emission, or the environment where it met nothing.
 Rgb light_seen(const SampleScene& scene, const SamplePlace& place, const Hit& hit, const glm::vec3& direction,
                const glm::ivec2& pixel);
 

@@ -30,7 +30,7 @@ class LightIntegrator {
     virtual void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel,
                        SampleLight& light) = 0;
 
-    /// What samples have left beside the pixels, for a checkpoint.
+    /// The state that samples have left beside the pixels, for a checkpoint.
     virtual void save(ByteWriter&) const {}
     virtual void restore(ByteReader&) {}
 

@@ -22,7 +22,7 @@ class PixelTexture {
     PixelTexture(const ShadingScene& shading, const CameraView& view, const PixelSurface& surface,
                  const TextureUse& texture, const Rgb& scale);
 
-    /// What a sample is corrected by: the mean over other places in the pixel of the radiance that is expected there,
+    /// The correction of a sample: the mean over other places in the pixel of the radiance that is expected there,
     /// less that at the sample's own place. Its mean over seeds is 0. 0 if the triangle has no area.
     Rgb correct(const SamplePlace& place) const;
     const glm::ivec2& pixel() const { return pixel_; }

@@ -14,7 +14,7 @@ struct CostPoint {
     double error = 0.0;  ///< percent
 };
 
-/// Whether a costs as little as b and errs as little, and less in one of the two.
+/// True if a costs as little as b and errs as little, and less in one of the two.
 bool dominates(const CostPoint& a, const CostPoint& b);
 
 /// Ranks by non-dominated sorting (Deb et al. 2002): 0 for the front, 1 for the front of what is left without it, and
@@ -35,7 +35,7 @@ std::vector<std::size_t> list_front(std::span<const CostPoint> points);
 /// The cheapest point that errs by no more; nothing if all err by more.
 std::optional<std::size_t> find_cheapest(std::span<const CostPoint> points, double most_error);
 
-/// What it costs to err as little, as far as points tell.
+/// The cost of erring as little, as far as points tell.
 struct FrontCost {
     enum class Bound {
         between,  ///< between two points of the front

@@ -36,7 +36,7 @@ class Deck {
     std::uint64_t key_;
 };
 
-/// What is rendered: without what has no effect.
+/// The settings that are rendered: without those that have no effect.
 SettingMap make_candidate(const Study& study, SettingMap settings) {
     SettingMap all = settings;
     all.insert(study.settings.begin(), study.settings.end());

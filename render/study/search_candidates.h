@@ -7,8 +7,8 @@
 
 namespace aleph {
 
-/// What a search tries where a study says nothing else: guide, adapter, accuracy, gather, spp, light_samples and
-/// light_step.
+/// The values that a search tries where a study says nothing else: guide, adapter, accuracy, gather, spp, light_samples
+/// and light_step.
 StudySearch default_search();
 
 /// Different candidates, all with uniform sampling and no asked error, named "fixed 1", "fixed 2", ... The values of a

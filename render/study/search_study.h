@@ -38,7 +38,7 @@ struct AgainstFixed {
     FrontCost fixed;  ///< seconds of the best fixed settings with the same share seen
 };
 
-/// What a search found for one scene.
+/// The findings of a search for one scene.
 struct SceneSearch {
     std::string scene;
     std::vector<SearchedPoint> front;  ///< of fixed settings alone, by ascending seconds

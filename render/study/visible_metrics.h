@@ -14,7 +14,7 @@ namespace aleph {
 /// Makes the two pictures of frame i that are compared: one and its reference.
 using FramePictures = std::function<std::pair<ChannelImage, ChannelImage>(std::size_t i)>;
 
-/// What is seen of the errors of one picture.
+/// The errors of one picture as far as they are seen.
 struct VisibleErrors {
     VisibleShares shares;
     std::optional<double> ideal_samples{};  ///< find_ideal_samples, where the picture has samples.Y

@@ -15,14 +15,14 @@ struct ProbeFrame {
     std::int64_t frame = 0;
     MotionMaps motion;  ///< of the area
     PicturePart part;   ///< pixels that the reference is rendered for, of the whole picture
-    /// Of the area, two means of as many samples, whose mean is the reference and whose difference its noise; 0 beyond
+    /// Two means of the area of as many samples, whose mean is the reference and whose difference its noise; 0 beyond
     /// the part.
     std::array<Image<Rgb>, 2> halves;
     int samples = 0;  ///< of a pixel of the part, in both
 };
 
-/// What a probe is judged by: its frame and those that the instrument looks at beside it (filter_reach), as far as they
-/// are of its shot.
+/// The frames that judge a probe: its own and those that the instrument looks at beside it (filter_reach), as far as
+/// they are of its shot.
 struct ProbeWindow {
     std::vector<ProbeFrame> frames;
     PictureArea area;   ///< all parts and what the eye is adapted to around them, at multiples of 16 pixels

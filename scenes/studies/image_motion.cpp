@@ -42,10 +42,10 @@ std::vector<bool> find_movers(const Scene& scene, int frame) {
     return moves;
 }
 
-/// Whether a pixel is of a part of the picture.
+/// True if a pixel is of a part of the picture.
 using Region = std::function<bool(std::size_t pixel)>;
 
-/// What moves, what does not, and what the next frame hides: there points cannot be found.
+/// Movers, what stands still, and what the next frame hides: there points cannot be found.
 std::array<Region, 3> list_regions(const FrameOutput& model, const std::vector<bool>& movers) {
     const auto on_mover = [&](std::size_t i) {
         const int instance = model.hits.pixels[i].instance;

@@ -111,7 +111,7 @@ Mean mean_light(const Scene& scene, std::int64_t frame, const Trial& trial, std:
     return mean;
 }
 
-/// Of an authored scene as it is, which several relations ask for.
+/// The light of an authored scene as it is; several relations ask for it.
 const Mean& original_light(std::size_t i, const Trial& trial) {
     static std::map<std::pair<std::size_t, std::uint32_t>, Mean> means;
     const auto [found, is_new] = means.try_emplace({i, trial.seed});

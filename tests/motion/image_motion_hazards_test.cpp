@@ -76,7 +76,7 @@ TEST(ImageMotionHard, RP23_AThinFrameStillFindsMotionAlongIt) {
     EXPECT_GT(right, 120);  // chance: 22; a line has two census bits that tell anything
 }
 
-/// Of |found - (dx, dy)| over pixels whose target and neighbourhood stay inside.
+/// Figures of |found - (dx, dy)| over pixels whose target and neighbourhood stay inside.
 struct ErrorFigures {
     double median, mean, percent_beyond_1, percent_exact;
 };

@@ -107,7 +107,7 @@ TEST(Turn, MatricesTurnAsTheirRotations) {
                                      glm::mat4_cast(turned(1.5, {3.0, 1.0, 2.0})) * scale);
         EXPECT_NEAR(turn_of(node, 0.0, 1.0), 1.3, 1e-12) << mirror;
     }
-    // What has no rotation does not turn.
+    // Nodes without a rotation do not turn.
     Node flat{.transform = {.matrix = ramp(glm::dmat4(0.0), glm::dmat4(0.0))}};
     EXPECT_EQ(turn_of(flat, 0.0, 1.0), 0.0);
 }

@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-/// What a command prints on standard output. @param command  of the shell
+/// The text that a command prints on standard output. @param command  of the shell
 inline std::string output_of(const std::string& command) {
     FILE* const stream = ::popen(command.c_str(), "r");
     std::string text;

@@ -1,5 +1,5 @@
 #pragma once
-// What a camera sees, and its motion to another moment.
+// First hits of a camera, and their motion to another moment.
 
 #include <algorithm>
 #include <utility>

@@ -24,7 +24,7 @@ inline void write_sliding_box(const std::filesystem::path& path, const std::stri
         {"shape": {"type": "box", "size": [1, 1, 1]}, "translation": {"keys": [[1, [-1, 0.5, 0]], [5000, [1, 0.5, 0]]]}}]})";
 }
 
-/// What a process ended with.
+/// The way a process ended.
 struct Ended {
     int code = -1;    ///< -1 if a signal ended it
     int signal = 0;   ///< that ended it

@@ -1,5 +1,5 @@
 #pragma once
-// What every test includes: GoogleTest, the parts of the standard library that most tests use, numbers and refusals.
+// Included by every test: GoogleTest, the parts of the standard library that most tests use, numbers and refusals.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

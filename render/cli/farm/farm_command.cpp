@@ -36,7 +36,7 @@ std::string this_program() {
     return fs::read_symlink("/proc/self/exe").string();
 }
 
-/// What was given beside frames and files, as words of the command.
+/// The options beside frames and files, as words of the command.
 std::vector<std::string> list_arguments(const FarmOptions& options) {
     const SceneOptions& scene = options.scene;
     std::vector<std::string> words{scene.scene};
@@ -137,7 +137,7 @@ int collate(const std::string& folder, bool submit) {
     return run_words({"bash", script.string()});
 }
 
-/// What all schedulers are told.
+/// Told to all schedulers.
 void add_job_options(CLI::App& app, FarmOptions& options) {
     add_scene_options(app, options.scene);
     app.get_option("scene")->description("scene file, or a study file (.json)");

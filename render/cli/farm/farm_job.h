@@ -12,7 +12,7 @@
 
 namespace aleph {
 
-/// What a scheduler is asked for. Empty texts and 0: its own defaults.
+/// A request to a scheduler. Empty texts and 0: its own defaults.
 struct FarmResources {
     std::string time, partition, memory;  ///< as Slurm reads them
     int cpus = 0;                         ///< of each task

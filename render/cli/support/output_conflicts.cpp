@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 using FileNumber = std::pair<dev_t, ino_t>;
 
-/// What hard links have in common; nothing if there is no such file.
+/// The identity that hard links have in common; nothing if there is no such file.
 std::optional<FileNumber> file_number(const fs::path& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) return std::nullopt;

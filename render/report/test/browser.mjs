@@ -43,7 +43,7 @@ export async function open(browser, file, { width = 1280, height = 900, dark = f
   return { page, troubles, outside: () => requests.filter(isOutside) };
 }
 
-/** What axe-core finds wrong with the page's accessibility: rule and place, one line each. */
+/** Faults of the page's accessibility that axe-core finds: rule and place, one line each. */
 export async function accessibilityFaults(page) {
   await page.addScriptTag({ content: fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8') });
   const { violations } = await page.evaluate(() => window.axe.run({ runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] }));

@@ -1,4 +1,4 @@
-// What the test files share: a browser, and the page with synthetic data. BUILD (from the environment) has the template.
+// Shared by the test files: a browser, and the page with synthetic data. BUILD (from the environment) has the template.
 import assert from 'node:assert/strict';
 import { after, afterEach, before } from 'node:test';
 import fs from 'node:fs';

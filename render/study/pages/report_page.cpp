@@ -62,7 +62,7 @@ class ReportWriter {
     }
 
     void write() {
-        // Of the page's errors in visible thresholds.
+        // The page's errors in visible thresholds need it.
         json_["display_white"] = read_viewing(results_.frames.front().maps).viewing.display_white;
         label_frames();
         add_pictures();

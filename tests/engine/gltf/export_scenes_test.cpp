@@ -23,7 +23,7 @@ std::vector<std::string> list_authored_scenes() {
     return names;
 }
 
-/// What differs between two pictures' first hits and motion.
+/// The differences of two pictures' first hits and motion.
 struct PictureDifference {
     std::size_t other = 0, compared = 0;  ///< pixels where another surface is hit, and all others
     double motion = 0.0;                  ///< pixels, at most

@@ -128,7 +128,7 @@ TEST(CageLevel, OrthographicCamerasDoNotNear) {
     EXPECT_GT(level_of(scene), level);
 }
 
-/// Of large faces the nearest point counts, not the nearest corner: a camera without perspective that shows as large
+/// The nearest point of a large face counts, not the nearest corner: a camera without perspective that shows as large
 /// what is there needs the same level.
 TEST(CageLevel, NearestPointOfATriangleDecides) {
     for (const glm::dvec2& place : {glm::dvec2(5.0, 5.0), {6.0, 4.5}, {4.0, 7.0}}) {

@@ -13,7 +13,7 @@ inline std::size_t node_called(const Scene& scene, const std::string& name) {
     return 0;
 }
 
-/// Of a frame, which may lie between two.
+/// The time of a frame, which may lie between two.
 inline double frame_seconds(const Scene& scene, double frame) {
     return frame / scene.film.frame_rate.per_second();
 }

@@ -6,7 +6,7 @@
 namespace aleph {
 namespace {
 
-/// What the rays of a hemisphere found; each cell has one ray, through its middle.
+/// The findings of the rays of a hemisphere; each cell has one ray, through its middle.
 struct Hemisphere {
     HemisphereStrata strata;
     Basis basis = make_basis(glm::vec3(0.48f, -0.6f, 0.64f));

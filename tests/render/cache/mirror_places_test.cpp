@@ -36,7 +36,7 @@ struct Mirror {
         check(room.stage, cast_mirror_places(room.context, room.centers, counts), counts);
     }
 
-    /// Whether places are found, and their accuracy in the middle of the picture.
+    /// Checks that places are found, and their accuracy in the middle of the picture.
     void expect_accuracy(double expected) const {
         expect([&](const Stage&, const MirrorPlaces& found, const RayCounts&) {
             EXPECT_EQ(found.any, expected > 0.0);

@@ -11,7 +11,7 @@
 namespace aleph {
 namespace {
 
-/// What a program writes into a file, as it comes.
+/// The text that a program writes into a file, as it comes.
 class LogLines {
   public:
     explicit LogLines(fs::path file) : file_(std::move(file)), events_(::inotify_init1(IN_CLOEXEC)) {

@@ -88,7 +88,7 @@ TEST(KnownIrradianceTest, ItCountsForItsOwnBouncesOnly) {
         estimate(stage, mirror, 50, by_lobe_rays(one_bounce(&known)));
         EXPECT_EQ(known.lookups, 0) << held;
     }
-    // What knows fewer bounces is asked in the place of what knows more.
+    // Light of fewer bounces is asked for in the place of light of more.
     ConstantIrradiance more(2);
     const ConstantIrradiance fewer(1);
     more.fewer = &fewer;

@@ -54,7 +54,7 @@ TEST(PathLights, ALampBehindAPaneIsSeenByTheLastRayToo) {
         {.gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}, .double_sided = true});
     add_mesh(scene, make_quad(9.0, 9.0, lamp + 1), {0.0, 0.1, 0.0}, z_to_down);
     const Stage stage(std::move(scene));
-    // What the pane passes, over directions to the disc.
+    // The share that the pane passes, over directions to the disc.
     RayTask task(stage.rays);
     double expected = 0.0;
     constexpr int side = 200;
