@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Set-up, build and all tests, from any folder. What CI runs.
-#   tests/run.sh          everything: about 20 minutes on two cores, 30 where ccache has no objects yet
+#   tests/run.sh          everything: about 15 minutes on two cores, 25 where ccache has no objects yet
 #   tests/run.sh quick    without the sanitizer builds
 # JOBS is the number of compilers and test programs at a time (2). Writes into build/ and build-*/ only.
 set -euo pipefail
