@@ -267,8 +267,8 @@ ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& poin
     }
     if (!textures.maps_normals || material == nullptr) return surface;
     const SurfacePoint unmapped = surface.point;
-    // The light that averaged normals reflect is not the mean of the light that normals reflect: up to a tenth
-    // brighter. Where several rays share a pixel, each takes the normal at its own point.
+    // Averaged normals, made unit again, reflect more light than the normals do. Where several rays share a pixel, each
+    // takes the normal at its own point.
     const Lookup look_up(shading, unmapped, footprint.whole_pixel ? footprint : RayFootprint{});
     if (surface.material.has_coat()) {
         surface.material.coat.normal =

@@ -73,7 +73,7 @@ TEST(Caustics, LobesAreWidenedWhereLightDoesNotPassStraight) {
     EXPECT_FALSE(mirror.has_specular());
 }
 
-/// Without a correction they reflect up to a third less.
+/// Without a correction a dielectric seen at a grazing angle reflects about half as much.
 TEST(Caustics, WidenedLobesReflectAsMuchAsBefore) {
     Stage stage(make_ball_below_lamp());
     stage.shading.caustic_width = find_caustic_width(RenderSettings{});

@@ -1,8 +1,8 @@
 // Irradiance in place of the light of wide lobes.
 
 #include "render/path/glossy_light.h"
-#include "render/surface/glossy_albedo.h"
 #include "render/cache/gather.h"
+#include "render/surface/glossy_albedo.h"
 #include "tests/support/lobes.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
