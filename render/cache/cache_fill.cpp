@@ -9,6 +9,7 @@
 
 #include "engine/base/errors.h"
 #include "render/cache/gather_at.h"
+#include "render/cache/gather_rays.h"
 #include "render/cache/record_worth.h"
 
 namespace aleph {
@@ -36,7 +37,7 @@ struct Candidate {
 struct Gathered {
     std::optional<IrradianceRecord> record;
     std::vector<DirectSample> direct;
-    GatheredRays rays;  ///< of FillPlaces::gathered
+    KeptRays rays;  ///< of FillPlaces::gathered
 };
 
 /// Corners of the tiles of this size that larger tiles do not share, where light is needed.
@@ -145,7 +146,7 @@ std::vector<Gathered> gather_records(const IndirectContext& context, const FillP
         const IrradianceSample value = gather_at(context, task, surface, scratch, candidate.rays, &records[i].direct);
         records[i].record = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy,
                                         value, candidate.bounds);
-        if (places.gathered != nullptr) records[i].rays = scratch;
+        if (places.gathered != nullptr) records[i].rays = keep_rays(scratch);
     });
     return records;
 }

@@ -30,12 +30,12 @@ struct FillPlaces {
     /// Tiles start large; otherwise every point is looked at once.
     bool coarse_first = true;
     int finest = 1;  ///< the last tiles' size, a power of 2
-    /// Fewest and most rays of a gather, which takes those that bring its standard error to `noise`, relative. 0: as many
-    /// as the accuracy needs (choose_rays).
+    /// Fewest and most rays of a gather, which takes those that bring its standard error to `noise`, relative. 0: as
+    /// many as the accuracy needs (choose_rays).
     int rays = 0, most_rays = 0;
     double noise = 0.0;
     /// If given, what the gather of every record found is added, in the order of the records.
-    std::vector<GatheredRays>* gathered = nullptr;
+    std::vector<KeptRays>* gathered = nullptr;
 };
 
 /// Adds records until every place is covered. A gather that is not finite makes no record: it is counted as invalid,

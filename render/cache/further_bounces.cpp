@@ -54,7 +54,7 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     FrameTally tally;
     const BouncePlaces places = cast_bounce_places(context.lighting, seen, context.settings.seed, tally.counts.rays);
     tally.records = tally.invalid_samples = Image<float>(places.hits.width, places.hits.height);
-    std::vector<GatheredRays> gathered;
+    std::vector<KeptRays> gathered;
     FillPlaces fill = make_fill_places(context.lighting.shading, places);
     fill.coarse_first = false;
     fill.rays = fewest_rays;
@@ -71,11 +71,11 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     fill_places(known.cache, coarse, fill, tally);
     const float reach = shade_reach * known.accuracy;
     if (bounces > 1) {
-        known.cache.prepare(reach);
+        known.cache.prepare();
         known.cache.restore(add_bounces(coarse, known.cache, reach, std::move(gathered), bounces, tally.counts.rays));
     }
     known.cache.finish();
-    known.cache.prepare(reach);
+    known.cache.prepare();
     counts.rays += tally.counts.rays;
     counts.multi_bounce_rays += tally.counts.rays.total();
     counts.multi_bounce_records += tally.counts.records;

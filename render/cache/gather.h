@@ -117,8 +117,8 @@ struct FurtherLight {
     RandomKey key;  ///< of the place
 };
 
-/// The findings of a gather's rays.
-struct GatheredRays {
+/// Buffers that a thread reuses, so that only its first gathers allocate.
+struct GatherScratch {
     HemisphereStrata strata;
     // One for every ray that is cast, in the order of visit_blocks.
     std::vector<Ray> rays;
@@ -129,11 +129,7 @@ struct GatheredRays {
     std::vector<std::uint8_t> sides;    ///< of DividedCell; 1: one ray
     std::vector<std::uint8_t> below;    ///< no ray is cast: all directions are below the true surface
     std::vector<FurtherLight> further;  ///< not in `light`; of MultiBounceLight::noted
-};
-
-/// Buffers that a thread reuses, so that only its first gathers allocate.
-struct GatherScratch : GatheredRays {
-    std::vector<glm::vec3> normals;  ///< of the hits (Tracer::intersect)
+    std::vector<glm::vec3> normals;     ///< of the hits (Tracer::intersect)
     // One for every cell.
     std::vector<Rgb> radiance;     ///< mean over its rays; those below the true surface are black
     std::vector<float> distances;  ///< m, the shortest of its rays; infinite where nothing is met
@@ -145,6 +141,21 @@ struct GatherScratch : GatheredRays {
     std::vector<float> sorted;
     std::vector<float> inverse_distances;
     std::vector<StrataRow> rows;
+};
+
+/// The part of a gather that add_up_rays needs, while its rays wait for light of further bounces.
+struct KeptRays {
+    struct KeptRay {
+        glm::vec3 direction{0.0f};
+        float distance = 0.0f;  ///< infinite: nothing is met
+        int cell = 0;
+        float share = 1.0f;
+        Rgb light{0.0f};
+    };
+    HemisphereStrata strata;
+    std::vector<KeptRay> rays;
+    std::vector<std::uint8_t> sides, below;
+    std::vector<FurtherLight> further;
 };
 
 struct GatherOptions {

@@ -3,6 +3,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "render/settings/numbers.h"
 
 namespace aleph {
 
@@ -113,6 +116,37 @@ void place_rays(const HemisphereStrata& strata, const Basis& basis, const Surfac
     scratch.places.resize(count);
     scratch.hits.resize(count);
     scratch.normals.resize(count);
+}
+
+KeptRays keep_rays(GatherScratch& scratch) {
+    KeptRays kept{scratch.strata, {}, scratch.sides, scratch.below, std::exchange(scratch.further, {})};
+    kept.further.shrink_to_fit();
+    kept.rays.reserve(scratch.rays.size());
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        const Hit& hit = scratch.hits[i];
+        const RayPlace& place = scratch.places[i];
+        kept.rays.push_back({scratch.rays[i].direction, hit.instance == no_index ? infinite : hit.distance, place.cell,
+                             place.share, scratch.light[i]});
+    }
+    return kept;
+}
+
+void restore_rays(const KeptRays& kept, GatherScratch& scratch) {
+    scratch.strata = kept.strata;
+    scratch.sides = kept.sides;
+    scratch.below = kept.below;
+    scratch.rays.resize(kept.rays.size());
+    scratch.hits.resize(kept.rays.size());
+    scratch.places.resize(kept.rays.size());
+    scratch.light.resize(kept.rays.size());
+    for (std::size_t i = 0; i < kept.rays.size(); ++i) {
+        const KeptRays::KeptRay& ray = kept.rays[i];
+        scratch.rays[i].direction = ray.direction;
+        scratch.hits[i].instance = std::isfinite(ray.distance) ? 0 : no_index;
+        scratch.hits[i].distance = ray.distance;
+        scratch.places[i] = {.cell = ray.cell, .share = ray.share};
+        scratch.light[i] = ray.light;
+    }
 }
 
 }  // namespace aleph

@@ -17,4 +17,9 @@ int divide_cells(const HemisphereStrata& strata, std::span<const DividedCell> di
 void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePlace& point,
                 const CellNumbers& numbers, int most, GatherScratch& scratch);
 
+/// @param scratch  of a gather; loses its `further`
+KeptRays keep_rays(GatherScratch& scratch);
+/// Sets what add_up_rays reads.
+void restore_rays(const KeptRays& kept, GatherScratch& scratch);
+
 }  // namespace aleph

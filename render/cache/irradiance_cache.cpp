@@ -24,6 +24,9 @@ constexpr float smoothing_reach = 2.0f, max_noise_difference = 2.5f;
 /// A record is expected to be like those within this multiple of their reach.
 constexpr float expecting_reach = 4.0f;
 
+/// Lists are made from the strictest accuracy on, this one at least, and for accuracies of this ratio.
+constexpr float least_list = 0.01f, list_step = 2.0f;
+
 /// A record of a looser pixel has more noise: it covers no pixel whose accuracy is smaller by more than this factor.
 constexpr float max_looser = 1.5f;
 
@@ -107,7 +110,7 @@ void IrradianceCache::compare_with_neighbours(IrradianceRecord& record) {
 }
 
 void IrradianceCache::insert(IrradianceRecord record) {
-    lists_.reset();
+    lists_.clear();
     clamp_to_neighbours(record);
     compare_with_neighbours(record);
     ray_variances_ += record.noise.ray_variance;
@@ -194,7 +197,7 @@ void IrradianceCache::finish(std::size_t kept) {
 
 void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
     records_ = std::move(records);
-    lists_.reset();
+    lists_.clear();
     index_ = index_.emptied();
     ray_variances_ = irradiances_ = 0.0;
     for (const IrradianceRecord& record : records_) {
@@ -205,8 +208,12 @@ void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
     }
 }
 
-void IrradianceCache::prepare(float accuracy) {
-    lists_.emplace(records_, std::min(accuracy, 1.0f));
+void IrradianceCache::prepare() {
+    lists_.clear();
+    float strictest = 1.0f;
+    for (const IrradianceRecord& record : records_) strictest = std::min(strictest, record.accuracy);
+    for (float accuracy = shade_reach * std::max(strictest, least_list); accuracy < list_step; accuracy *= list_step)
+        lists_.emplace_back(records_, std::min(accuracy, 1.0f));
 }
 
 bool IrradianceCache::covers(const CacheQuery& query) const {

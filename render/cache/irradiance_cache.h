@@ -78,7 +78,9 @@ class IrradianceCache {
         const auto take = [&](int i, float error) {
             if (const float weight = weigh(records_[i], query, error, accuracy); weight > 0.0f) visit(i, weight);
         };
-        if (lists_ && lists_->accuracy() == accuracy) return lists_->visit(query.position, query.normal, take);
+        for (const RecordLists& lists : lists_) {
+            if (accuracy <= lists.accuracy()) return lists.visit(query.position, query.normal, accuracy, take);
+        }
         index_.visit_reaching(query.position, accuracy, [&](int i) {
             take(i, interpolation_error(records_[i], query.position, query.normal));
             return true;
@@ -103,8 +105,8 @@ class IrradianceCache {
     /// Replaces all records by those of another cache after finish(), as they are.
     void restore(std::vector<IrradianceRecord> records);
 
-    /// Makes look-ups at this accuracy fast, until the records change.
-    void prepare(float accuracy);
+    /// Makes look-ups fast that shade, until the records change.
+    void prepare();
 
     const std::vector<IrradianceRecord>& records() const { return records_; }
 
@@ -116,7 +118,7 @@ class IrradianceCache {
 
     std::vector<IrradianceRecord> records_;
     RecordIndex index_;
-    std::optional<RecordLists> lists_;
+    std::vector<RecordLists> lists_;
     float max_accuracy_ = 0.0f;                       ///< of the records
     double ray_variances_ = 0.0, irradiances_ = 0.0;  ///< sums over the records
 };

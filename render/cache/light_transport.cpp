@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "render/cache/gather_rays.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {
@@ -42,16 +43,16 @@ struct Place {
 };
 
 /// Takes out what the rays of a place did not look up. Weights become those of the place's irradiance.
-std::vector<FurtherLight> take_further(GatheredRays& found) {
+std::vector<FurtherLight> take_further(KeptRays& found) {
     const float per_share = pi / static_cast<float>(found.strata.count());
-    for (FurtherLight& further : found.further) further.weight *= found.places[further.ray].share * per_share;
+    for (FurtherLight& further : found.further) further.weight *= found.rays[further.ray].share * per_share;
     return std::exchange(found.further, {});
 }
 
 class LightTransport {
   public:
     LightTransport(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
-                   std::vector<GatheredRays> gathered, int bounces, RayCounts& counts)
+                   std::vector<KeptRays> gathered, int bounces, RayCounts& counts)
         : context_(context), cache_(cache), accuracy_(accuracy), counts_(counts), gathered_(std::move(gathered)) {
         places_.resize(gathered_.size());
         for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -78,7 +79,7 @@ class LightTransport {
         parallel_for(records.size(), 16, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
             for (std::size_t i = begin; i < end; ++i) {
-                static_cast<GatheredRays&>(scratch) = std::move(gathered_[i]);
+                restore_rays(gathered_[i], scratch);
                 const float per_share = pi / static_cast<float>(scratch.strata.count());
                 for (const LinkedLight& light : places_[i].linked) {
                     scratch.light[light.ray] += arrive(light) / (per_share * scratch.places[light.ray].share);
@@ -176,7 +177,8 @@ class LightTransport {
             if (!is_finite(added[i].direct)) added[i].direct = Rgb(0.0f);
             added[i].key = lit[i]->key;
             ++added[i].key.seed;
-            unlinked[i] = take_further(scratch);
+            KeptRays found = keep_rays(scratch);
+            unlinked[i] = take_further(found);
         });
         unlinked_ = std::move(unlinked);
         std::ranges::move(added, std::back_inserter(places_));
@@ -218,7 +220,7 @@ class LightTransport {
     const IrradianceCache& cache_;
     const float accuracy_;
     RayCounts& counts_;
-    std::vector<GatheredRays> gathered_;               ///< of the records
+    std::vector<KeptRays> gathered_;               ///< of the records
     std::vector<Place> places_;                        ///< records first
     std::vector<std::vector<FurtherLight>> unlinked_;  ///< of the places that were added last
     std::vector<Rgb> irradiance_;                      ///< of places
@@ -227,7 +229,7 @@ class LightTransport {
 }  // namespace
 
 std::vector<IrradianceRecord> add_bounces(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
-                                          std::vector<GatheredRays> gathered, int bounces, RayCounts& counts) {
+                                          std::vector<KeptRays> gathered, int bounces, RayCounts& counts) {
     return LightTransport(context, cache, accuracy, std::move(gathered), bounces, counts).make_records();
 }
 

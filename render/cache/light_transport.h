@@ -20,6 +20,6 @@ namespace aleph {
 /// @param counts    increased by the rays cast
 /// @return the records of the cache with this irradiance and its gradients
 std::vector<IrradianceRecord> add_bounces(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
-                                          std::vector<GatheredRays> gathered, int bounces, RayCounts& counts);
+                                          std::vector<KeptRays> gathered, int bounces, RayCounts& counts);
 
 }  // namespace aleph

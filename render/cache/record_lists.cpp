@@ -69,8 +69,9 @@ class RecordLists::Builder {
                 if (reaches(record, cube_of(i))) parts[i].push_back(record);
             sum += parts[i].size();
         }
-        // Where most records reach all of the cell, its parts have lists as long.
-        if (sum > 7 * listed.size()) return add_blocks(cell, listed);
+        // Where records reach much of the cell, its parts have lists nearly as long, which take more time to make than
+        // they save.
+        if (sum > 3 * listed.size()) return add_blocks(cell, listed);
         const int first = static_cast<int>(out_.cells_.size());
         out_.cells_[cell].parts = first;
         out_.cells_.resize(out_.cells_.size() + 8);
@@ -126,7 +127,7 @@ const RecordLists::Cell& RecordLists::find_leaf(const glm::vec3& position) const
 
 /// interpolation_error, with the same operations.
 unsigned RecordLists::find_errors(const Block& block, const glm::vec3& position, const glm::vec3& normal,
-                                  float (&errors)[lanes]) const {
+                                  float accuracy, float (&errors)[lanes]) {
     using Lanes = std::experimental::simd<float, std::experimental::simd_abi::deduce_t<float, lanes>>;
     using std::experimental::max;
     const auto load = [](const float(&values)[lanes]) { return Lanes(values, std::experimental::vector_aligned); };
@@ -143,7 +144,7 @@ unsigned RecordLists::find_errors(const Block& block, const glm::vec3& position,
     const Lanes error =
         max(max(sqrt(distance2) / radius, distance2 * load(block.growth)), sqrt(dot(turn, turn)) * inverse_root_two);
     const auto usable = dot(ours, theirs) > 0.0f && height >= -max_in_front * radius && height <= max_behind * radius &&
-                        dot(offset, theirs) <= load(block.headroom) && error < accuracy_;
+                        dot(offset, theirs) <= load(block.headroom) && error < accuracy;
     error.copy_to(errors, std::experimental::vector_aligned);
     unsigned bits = 0;
     for (int i = 0; i < lanes; ++i) bits |= static_cast<unsigned>(usable[i]) << i;

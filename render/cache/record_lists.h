@@ -1,6 +1,6 @@
 #pragma once
-// The records of a finished irradiance cache for look-ups at one accuracy. Each leaf of an octree lists the records
-// whose reach comes into it, and the errors of a list are found eight at a time.
+// The records of a finished irradiance cache for look-ups at one accuracy, or somewhat below it. Each leaf of an octree
+// lists the records whose reach comes into it, and the errors of a list are found eight at a time.
 
 #include <bit>
 #include <experimental/simd>
@@ -13,20 +13,22 @@ namespace aleph {
 
 class RecordLists {
   public:
-    /// @param accuracy  alpha of the look-ups
+    /// @param accuracy  largest alpha of the look-ups
     RecordLists(std::span<const IrradianceRecord> records, float accuracy);
 
     float accuracy() const { return accuracy_; }
 
     /// Calls visit(number, error) for every record whose interpolation_error is below the accuracy, by number. A record
     /// is visited once.
+    /// @param accuracy  at most that of the lists
     template <class Visit>
-    void visit(const glm::vec3& position, const glm::vec3& normal, const Visit& visit) const {
+    void visit(const glm::vec3& position, const glm::vec3& normal, float accuracy, const Visit& visit) const {
         const Cell& leaf = find_leaf(position);
         for (int i = leaf.first; i < leaf.last; ++i) {
             const Block& block = blocks_[static_cast<std::size_t>(i)];
             alignas(32) float errors[lanes];
-            for (unsigned usable = find_errors(block, position, normal, errors); usable != 0; usable &= usable - 1) {
+            unsigned usable = find_errors(block, position, normal, accuracy, errors);
+            for (; usable != 0; usable &= usable - 1) {
                 const int lane = std::countr_zero(usable);
                 visit(block.record[lane], errors[lane]);
             }
@@ -52,8 +54,8 @@ class RecordLists {
 
     const Cell& find_leaf(const glm::vec3& position) const;
     /// @return bit i: the error of record i is below the accuracy
-    unsigned find_errors(const Block& block, const glm::vec3& position, const glm::vec3& normal,
-                         float (&errors)[lanes]) const;
+    static unsigned find_errors(const Block& block, const glm::vec3& position, const glm::vec3& normal, float accuracy,
+                                float (&errors)[lanes]);
 
     float accuracy_;
     glm::vec3 center_{0.0f};

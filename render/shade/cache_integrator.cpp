@@ -42,6 +42,7 @@ class CacheIntegrator final : public LightIntegrator {
         fill_cache(cache_, context_, first, input_.out);
         fill_mirror_places(cache_, context_, first, input_.out);
         cache_.finish();
+        cache_.prepare();
     }
 
     void begin(const SampleScene& scene) override {

@@ -77,6 +77,7 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
 KeyframeLight make_keyframe_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records) {
     KeyframeLight keyframe{at, make_cache(at->shading)};
     keyframe.cache.restore(records);
+    keyframe.cache.prepare();
     return keyframe;
 }
 

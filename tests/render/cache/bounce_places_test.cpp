@@ -188,7 +188,7 @@ TEST(FurtherBounces, RecordsCloseGapsBeyondTheirReach) {
     record.accuracy = 0.4f;
     cache.insert(record);
     cache.finish();
-    cache.prepare(0.4f);
+    cache.prepare();
     const MultiBounceLight light{.bounces = 1, .cache = &cache, .accuracy = 0.4f};
     RayTask task(rooms.stage.rays);
     for (const auto& [distance, reached] : {std::pair(0.3f, true), {0.54f, true}, {0.58f, false}}) {

@@ -33,9 +33,9 @@ std::vector<IrradianceRecord> make_room_records(int count) {
 
 using Found = std::map<int, float>;
 
-Found search_lists(const RecordLists& lists, const glm::vec3& position, const glm::vec3& normal) {
+Found search_lists(const RecordLists& lists, const glm::vec3& position, const glm::vec3& normal, float accuracy) {
     Found found;
-    lists.visit(position, normal,
+    lists.visit(position, normal, accuracy,
                 [&](int number, float error) { EXPECT_TRUE(found.emplace(number, error).second) << "visited twice"; });
     return found;
 }
@@ -70,7 +70,7 @@ TEST(RecordLists, FindWhatASearchOfAllRecordsFinds) {
                 }
                 normal = glm::normalize(normal);
                 const Found expected = search_all(records, accuracy, position, normal);
-                EXPECT_EQ(search_lists(lists, position, normal), expected);
+                EXPECT_EQ(search_lists(lists, position, normal, accuracy), expected);
                 found += expected.size();
             }
             EXPECT_GT(found, 150u);
@@ -80,11 +80,11 @@ TEST(RecordLists, FindWhatASearchOfAllRecordsFinds) {
 
 TEST(RecordLists, AreEmptyOutsideAndWithoutRecords) {
     const RecordLists none(std::vector<IrradianceRecord>{}, 0.5f);
-    EXPECT_TRUE(search_lists(none, glm::vec3(0.0f), {0.0f, 0.0f, 1.0f}).empty());
+    EXPECT_TRUE(search_lists(none, glm::vec3(0.0f), {0.0f, 0.0f, 1.0f}, 0.5f).empty());
     const RecordLists some(make_room_records(20), 0.5f);
     for (const float far :
          {100.0f, -100.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
-        EXPECT_TRUE(search_lists(some, glm::vec3(far, 0.0f, 0.0f), {0.0f, 0.0f, 1.0f}).empty());
+        EXPECT_TRUE(search_lists(some, glm::vec3(far, 0.0f, 0.0f), {0.0f, 0.0f, 1.0f}, 0.5f).empty());
 }
 
 TEST(RecordLists, ACacheInterpolatesTheSameWithAndWithoutThem) {
@@ -94,14 +94,15 @@ TEST(RecordLists, ACacheInterpolatesTheSameWithAndWithoutThem) {
     for (IrradianceRecord& record : records) {
         record.irradiance = {random.next(), random.next(), random.next()};
         record.space.sectors.fill(std::numeric_limits<float>::infinity());
+        record.accuracy = 0.2f;  // lists for 1.4, 2.8 times this, and for 1
     }
     IrradianceCache prepared = cache;
     cache.restore(records);
     prepared.restore(records);
-    prepared.prepare(0.6f);
+    prepared.prepare();
     int found = 0;
     for (const IrradianceRecord& at : make_room_records(300)) {
-        for (const float accuracy : {0.6f, 0.3f}) {  // the lists are for the first alone
+        for (const float accuracy : {0.6f, 0.28f, 0.2f, 1.0f}) {
             const CacheQuery query{at.position, at.normal, accuracy};
             const auto expected = cache.interpolate(query), value = prepared.interpolate(query);
             ASSERT_EQ(value.has_value(), expected.has_value());

@@ -2,6 +2,7 @@
 
 #include "render/cache/cache_fill.h"
 #include "render/cache/further_bounces.h"
+#include "render/cache/gather_rays.h"
 #include "render/cache/light_transport.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/render_scenes.h"
@@ -88,7 +89,7 @@ TEST(SeveralBounces, IC23_EachCountsWithoutRecordsAround) {
                                       .bounces = {.further = {.bounces = bounces - 1, .noted = true}, .before = 1}};
         const GatherOptions options{.depth = 8, .multi_bounce = context.bounces.further};
         IrradianceCache cache = make_cache(stage.shading);
-        std::vector<GatheredRays> gathered;
+        std::vector<KeptRays> gathered;
         for (std::uint32_t i = 0; i < 64; ++i) {
             const float turn = 2.4f * static_cast<float>(i), z = (static_cast<float>(i) - 31.5f) / 32.0f;
             const glm::vec3 normal(std::sqrt(1.0f - z * z) * glm::vec2(std::cos(turn), std::sin(turn)), z);
@@ -96,7 +97,7 @@ TEST(SeveralBounces, IC23_EachCountsWithoutRecordsAround) {
             const IrradianceSample sample =
                 gather_irradiance(lighting, task, point, {choose_strata(64), {i, 1, 2, 3}}, scratch, options);
             cache.insert(*make_record(point.position, normal, 0.3f, sample, {1e-6f, 1e-6f, 1e-6f}));
-            gathered.push_back(scratch);
+            gathered.push_back(keep_rays(scratch));
         }
         RayCounts counts;
         Mean irradiance;
