@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "engine/base/errors.h"
@@ -10,7 +9,6 @@
 #include "engine/gltf/tracks.h"
 #include "engine/gltf/validate/pointer.h"
 #include "engine/json/close_names.h"
-#include "engine/scene/place.h"
 
 namespace aleph {
 
@@ -103,49 +101,14 @@ void read_light_channel(GltfReader& reader, const Channel& channel) {
     }
 }
 
-template <class T>
-struct MaterialTrack {
-    GltfProperty property;
-    Place<Material, Track<T>> in;
-};
-constexpr std::array material_numbers{
-    MaterialTrack<double>{GltfProperty::material_metallic, {at<&Material::gloss, &Gloss::metallic>}},
-    MaterialTrack<double>{GltfProperty::material_roughness, {at<&Material::gloss, &Gloss::roughness>}},
-    MaterialTrack<double>{GltfProperty::material_emission_strength, {at<&Material::glow, &Glow::strength>}},
-    MaterialTrack<double>{GltfProperty::material_ior, {at<&Material::gloss, &Gloss::ior>}},
-    MaterialTrack<double>{GltfProperty::material_specular, {at<&Material::gloss, &Gloss::specular>}},
-    MaterialTrack<double>{GltfProperty::material_transmission, {at<&Material::glass, &Glass::transmission>}},
-    MaterialTrack<double>{GltfProperty::material_thickness, {at<&Material::glass, &Glass::thickness>}},
-    MaterialTrack<double>{GltfProperty::material_attenuation_distance,
-                          {at<&Material::glass, &Glass::attenuation_distance>}},
-    MaterialTrack<double>{GltfProperty::material_clearcoat, {at<&Material::layers, &Layers::clearcoat>}},
-    MaterialTrack<double>{GltfProperty::material_clearcoat_roughness,
-                          {at<&Material::layers, &Layers::clearcoat_roughness>}},
-    MaterialTrack<double>{GltfProperty::material_sheen_roughness, {at<&Material::layers, &Layers::sheen_roughness>}},
-    MaterialTrack<double>{GltfProperty::material_anisotropy, {at<&Material::layers, &Layers::anisotropy>}},
-    MaterialTrack<double>{GltfProperty::material_anisotropy_rotation,
-                          {at<&Material::layers, &Layers::anisotropy_rotation>}},
-};
-constexpr std::array material_colors{
-    MaterialTrack<glm::dvec3>{GltfProperty::material_base_color, {at<&Material::base_color>}},
-    MaterialTrack<glm::dvec3>{GltfProperty::material_emission, {at<&Material::glow, &Glow::color>}},
-    MaterialTrack<glm::dvec3>{GltfProperty::material_specular_color, {at<&Material::gloss, &Gloss::specular_color>}},
-    MaterialTrack<glm::dvec3>{GltfProperty::material_attenuation_color,
-                              {at<&Material::glass, &Glass::attenuation_color>}},
-    MaterialTrack<glm::dvec3>{GltfProperty::material_sheen_color, {at<&Material::layers, &Layers::sheen_color>}},
-};
-
 void read_material_channel(GltfReader& reader, const Channel& channel) {
     Material& material = reader.part.materials[channel.target.index];
     GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
     clamp_to_range(reader, keys, channel);
-    const GltfProperty property = channel.target.info->property;
-    for (const auto& entry : material_numbers)
-        if (entry.property == property) entry.in(material) = number_track(reader, keys, channel.place);
-    for (const auto& entry : material_colors)
-        if (entry.property == property) entry.in(material) = vector_track(reader, keys, channel.place);
-    if (property == GltfProperty::material_base_color)
-        material.opacity.alpha = number_track(reader, keys, channel.place, 3);
+    const GltfFactor& factor = *channel.target.info->factor;
+    if (factor.is_color()) factor.color(material) = vector_track(reader, keys, channel.place);
+    if (!factor.is_color()) factor.number(material) = number_track(reader, keys, channel.place);
+    if (factor.has_alpha) material.opacity.alpha = number_track(reader, keys, channel.place, 3);
 }
 
 void read_channel(GltfReader& reader, const Channel& channel) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/base/errors.h"
+#include "engine/gltf/validate/material_table.h"
 #include "engine/gltf/validate/parts.h"
 #include "engine/gltf/validate/pointer.h"
 
@@ -30,52 +31,19 @@ void check_texture_info(const GltfCheck& check, const JsonRef& owner, std::strin
     }
 }
 
-void check_normal_map(const GltfCheck& check, const JsonRef& owner, std::string_view key) {
-    check_texture_info(check, owner, key);
-    if (const std::optional<JsonRef> info = owner.find(key)) info->check_number("scale");
-}
-
 /// Types, and ranges beyond which no value near is meant; the reader clamps factors.
-void check_material_extensions(const GltfCheck& check, const JsonRef& material) {
-    if (const ExtensionRef strength(material, "KHR_materials_emissive_strength"); strength) {
-        strength->check_number("emissiveStrength");
-    }
-    if (const ExtensionRef ior(material, "KHR_materials_ior"); ior) ior->check_number("ior");
-    if (const ExtensionRef unlit(material, "KHR_materials_unlit"); unlit) unlit->expect_object();
-    if (const ExtensionRef transmission(material, "KHR_materials_transmission"); transmission) {
-        transmission->check_number("transmissionFactor");
-        check_texture_info(check, *transmission, "transmissionTexture");
-    }
-    if (const ExtensionRef specular(material, "KHR_materials_specular"); specular) {
-        specular->check_number("specularFactor");
-        specular->check_numbers("specularColorFactor", 3);
-        check_texture_info(check, *specular, "specularTexture");
-        check_texture_info(check, *specular, "specularColorTexture");
-    }
-    if (const ExtensionRef volume(material, "KHR_materials_volume"); volume) {
-        volume->check_number("thicknessFactor");
-        check_texture_info(check, *volume, "thicknessTexture");
-        if (const auto distance = volume->find("attenuationDistance")) distance->number_above(0.0);
-        volume->check_numbers("attenuationColor", 3);
-    }
-    if (const ExtensionRef coat(material, "KHR_materials_clearcoat"); coat) {
-        coat->check_number("clearcoatFactor");
-        check_texture_info(check, *coat, "clearcoatTexture");
-        coat->check_number("clearcoatRoughnessFactor");
-        check_texture_info(check, *coat, "clearcoatRoughnessTexture");
-        check_normal_map(check, *coat, "clearcoatNormalTexture");
-    }
-    if (const ExtensionRef sheen(material, "KHR_materials_sheen"); sheen) {
-        sheen->check_numbers("sheenColorFactor", 3);
-        check_texture_info(check, *sheen, "sheenColorTexture");
-        sheen->check_number("sheenRoughnessFactor");
-        check_texture_info(check, *sheen, "sheenRoughnessTexture");
-    }
-    if (const ExtensionRef anisotropy(material, "KHR_materials_anisotropy"); anisotropy) {
-        anisotropy->check_number("anisotropyStrength");
-        anisotropy->check_number("anisotropyRotation");
-        check_texture_info(check, *anisotropy, "anisotropyTexture");
-    }
+void check_owner(const GltfCheck& check, std::string_view name, const JsonRef& owner) {
+    owner.expect_object();
+    for_each_of(gltf_factors(), name, [&](const GltfFactor& factor) {
+        if (factor.is_color()) owner.check_numbers(factor.key, factor.count());
+        if (!factor.is_color()) owner.check_number(factor.key);
+    });
+    for_each_of(gltf_textures(), name, [&](const GltfTexture& texture) {
+        check_texture_info(check, owner, texture.key);
+        const std::optional<JsonRef> info = owner.find(texture.key);
+        if (info && texture.scale != nullptr) info->check_number("scale");
+    });
+    if (const auto distance = owner.find("attenuationDistance")) distance->number_above(0.0);
 }
 
 /// Nothing is clipped here, but planes the wrong way round show that the file is broken.
@@ -145,17 +113,16 @@ void check_light(const JsonRef& light) {
 void check_materials(GltfCheck& check) {
     for_each_object(check.root, "materials", [&](const JsonRef& material, std::size_t) {
         material.find_string("name");
-        if (const std::optional<JsonRef> pbr = material.find("pbrMetallicRoughness")) {
-            pbr->expect_object();
-            pbr->check_numbers("baseColorFactor", 4);
-            pbr->check_number("metallicFactor");
-            pbr->check_number("roughnessFactor");
-            check_texture_info(check, *pbr, "baseColorTexture");
-            check_texture_info(check, *pbr, "metallicRoughnessTexture");
+        for (const char* const name : gltf_material_owners()) {
+            if (is_gltf_extension(name)) {
+                if (const ExtensionRef extension(material, name); extension) check_owner(check, name, *extension);
+            } else if (*name == '\0') {
+                check_owner(check, name, material);
+            } else if (const std::optional<JsonRef> member = material.find(name)) {
+                check_owner(check, name, *member);
+            }
         }
-        material.check_numbers("emissiveFactor", 3);
-        check_texture_info(check, material, "emissiveTexture");
-        check_normal_map(check, material, "normalTexture");
+        if (const ExtensionRef unlit(material, "KHR_materials_unlit"); unlit) unlit->expect_object();
         check_texture_info(check, material, "occlusionTexture");
         material.check_boolean("doubleSided");
         if (const std::optional<JsonRef> cutoff = material.find("alphaCutoff"); cutoff && cutoff->number() < 0.0) {
@@ -167,7 +134,6 @@ void check_materials(GltfCheck& check) {
                 mode->fail(fmt::format("\"{}\" is no alpha mode", printable(name)));
             }
         }
-        check_material_extensions(check, material);
     });
 }
 

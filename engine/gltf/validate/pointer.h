@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/gltf/validate/material_table.h"
+
 namespace aleph {
 
 enum class GltfProperty {
@@ -22,24 +24,7 @@ enum class GltfProperty {
     light_range,
     light_inner_cone,
     light_outer_cone,
-    material_base_color,
-    material_metallic,
-    material_roughness,
-    material_emission,
-    material_emission_strength,
-    material_ior,
-    material_specular,
-    material_specular_color,
-    material_transmission,
-    material_thickness,
-    material_attenuation_distance,
-    material_attenuation_color,
-    material_clearcoat,
-    material_clearcoat_roughness,
-    material_sheen_color,
-    material_sheen_roughness,
-    material_anisotropy,
-    material_anisotropy_rotation,
+    material_factor,  ///< GltfPropertyInfo::factor
 };
 
 /// The smallest field of view (radians), half height (m), range (m), attenuation distance (m) or cone (radians):
@@ -53,9 +38,10 @@ enum class GltfOwner { node, camera, light, material };
 struct GltfPropertyInfo {
     GltfProperty property;
     GltfOwner owner;
-    std::string_view pointer;  ///< "{}" stands for the owner's index
-    std::string_view type;     ///< of the accessor
-    double low, high;          ///< keys beyond are clamped
+    std::string pointer;                 ///< "{}" stands for the owner's index
+    std::string_view type;               ///< of the accessor
+    double low, high;                    ///< keys beyond are clamped
+    const GltfFactor* factor = nullptr;  ///< of a material
 };
 
 struct GltfPointer {
