@@ -15,9 +15,9 @@ constexpr double sample_cost = 6.0, ray_cost = 1.5;
 /// Samples that a pixel takes for the sake of other light.
 constexpr double usual_samples = 20.0;
 
-/// Standard error of a record, over that of the mean of samples. Records around it make it less
-/// (IrradianceCache::finish).
-constexpr double record_noise = 1.4;
+/// Standard error of a record, over that of the mean of samples: less than 1, since it is smooth, and seen better.
+/// Records around it make it less (IrradianceCache::finish).
+constexpr double record_noise = 0.7;
 
 /// The light that a pixel reflects by a record, over the standard error that the mean of its samples may have.
 double find_relative_light(const ExpectedRecord& expected, float reflected, float tolerance) {

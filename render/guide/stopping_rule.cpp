@@ -13,10 +13,6 @@ namespace {
 constexpr int thesis_samples = 16;  // least number of the thesis's rules
 constexpr int outline_samples = 8;  // where few neighbours are alike, and each may miss what the others see
 
-}  // namespace
-
-namespace {
-
 /// Sums over pixels around one.
 struct NoiseSum {
     double error2 = 0.0, variance = 0.0;  ///< of one sample

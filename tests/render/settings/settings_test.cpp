@@ -92,7 +92,7 @@ TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     apply_settings(settings, {{"error", 2.0}, {"gather", 100.0}}, "test");
     EXPECT_EQ(settings.sampling.rule, Sampling::threshold);
     EXPECT_EQ(settings.guide.adapter, Adapter::none);
-    EXPECT_DOUBLE_EQ(settings.cache.accuracy, 0.05 * std::pow(2.0, 0.25));
+    EXPECT_DOUBLE_EQ(settings.cache.accuracy, 0.07 * std::pow(2.0, 0.25));
     EXPECT_EQ(settings.light.bounces, 16);
     EXPECT_EQ(settings.sampling.spp, 4096);
     EXPECT_EQ(settings.cache.gather, 100);
@@ -102,7 +102,7 @@ TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     EXPECT_EQ(settings.error, 2.0);
     RenderSettings strict;
     apply_settings(strict, {{"error", 0.5}}, "test");
-    EXPECT_DOUBLE_EQ(strict.cache.accuracy, 0.025);
+    EXPECT_DOUBLE_EQ(strict.cache.accuracy, 0.035);
     // 0 changes nothing else.
     RenderSettings plain;
     apply_settings(plain, {{"error", 0.0}}, "test");
