@@ -16,13 +16,13 @@
 namespace aleph {
 
 void follow_error(RenderSettings& settings, double error) {
-    // Errors of records are smooth and last: they are seen sooner than noise, so they grow less above 1 (allow_noise).
-    const double accuracy = 0.07 * std::min(error, std::sqrt(std::sqrt(error)));
+    // Errors of records are smooth and last: they are seen sooner than noise, so they do not grow above 1 (allow_noise).
+    const double accuracy = 0.07 * std::min(error, 1.0);
     constexpr int most_samples = 4096, all_bounces = 16;
     settings.error = error;
     settings.sampling.rule = Sampling::threshold;
     settings.guide.adapter = Adapter::none;  // light that follows the map flickers
-    settings.cache.accuracy = std::min(1.0, accuracy);
+    settings.cache.accuracy = accuracy;
     settings.cache.gather = 128;    // more where noise would be seen (record_worth.h)
     settings.cache.light_step = 0;  // the records that pay (record_worth.h) cost less than keyframes
     settings.light.bounces = all_bounces;

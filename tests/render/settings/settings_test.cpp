@@ -92,7 +92,7 @@ TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     apply_settings(settings, {{"error", 2.0}, {"gather", 100.0}}, "test");
     EXPECT_EQ(settings.sampling.rule, Sampling::threshold);
     EXPECT_EQ(settings.guide.adapter, Adapter::none);
-    EXPECT_DOUBLE_EQ(settings.cache.accuracy, 0.07 * std::pow(2.0, 0.25));
+    EXPECT_DOUBLE_EQ(settings.cache.accuracy, 0.07);
     EXPECT_EQ(settings.light.bounces, 16);
     EXPECT_EQ(settings.sampling.spp, 4096);
     EXPECT_EQ(settings.cache.gather, 100);
