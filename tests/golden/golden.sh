@@ -67,6 +67,7 @@ write_page() {
 action=${1:-}
 only=${2:-}
 case $action in check | review | accept) ;; *) usage ;; esac
+[ $# -le 2 ] || usage
 for program in aleph select_channels golden_page; do
   [ -x "$build/$program" ] || { echo "golden.sh: $build/$program is not built" >&2; exit 1; }
 done
