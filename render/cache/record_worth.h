@@ -25,7 +25,7 @@ inline constexpr int sample_rays = 2;
 bool is_worth_record(const ExpectedRecord& expected, float footprint, float accuracy, float reflected, float tolerance,
                      int rays);
 
-/// Returns the rays, at least `rays` and at most most_rays, that bring the noise of a record close to what the pixel's
+/// Returns the rays, at least `rays` and at most most_rays, that bring the noise of a record below what the pixel's
 /// samples may have.
 /// @param expected, reflected, tolerance  as above
 int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance);
