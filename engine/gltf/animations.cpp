@@ -106,8 +106,11 @@ void read_material_channel(GltfReader& reader, const Channel& channel) {
     GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
     clamp_to_range(reader, keys, channel);
     const GltfFactor& factor = *channel.target.info->factor;
-    if (factor.is_color()) factor.color(material) = vector_track(reader, keys, channel.place);
-    if (!factor.is_color()) factor.number(material) = number_track(reader, keys, channel.place);
+    if (factor.is_color()) {
+        factor.color(material) = vector_track(reader, keys, channel.place);
+    } else {
+        factor.number(material) = number_track(reader, keys, channel.place);
+    }
     if (factor.has_alpha) material.opacity.alpha = number_track(reader, keys, channel.place, 3);
 }
 

@@ -11,11 +11,15 @@ namespace aleph {
 
 namespace {
 
-const Gloss gltf_gloss{.metallic = 1.0};  // where a file says nothing
-
-/// An index of refraction of 0 stands for full reflection.
-bool allows_zero(const GltfFactor& factor) {
-    return std::string_view(factor.key) == "ior";
+/// The object that has an owner's properties; null where a material lacks it.
+const nlohmann::json* find_owner(const nlohmann::json& material, std::string_view name) {
+    const auto find = [](const nlohmann::json* in, std::string_view key) -> const nlohmann::json* {
+        if (in == nullptr) return nullptr;
+        const auto found = in->find(key);
+        return found == in->end() ? nullptr : &*found;
+    };
+    if (name.empty()) return &material;
+    return find(is_gltf_extension(name) ? find(&material, "extensions") : &material, name);
 }
 
 /// Reads materials. Factors out of range are clamped, with a warning.
@@ -48,10 +52,9 @@ void MaterialReader::read_owner(const char* name, const nlohmann::json& owner, M
         if (factor.is_color()) {
             const double r = value(0), g = value(1), b = value(2);
             factor.color(material) = glm::dvec3(r, g, b);
-        } else if (const double number = found->get<double>(); number != 0.0 || !allows_zero(factor)) {
-            factor.number(material) = clamped(number, factor);
         } else {
-            factor.number(material) = 0.0;
+            const double number = found->get<double>();
+            factor.number(material) = factor.takes_zero && number == 0.0 ? 0.0 : clamped(number, factor);
         }
         if (factor.has_alpha) material.opacity.alpha = value(3);
     });
@@ -67,19 +70,15 @@ Material MaterialReader::read(std::size_t index) {
     const tinygltf::Material& source = reader_.source.model.materials[index];
     const nlohmann::json& raw = reader_.source.document["materials"][index];
     place_ = fmt::format("/materials/{}", index);
-    Material material{.gloss = gltf_gloss};
+    Material material = make_gltf_material();
     material.name = source.name.empty() ? fmt::format("material{}", index) : source.name;
     material.double_sided = source.doubleSided;
     if (source.alphaMode == "MASK") material.opacity.mode = Opacity::Mode::mask;
     if (source.alphaMode == "BLEND") material.opacity.mode = Opacity::Mode::blend;
     material.opacity.cutoff = raw.value("alphaCutoff", 0.5);
-    const nlohmann::json extensions = raw.value("extensions", nlohmann::json::object());
-    material.unlit = extensions.contains("KHR_materials_unlit");
-    for (const char* const name : gltf_material_owners()) {
-        if (*name == '\0') read_owner(name, raw, material);
-        const nlohmann::json& members = is_gltf_extension(name) ? extensions : raw;
-        if (const auto found = members.find(name); found != members.end()) read_owner(name, *found, material);
-    }
+    material.unlit = find_owner(raw, "KHR_materials_unlit") != nullptr;
+    for (const char* const name : gltf_material_owners())
+        if (const nlohmann::json* const owner = find_owner(raw, name)) read_owner(name, *owner, material);
     return material;
 }
 
@@ -100,7 +99,8 @@ void read_materials(GltfReader& reader) {
 int default_material(GltfReader& reader) {
     if (reader.default_material == no_index) {
         reader.default_material = static_cast<int>(reader.part.materials.size());
-        reader.part.materials.push_back({.name = "default", .gloss = gltf_gloss});
+        reader.part.materials.push_back(make_gltf_material());
+        reader.part.materials.back().name = "default";
     }
     return reader.default_material;
 }

@@ -64,8 +64,7 @@ struct CostParts {
 CostParts predict_seconds(const PilotSeconds& pilot, const CostRatios& ratios, const CostCoefficients& coefficients,
                           double error);
 
-/// The errors that a budget chooses among: .1 to 10 in two digits. From 10 on the accuracy of cached light is 1, the
-/// loosest.
+/// The errors that a budget chooses among: .1 to 10 in two digits.
 inline constexpr double least_budget_error = 0.1, most_budget_error = 10.0;
 
 /// The smallest of these errors that is predicted to take at most so many seconds; if none is, the largest.

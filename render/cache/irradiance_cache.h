@@ -105,7 +105,7 @@ class IrradianceCache {
     /// Replaces all records by those of another cache after finish(), as they are.
     void restore(std::vector<IrradianceRecord> records);
 
-    /// Makes look-ups fast that shade, until the records change.
+    /// Makes the look-ups of shading fast, until the records change.
     void prepare();
 
     const std::vector<IrradianceRecord>& records() const { return records_; }

@@ -220,7 +220,7 @@ class LightTransport {
     const IrradianceCache& cache_;
     const float accuracy_;
     RayCounts& counts_;
-    std::vector<KeptRays> gathered_;               ///< of the records
+    std::vector<KeptRays> gathered_;                   ///< of the records
     std::vector<Place> places_;                        ///< records first
     std::vector<std::vector<FurtherLight>> unlinked_;  ///< of the places that were added last
     std::vector<Rgb> irradiance_;                      ///< of places

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <iterator>
 
 #include "engine/base/errors.h"
@@ -16,7 +15,8 @@
 namespace aleph {
 
 void follow_error(RenderSettings& settings, double error) {
-    // Errors of records are smooth and last: they are seen sooner than noise, so they do not grow above 1 (allow_noise).
+    // Errors of records are smooth and last: they are seen sooner than noise, so they do not grow above 1
+    // (allow_noise).
     const double accuracy = 0.07 * std::min(error, 1.0);
     constexpr int most_samples = 4096, all_bounces = 16;
     settings.error = error;

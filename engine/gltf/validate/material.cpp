@@ -35,15 +35,17 @@ void check_texture_info(const GltfCheck& check, const JsonRef& owner, std::strin
 void check_owner(const GltfCheck& check, std::string_view name, const JsonRef& owner) {
     owner.expect_object();
     for_each_of(gltf_factors(), name, [&](const GltfFactor& factor) {
-        if (factor.is_color()) owner.check_numbers(factor.key, factor.count());
-        if (!factor.is_color()) owner.check_number(factor.key);
+        if (factor.is_color()) {
+            owner.check_numbers(factor.key, factor.has_alpha ? 4 : 3);
+        } else {
+            owner.check_number(factor.key);
+        }
     });
     for_each_of(gltf_textures(), name, [&](const GltfTexture& texture) {
         check_texture_info(check, owner, texture.key);
         const std::optional<JsonRef> info = owner.find(texture.key);
         if (info && texture.scale != nullptr) info->check_number("scale");
     });
-    if (const auto distance = owner.find("attenuationDistance")) distance->number_above(0.0);
 }
 
 /// Nothing is clipped here, but planes the wrong way round show that the file is broken.
@@ -123,6 +125,9 @@ void check_materials(GltfCheck& check) {
             }
         }
         if (const ExtensionRef unlit(material, "KHR_materials_unlit"); unlit) unlit->expect_object();
+        if (const ExtensionRef volume(material, "KHR_materials_volume"); volume) {
+            if (const auto distance = volume->find("attenuationDistance")) distance->number_above(0.0);
+        }
         check_texture_info(check, material, "occlusionTexture");
         material.check_boolean("doubleSided");
         if (const std::optional<JsonRef> cutoff = material.find("alphaCutoff"); cutoff && cutoff->number() < 0.0) {

@@ -16,8 +16,8 @@ constexpr char core[] = "pbrMetallicRoughness", strength[] = "KHR_materials_emis
 constexpr std::array owners{core, "", strength, ior, transmission, specular, volume, coat, sheen, anisotropy};
 
 template <auto... path>
-constexpr GltfFactor number(const char* owner, const char* key, double low, double high) {
-    return {owner, key, low, high, {at<path...>}};
+constexpr GltfFactor number(const char* owner, const char* key, double low, double high, bool takes_zero = false) {
+    return {owner, key, low, high, {at<path...>}, {}, false, takes_zero};
 }
 template <auto... path>
 constexpr GltfFactor color(const char* owner, const char* key, double high, bool has_alpha = false) {
@@ -30,7 +30,7 @@ constexpr std::array factors{
     number<&Material::gloss, &Gloss::metallic>(core, "metallicFactor", 0, 1),
     number<&Material::gloss, &Gloss::roughness>(core, "roughnessFactor", 0, 1),
     number<&Material::glow, &Glow::strength>(strength, "emissiveStrength", 0, no_limit),
-    number<&Material::gloss, &Gloss::ior>(ior, "ior", 1, no_limit),
+    number<&Material::gloss, &Gloss::ior>(ior, "ior", 1, no_limit, true),  // 0: full reflection
     number<&Material::glass, &Glass::transmission>(transmission, "transmissionFactor", 0, 1),
     number<&Material::gloss, &Gloss::specular>(specular, "specularFactor", 0, 1),
     color<&Material::gloss, &Gloss::specular_color>(specular, "specularColorFactor", no_limit),
@@ -78,6 +78,15 @@ std::span<const GltfTexture> gltf_textures() {
 
 bool is_gltf_extension(std::string_view owner) {
     return owner.starts_with("KHR_");
+}
+
+std::string gltf_owner_path(std::string_view owner) {
+    if (owner.empty()) return {};
+    return (is_gltf_extension(owner) ? "extensions/" : "") + std::string(owner) + "/";
+}
+
+Material make_gltf_material() {
+    return {.gloss = {.metallic = 1.0}};
 }
 
 }  // namespace aleph

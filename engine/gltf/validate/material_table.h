@@ -2,9 +2,9 @@
 // The factors and textures of glTF materials, a row each: the validator checks them, the reader reads them, animations
 // move them and the writer writes them. An extension whose properties are numbers, colours and textures is added here.
 
-#include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "engine/scene/material.h"
@@ -22,10 +22,10 @@ struct GltfFactor {
     // Where a scene keeps it, one of the two.
     Place<Material, Track<double>> number{};
     Place<Material, Track<glm::dvec3>> color{};
-    bool has_alpha = false;  ///< a fourth number: the material's opacity
+    bool has_alpha = false;   ///< a fourth number: the material's opacity
+    bool takes_zero = false;  ///< 0 has a meaning of its own, below `low`
 
     bool is_color() const { return color.find != nullptr; }
-    std::size_t count() const { return !is_color() ? 1 : has_alpha ? 4 : 3; }
 };
 
 /// A texture.
@@ -42,6 +42,11 @@ std::span<const GltfFactor> gltf_factors();
 std::span<const GltfTexture> gltf_textures();
 
 bool is_gltf_extension(std::string_view owner);
+/// An owner's place within a material, with a slash behind it: "", "pbrMetallicRoughness/", "extensions/KHR_.../".
+std::string gltf_owner_path(std::string_view owner);
+
+/// The material of a file that says nothing of it: metal.
+Material make_gltf_material();
 
 /// Calls visit for the rows of an owner.
 template <class Row, class Visit>

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <numbers>
 #include <vector>
 
@@ -35,11 +34,10 @@ std::vector<GltfPropertyInfo> list_properties() {
          std::numbers::pi / 2},
     };
     for (const GltfFactor& factor : gltf_factors()) {
-        const std::string owner = factor.owner;
-        const std::string path = (is_gltf_extension(owner) ? "extensions/" : "") + owner + (owner.empty() ? "" : "/");
-        properties.push_back({GltfProperty::material_factor, GltfOwner::material, "/materials/{}/" + path + factor.key,
-                              std::array{"SCALAR", "", "VEC3", "VEC4"}[factor.count() - 1], factor.low, factor.high,
-                              &factor});
+        const std::string pointer = "/materials/{}/" + gltf_owner_path(factor.owner) + factor.key;
+        const char* const type = !factor.is_color() ? "SCALAR" : factor.has_alpha ? "VEC4" : "VEC3";
+        properties.push_back(
+            {GltfProperty::material_factor, GltfOwner::material, pointer, type, factor.low, factor.high, &factor});
     }
     return properties;
 }

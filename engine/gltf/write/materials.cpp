@@ -23,8 +23,11 @@ class MaterialWriter {
     /// Writes a factor, and its keys if it changes.
     template <class T>
     void write_factor(OrderedJson& owner, const char* key, const Track<T>& track) {
-        if constexpr (std::is_same_v<T, double>) owner[key] = key_value(track, 0);
-        if constexpr (!std::is_same_v<T, double>) owner[key] = to_json(key_value(track, 0));
+        if constexpr (std::is_same_v<T, double>) {
+            owner[key] = key_value(track, 0);
+        } else {
+            owner[key] = to_json(key_value(track, 0));
+        }
         if (is_animated(track)) writer_.animate(owner_place_ + key, writer_.keys_of(track, place_));
     }
 
@@ -34,8 +37,6 @@ class MaterialWriter {
     std::string owner_place_;  ///< of the object that is written, with a slash behind it
 };
 
-const Material absent{.gloss = {.metallic = 1.0}};  // what glTF assumes
-
 /// True where the track is not that value at all times.
 template <class T>
 bool differs(const Track<T>& track, const T& value) {
@@ -43,6 +44,7 @@ bool differs(const Track<T>& track, const T& value) {
 }
 
 bool is_needed(const GltfFactor& factor, const Material& material) {
+    static const Material absent = make_gltf_material();
     if (factor.has_alpha && differs(material.opacity.alpha, 1.0)) return true;
     return factor.is_color() ? differs(factor.color(material), key_value(factor.color(absent), 0))
                              : differs(factor.number(material), key_value(factor.number(absent), 0));
@@ -101,8 +103,11 @@ void MaterialWriter::write_owner(const char* name, const Material& material, Ord
     for_each_of(gltf_factors(), name, [&](const GltfFactor& factor) {
         if (!is_needed(factor, material)) return;
         if (factor.has_alpha) return write_base_color(material, owner);
-        if (factor.is_color()) write_factor(owner, factor.key, factor.color(material));
-        if (!factor.is_color()) write_factor(owner, factor.key, factor.number(material));
+        if (factor.is_color()) {
+            write_factor(owner, factor.key, factor.color(material));
+        } else {
+            write_factor(owner, factor.key, factor.number(material));
+        }
     });
     for_each_of(gltf_textures(), name, [&](const GltfTexture& texture) {
         const double scale = texture.scale != nullptr ? material.textures.*texture.scale : 1.0;
@@ -124,12 +129,11 @@ int MaterialWriter::write(const Material& material) {
     const Material adapted = adapt(material);
     for (const char* const name : gltf_material_owners()) {
         if (!is_needed(name, adapted)) continue;
-        const bool is_material = *name == '\0', is_extension = is_gltf_extension(name);
-        owner_place_ = place_ + (is_extension ? "/extensions/" : "/") + name + (is_material ? "" : "/");
-        write_owner(name, adapted,
-                    is_extension  ? writer_.extend(written, name)
-                    : is_material ? written
-                                  : written[name]);
+        owner_place_ = place_ + "/" + gltf_owner_path(name);
+        OrderedJson& member = is_gltf_extension(name) ? writer_.extend(written, name)
+                              : *name == '\0'         ? written
+                                                      : written[name];
+        write_owner(name, adapted, member);
     }
     if (material.unlit) writer_.extend(written, "KHR_materials_unlit");
     return writer_.add("materials", std::move(written));

@@ -107,6 +107,11 @@ TEST_F(GltfMaterialExtensions, DefaultsAreThoseOfTheSpecifications) {
     EXPECT_EQ(plain.glass.attenuation_distance, Track<double>(0.0)) << "glTF's infinite distance";
 }
 
+TEST_F(GltfMaterialExtensions, AMemberWithoutANameIsNotTheMaterial) {
+    const Scene scene = load(draft_with({{"", {{"emissiveFactor", "red"}}}, {"attenuationDistance", -1}}));
+    EXPECT_EQ(key_value(scene.materials[0].glow.color, 0), glm::dvec3(0.0));
+}
+
 TEST_F(GltfMaterialExtensions, S13_8_FactorsOutOfRangeAreClampedWithAWarning) {
     const auto expect_clamped = [&](const char* extension, const Json& members, const char* warning) {
         const Scene scene = load(draft_with(extensions(extension, members)));
