@@ -83,7 +83,7 @@ ErrorMaps estimate_errors(const ErrorInput& input) {
         double total = 0.0;
         for (std::size_t i = 0; i < errors.size(); ++i) {
             const bool cached = i == static_cast<std::size_t>(ErrorCause::indirect);
-            const double limit = cached ? input.threshold(x, y) : noise_allowance * input.noise(x, y);
+            const double limit = cached ? input.threshold(x, y) : input.noise(x, y);
             const double units = limit > 0.0 ? std::sqrt(errors[i]) * input.luminance_scale / limit : 0.0;
             total += units * units;
             maps.by_cause[i](x, y) = static_cast<float>(units);

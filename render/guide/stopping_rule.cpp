@@ -86,13 +86,17 @@ bool is_enough(Sampling rule, Stopping stopping, const MeanEstimate& mean, doubl
     return true;
 }
 
+bool stands_out(const PixelSamples& pixel, double tolerance) {
+    return std::sqrt(static_cast<double>(pixel.error().total)) > tolerance;
+}
+
 int protocol_samples(double aleph, int most) {
     const double samples = std::ceil(most / std::max(1.0, aleph));  // with the arguments in this order, 1 for NaN
     return std::min(most, std::max(thesis_samples, static_cast<int>(samples)));
 }
 
 double allow_noise(double error) {
-    return noise_allowance * std::min(error, std::pow(error, 0.8));
+    return std::min(error, std::pow(error, 0.8));
 }
 
 int first_samples(Sampling rule, Outline outline, int most) {

@@ -15,12 +15,9 @@ namespace aleph {
 /// times its own root mean square at 99 % of the pixels (chi-square of 8 degrees of freedom).
 inline constexpr double error_deviations = 1.585;
 
-/// The error of samples that goes unseen, over the noise of single pixels that does (NoiseVisibility): measured in pool
-/// and art-gallery with the instrument of compare/visible_difference.h (scenes/studies/README.md).
-inline constexpr double noise_allowance = 0.9;
-
-/// The same where an error of so many just visible differences is asked for; 0 or more. Up to 1 in proportion to it,
-/// above as its power of .8: the share of the pixels in which noise is seen rises more steeply than the noise.
+/// The error of samples that is allowed where an error of so many just visible differences is asked for, over the noise
+/// of single pixels that goes unseen (NoiseVisibility); 0 or more. Up to 1 in proportion to it, above as its power of
+/// .8: the share of the pixels in which noise is seen rises more steeply than the noise.
 double allow_noise(double error);
 
 /// The mean of a pixel's samples, as its neighbours or its own samples tell it. Where own samples decide, a pixel whose
@@ -56,6 +53,10 @@ MeanEstimate estimate_own_mean(const PixelSamples& pixel);
 /// within the tolerance; at a lone outline with fewer samples, around it with more.
 /// @param tolerance  of luminance, in the samples' unit. 0 or less is met by an error of 0 only
 bool is_enough(Sampling rule, Stopping stopping, const MeanEstimate& mean, double tolerance);
+
+/// Returns whether a pixel's own samples tell a standard error beyond the tolerance, as where a few of them are far
+/// brighter than the others.
+bool stands_out(const PixelSamples& pixel, double tolerance);
 
 /// The pixels of a stage that may take more samples, one element each.
 struct StagePixels {

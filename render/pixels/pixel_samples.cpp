@@ -57,6 +57,10 @@ std::optional<Rgb> PixelSamples::find_irradiance(const SampleLight& light) const
     return irradiance_.sum / static_cast<float>(irradiance_.count);
 }
 
+void PixelSamples::keep_mean() {
+    if (!kept_mean_) kept_mean_ = mean();
+}
+
 /// After 2, 4, 8, ... samples, compares the halves.
 void PixelSamples::end_sample() {
     ++taken_;

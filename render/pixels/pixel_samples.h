@@ -87,6 +87,15 @@ class PixelSamples {
     /// such samples looked up, at places spread over the pixel. Nothing before there are four.
     /// @param light  of the sample: its surface
     std::optional<Rgb> find_irradiance(const SampleLight& light) const;
+    /// Keeps the mean as it is now, the first time: samples that follow are taken because of those so far.
+    void keep_mean();
+    bool has_kept_mean() const { return kept_mean_.has_value(); }
+    /// What the mean has lost since it was kept; 0 where it was not.
+    Rgb lost() const { return kept_mean_ ? *kept_mean_ - mean() : Rgb(0.0f); }
+    /// Nothing where no sample is valid.
+    void add_to_mean(const Rgb& light) { radiance_ += static_cast<double>(valid_) * glm::dvec3(light); }
+    /// Object that its first valid sample saw; no_index: the background, or no sample is valid.
+    int first_instance() const { return first_.instance; }
     /// Returns whether its samples saw several objects, or faces of one: an edge crosses the pixel.
     bool has_edge() const { return edge_; }
 
@@ -119,6 +128,7 @@ class PixelSamples {
     Error error_;
     SampledPlace first_;  ///< of the first sample
     FoundIrradiance irradiance_;
+    std::optional<Rgb> kept_mean_;
     bool edge_ = false;
 };
 

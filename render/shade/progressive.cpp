@@ -5,6 +5,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "render/time/shutter.h"
 
 namespace aleph {
@@ -31,10 +32,22 @@ MeanEstimate tell_mean(const SamplingPlan& plan, const Image<PixelSamples>& pixe
     return own ? estimate_own_mean(pixels(x, y)) : estimate_mean(pixels, plan.outlines, x, y);
 }
 
-/// Asks the plan's rule which pixels of a stage go on: 1 for each that does.
-std::vector<std::uint8_t> ask_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
-                                   const std::vector<PixelRange>& stage) {
-    std::vector<std::uint8_t> goes_on(stage.size());
+enum class Decision : std::uint8_t {
+    stop,
+    go_on,
+    go_on_by_itself,  ///< its own samples decide, and bias its mean
+};
+
+Decision decide(const SamplingPlan& plan, const PixelSamples& pixel, const MeanEstimate& mean, double tolerance) {
+    if (!pixel.has_kept_mean() && !is_enough(plan.rule, plan.stopping, mean, tolerance)) return Decision::go_on;
+    const bool alone = plan.rule == Sampling::threshold && stands_out(pixel, tolerance);
+    return alone ? Decision::go_on_by_itself : Decision::stop;
+}
+
+/// Asks the plan's rule about the pixels of a stage.
+std::vector<Decision> ask_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
+                               const std::vector<PixelRange>& stage) {
+    std::vector<Decision> decisions(stage.size(), Decision::stop);
     const Image<float> around =
         plan.rule == Sampling::threshold ? deviations_around(pixels, plan.reach) : Image<float>();
     parallel_for(stage.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -43,15 +56,15 @@ std::vector<std::uint8_t> ask_rule(const SamplingPlan& plan, const Image<PixelSa
             if (range.last >= plan.most) continue;
             MeanEstimate mean = tell_mean(plan, pixels, range.x, range.y);
             if (!around.empty()) mean.around = static_cast<double>(around(range.x, range.y));
-            goes_on[i] = !is_enough(plan.rule, plan.stopping, mean, plan.tolerance(range.x, range.y));
+            decisions[i] = decide(plan, pixels(range.x, range.y), mean, plan.tolerance(range.x, range.y));
         }
     });
-    return goes_on;
+    return decisions;
 }
 
 /// The same of a rule of a program's own.
-std::vector<std::uint8_t> ask_own_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
-                                       const std::vector<PixelRange>& stage) {
+std::vector<Decision> ask_own_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
+                                   const std::vector<PixelRange>& stage) {
     StagePixels asked;
     for (const PixelRange& range : stage) {
         const MeanEstimate mean = tell_mean(plan, pixels, range.x, range.y);
@@ -65,20 +78,24 @@ std::vector<std::uint8_t> ask_own_rule(const SamplingPlan& plan, const Image<Pix
     const std::vector<std::uint8_t> enough = plan.own->find_enough(asked);
     if (enough.size() != stage.size())
         throw InputError("", "stopping rule", "it has to decide for each pixel that it is asked about");
-    std::vector<std::uint8_t> goes_on(stage.size());
-    for (std::size_t i = 0; i < stage.size(); ++i) goes_on[i] = enough[i] == 0 && stage[i].last < plan.most;
-    return goes_on;
+    std::vector<Decision> decisions(stage.size(), Decision::stop);
+    for (std::size_t i = 0; i < stage.size(); ++i) {
+        if (enough[i] == 0 && stage[i].last < plan.most) decisions[i] = Decision::go_on;
+    }
+    return decisions;
 }
 
 /// The pixels of a stage that need another one.
-std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
+std::vector<PixelRange> next_ranges(const SamplingPlan& plan, Image<PixelSamples>& pixels,
                                     const std::vector<PixelRange>& stage) {
-    const std::vector<std::uint8_t> goes_on =
+    const std::vector<Decision> decisions =
         plan.own != nullptr ? ask_own_rule(plan, pixels, stage) : ask_rule(plan, pixels, stage);
     std::vector<PixelRange> next;
     for (std::size_t i = 0; i < stage.size(); ++i) {
         const PixelRange& range = stage[i];
-        if (goes_on[i]) next.push_back({range.x, range.y, range.last, std::min(2 * range.last, plan.most)});
+        if (decisions[i] == Decision::stop) continue;
+        if (decisions[i] == Decision::go_on_by_itself) pixels(range.x, range.y).keep_mean();
+        next.push_back({range.x, range.y, range.last, std::min(2 * range.last, plan.most)});
     }
     return next;
 }
@@ -127,7 +144,7 @@ void take_in_turn(std::span<const PixelRange> ranges, const TakeSample& take) {
     }
 }
 
-void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take,
+void sample_by_stages(const SamplingPlan& plan, Image<PixelSamples>& pixels, const TakeSamples& take,
                       std::vector<PixelRange> begin) {
     std::vector<PixelRange> stage = begin.empty() ? first_ranges(plan, pixels) : std::move(begin);
     while (!stage.empty()) {
@@ -135,6 +152,26 @@ void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixel
         if (plan.tolerance.empty()) return;
         stage = next_ranges(plan, pixels, stage);
     }
+}
+
+void spread_lost_light(Image<PixelSamples>& pixels, int reach) {
+    Image<Rgb> gained(pixels.width, pixels.height);
+    for (int y = 0; y < pixels.height; ++y) {
+        for (int x = 0; x < pixels.width; ++x) {
+            const PixelSamples& from = pixels(x, y);
+            if (!from.has_kept_mean()) continue;
+            const auto takes = [&](const PixelSamples& to) {
+                return to.valid() > 0 && to.first_instance() == from.first_instance();
+            };
+            int count = 0;
+            visit_around(pixels, x, y, reach, [&](int nx, int ny) { count += takes(pixels(nx, ny)) ? 1 : 0; });
+            const Rgb part = from.lost() / static_cast<float>(count);
+            visit_around(pixels, x, y, reach, [&](int nx, int ny) {
+                if (takes(pixels(nx, ny))) gained(nx, ny) += part;
+            });
+        }
+    }
+    for (std::size_t i = 0; i < gained.size(); ++i) pixels.pixels[i].add_to_mean(gained.pixels[i]);
 }
 
 }  // namespace aleph

@@ -36,7 +36,7 @@ TEST(ErrorBudget, SamplesKeepToTheNoiseThatGoesUnseen) {
     const Image<Outline> outlines(3, 3, Outline::none);
     const VisibleLimits limits{threshold, noise, aleph, accuracy, outlines, ViewingConditions{}};
     RenderSettings settings;
-    const double unit = noise_allowance * 5.0 / limits.viewing.display_white / 2.0;
+    const double unit = 5.0 / limits.viewing.display_white / 2.0;
     for (const auto& [error, times] : {std::pair(0.5, 0.5), std::pair(1.0, 1.0), std::pair(2.0, std::pow(2.0, 0.8))}) {
         follow_error(settings, error);
         EXPECT_NEAR(compute_sampling_tolerance(limits, settings, 2.0)(1, 1), times * unit, 1e-7) << error;
