@@ -192,8 +192,6 @@ answers 2 'there is no effect shine; known are direct_light' aleph render first.
 answers 2 'expected one of on, off' aleph render first.json "${quick[@]}" -q --plan none -o plan.exr
 silent aleph render first.json "${quick[@]}" --frames 0 -q --forbid area_shadows --forbid emission --stats forbidden.json -o forbidden.exr
 answers 0 '"reason": "forbidden"' cat forbidden.json
-silent aleph maps first.json --size 16x12 --frames 0 -q -o motion.flo
-is [ "$(head -c 4 motion.flo)" = PIEH ]
 silent aleph maps first.json --size 16x12 --frames 0 -q --importance -o importance.png
 
 # Studies: what is asked for, what is written, and that a killed one goes on.

@@ -6,7 +6,6 @@
 
 #include "engine/image/image_file.h"
 #include "render/cli/support/output_path.h"
-#include "render/output/flow_file.h"
 #include "render/output/frame_files.h"
 #include "render/output/map_preview.h"
 #include "render/settings/fingerprint.h"
@@ -48,9 +47,7 @@ std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, 
     std::size_t changed = 0;
     const PictureTexts texts{{fingerprint_key, fingerprint}};
     const OutputFormat format = output_format(path);
-    if (format == OutputFormat::flow) {
-        write_flow(path, output.motion);
-    } else if (importance) {
+    if (importance) {
         write_importance(path, output, texts);
     } else if (format == OutputFormat::exr) {
         write_exr(path, with_texts(make_frame_image(output, maps, job.scene, job.settings, job.exposure), texts));

@@ -11,7 +11,7 @@ namespace aleph {
 /// Returns whether a path names a film: .mp4, .mov, .webm or .gif in any case, and no folder.
 bool names_film(const std::string& path);
 
-enum class OutputFormat { exr, png, hdr, flow };
+enum class OutputFormat { exr, png, hdr };
 
 /// The file of one frame. A pattern is a file name with one run of '#', or one %d or %0Nd, in the last part of the
 /// path. A minus sign counts as a digit (frame -3 in #### is -003). A folder means `folder/<scene>.####.exr`, and an
