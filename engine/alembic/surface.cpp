@@ -92,8 +92,7 @@ bool is_finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-void read_point_cache(AlembicReader& reader, int object, const AlembicCompound& geom, const Sampled& points,
-                      SurfaceRun& run) {
+void read_point_cache(AlembicReader& reader, int object, const Sampled& points, SurfaceRun& run) {
     const AlembicArchive& archive = reader.archive;
     PointCache cache;
     cache.name = archive.path(object);
@@ -103,21 +102,6 @@ void read_point_cache(AlembicReader& reader, int object, const AlembicCompound& 
         for (std::size_t i = 0; i < run.point_count; ++i) {
             if (!is_finite(cache.positions.back()[i]))
                 archive.fail(object, fmt::format("point {} of sample {} is not finite", i, sample));
-        }
-    }
-    const AlembicProperty* velocities = geom.find_sampled(".velocities");
-    if (velocities != nullptr && velocities->extent == 3) {
-        for (std::size_t i = 0; i < run.point_samples.size(); ++i) {
-            const double seconds = run.point_samples.size() > 1 ? sample_time(run.sampling, i) : run.begin;
-            std::vector<glm::vec3> sample =
-                read_vectors(archive, *velocities, sample_at(archive, *velocities, seconds));
-            const bool fits = sample.size() == run.point_count && std::ranges::all_of(sample, is_finite);
-            if (!fits) {
-                reader.warn(object, "its velocities do not fit its points and are left out");
-                cache.velocities.clear();
-                break;
-            }
-            cache.velocities.push_back(std::move(sample));
         }
     }
     run.points = static_cast<int>(reader.part.point_caches.size());
@@ -233,7 +217,7 @@ std::vector<SurfaceRun> read_runs(AlembicReader& reader, int object, const Alemb
         for (std::size_t i = 0; i < runs.size(); ++i) runs[i].present = make_presence(runs, i);
     }
     std::erase_if(runs, [](const SurfaceRun& run) { return run.face_points.empty(); });
-    for (SurfaceRun& run : runs) read_point_cache(reader, object, geom, *points, run);
+    for (SurfaceRun& run : runs) read_point_cache(reader, object, *points, run);
     return runs;
 }
 

@@ -107,7 +107,7 @@ bool is_data_uri(std::string_view uri) {
     return uri.substr(0, 5) == "data:";
 }
 
-DataUri decode_data_uri(std::string_view uri, const std::string& file, const std::string& place) {
+Bytes decode_data_uri(std::string_view uri, const std::string& file, const std::string& place) {
     static constexpr std::array<std::int8_t, 256> table = make_base64_table();
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos) throw InputError(file, place, "the data URI has no comma");
@@ -116,13 +116,11 @@ DataUri decode_data_uri(std::string_view uri, const std::string& file, const std
     if (head.size() < base64.size() || head.substr(head.size() - base64.size()) != base64) {
         throw InputError(file, place, "only base64 data URIs are supported");
     }
-    DataUri data;
-    data.media_type = head.substr(0, head.find(';'));
-
+    Bytes bytes;
     std::string_view text = uri.substr(comma + 1);
     for (int i = 0; i < 2 && !text.empty() && text.back() == '='; ++i) text.remove_suffix(1);
     if (text.size() % 4 == 1) throw InputError(file, place, "the data URI's base64 text is cut off");
-    data.bytes.reserve(text.size() / 4 * 3 + 2);
+    bytes.reserve(text.size() / 4 * 3 + 2);
     std::uint32_t bits = 0;
     int bit_count = 0;
     for (const char c : text) {
@@ -132,10 +130,10 @@ DataUri decode_data_uri(std::string_view uri, const std::string& file, const std
         bit_count += 6;
         if (bit_count >= 8) {
             bit_count -= 8;
-            data.bytes.push_back(static_cast<std::uint8_t>(bits >> bit_count & 0xff));
+            bytes.push_back(static_cast<std::uint8_t>(bits >> bit_count & 0xff));
         }
     }
-    return data;
+    return bytes;
 }
 
 std::string percent_decode(std::string_view uri, const std::string& file, const std::string& place) {

@@ -24,13 +24,8 @@ GltfChunks split_gltf(const Bytes& bytes, const std::string& file);
 /// True for "data:...".
 bool is_data_uri(std::string_view uri);
 
-struct DataUri {
-    std::string media_type;
-    Bytes bytes;
-};
-
 /// Decodes a base64 data URI. @throws InputError
-DataUri decode_data_uri(std::string_view uri, const std::string& file, const std::string& place);
+Bytes decode_data_uri(std::string_view uri, const std::string& file, const std::string& place);
 
 /// Replaces escapes such as "%20" by their bytes. @throws InputError for a broken escape
 std::string percent_decode(std::string_view uri, const std::string& file, const std::string& place);

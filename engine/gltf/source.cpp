@@ -34,7 +34,7 @@ Bytes load_buffer(const GltfSource& source, std::size_t i, const GltfChunks& chu
     }
     const std::string& uri = buffer["uri"].get_ref<const std::string&>();
     if (is_data_uri(uri)) {
-        bytes = decode_data_uri(uri, source.file, place + "/uri").bytes;
+        bytes = decode_data_uri(uri, source.file, place + "/uri");
     } else {
         bytes = read_regular_file(resolve_file_uri(uri, source.folder, source.file, place + "/uri"), source.file,
                                   place + "/uri");
@@ -144,7 +144,7 @@ EncodedImage load_encoded_image(const GltfSource& source, std::size_t i) {
         const auto begin = source.buffers[view.buffer].begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
         encoded.bytes.assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
     } else if (const auto& uri = image["uri"].get_ref<const std::string&>(); is_data_uri(uri)) {
-        encoded.bytes = decode_data_uri(uri, source.file, place + "/uri").bytes;
+        encoded.bytes = decode_data_uri(uri, source.file, place + "/uri");
     } else {
         encoded.path = percent_decode(uri, source.file, place + "/uri");
         encoded.bytes = read_regular_file(resolve_file_uri(uri, source.folder, source.file, place + "/uri"),

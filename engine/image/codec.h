@@ -44,19 +44,13 @@ ChannelImage decode_exr(ByteView bytes, const std::string& name);
 /// @throws InputError
 std::optional<std::string> find_exr_text(const std::filesystem::path& path, const std::string& key);
 
-// Texts of whole files; see read_picture_text.
-// @throws InputError
+/// The text of a whole file; see read_picture_text.
+/// @throws InputError
 std::optional<std::string> find_png_text(ByteView bytes, const std::string& key);
-std::optional<std::string> find_hdr_text(ByteView bytes, const std::string& key);
 
 /// read_image on bytes. PNG and JPEG carry the metadata `encoding` = "sRGB".
 /// @throws InputError (file = name)
 ChannelImage decode_image(ByteView bytes, const std::string& name);
-
-/// write_hdr in memory.
-/// @param changed  set to the number of values that the format cannot hold
-/// @throws InputError (file empty)
-std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed, const PictureTexts& texts = {});
 
 /// @throws InputError (file empty)
 std::string encode_png(const Image<Rgb>& linear, const PictureTexts& texts = {});

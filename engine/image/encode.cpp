@@ -1,5 +1,4 @@
-// 8-bit PNG files, and Radiance pictures (.hdr): RGBE, three mantissas of 8 bits with one exponent (Ward 1991, "Real
-// Pixels", Graphics Gems II).
+// 8-bit PNG and JPEG files.
 
 #include <fmt/format.h>
 
@@ -13,32 +12,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr float too_large = 0x1p127f;  // the exponent has a byte, with 128 for 1
-constexpr float largest = 0xffp119f;
-
-/// @param changed  increased by the values that the format cannot hold
-Rgb replace_unfit(const Rgb& given, std::size_t& changed) {
-    Rgb fit = given;
-    for (int c = 0; c < 3; ++c) {
-        if (given[c] >= 0.0f && given[c] < too_large) continue;
-        fit[c] = given[c] > 0.0f ? largest : 0.0f;  // NaN gives 0
-        ++changed;
-    }
-    return fit;
-}
-
-/// The nearest that the format holds; encoders cut the rest off.
-Rgb round_to_rgbe(const Rgb& color) {
-    const float brightest = largest_channel(color);
-    if (brightest < 0x1p-120f) return Rgb(0.0f);
-    int exponent = 0;
-    std::frexp(brightest, &exponent);
-    const auto round = [&](float v) {
-        return std::min(std::ldexp(std::nearbyint(std::ldexp(v, 8 - exponent)), exponent - 8), largest);
-    };
-    return {round(color.x), round(color.y), round(color.z)};
-}
 
 /// sRGB of [0,1] in 0 .. 255, rounded. Values outside are clamped; NaN gives 0.
 std::uint8_t encode_srgb8(float linear) {
@@ -62,23 +35,10 @@ std::string encode_srgb(const Image<Rgb>& linear, const std::string& format, Pic
         encoded.pixels[i] = {encode_srgb8(c.x), encode_srgb8(c.y), encode_srgb8(c.z)};
     }
     attributes["oiio:ColorSpace"] = "sRGB";
-    return encode({format, linear.width, linear.height, 3, PixelType::bytes, encoded.pixels.data(), attributes});
+    return encode({format, linear.width, linear.height, 3, encoded.pixels.data(), attributes});
 }
 
 }  // namespace
-
-std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed, const PictureTexts& texts) {
-    check_size(linear.width, linear.height, "");
-    changed = 0;
-    Image<Rgb> encoded(linear.width, linear.height);
-    for (std::size_t i = 0; i < linear.size(); ++i)
-        encoded.pixels[i] = round_to_rgbe(replace_unfit(linear.pixels[i], changed));
-    std::string bytes = encode({"hdr", linear.width, linear.height, 3, PixelType::floats, encoded.pixels.data(), {}});
-    // OpenImageIO writes no comments. They follow the first line.
-    std::string comments;
-    for (const auto& [key, text] : texts) comments += fmt::format("# {}={}\n", key, text);
-    return bytes.insert(bytes.find('\n') + 1, comments);
-}
 
 std::string encode_png(const Image<Rgb>& linear, const PictureTexts& texts) {
     return encode_srgb(linear, "png", texts);
@@ -96,7 +56,7 @@ std::string encode_png(const Image<glm::u8vec4>& bytes) {
     packed.reserve(bytes.size() * static_cast<std::size_t>(channels));
     for (const glm::u8vec4& texel : bytes.pixels)
         for (int c = 0; c < channels; ++c) packed.push_back(texel[c]);
-    return encode({"png", bytes.width, bytes.height, channels, PixelType::bytes, packed.data(), {}});
+    return encode({"png", bytes.width, bytes.height, channels, packed.data(), {}});
 }
 
 }  // namespace aleph

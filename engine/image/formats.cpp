@@ -91,17 +91,6 @@ std::optional<std::string> find_png_text(ByteView bytes, const std::string& key)
     return std::nullopt;
 }
 
-std::optional<std::string> find_hdr_text(ByteView bytes, const std::string& key) {
-    decode_image(bytes, "");  // the file is whole
-    const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const std::string_view header = all.substr(0, all.find("\n\n"));
-    const std::string comment = "\n# " + key + "=";
-    const std::size_t at = header.find(comment);
-    if (at == std::string_view::npos) return std::nullopt;
-    const std::string_view text = header.substr(at + comment.size());
-    return std::string(text.substr(0, text.find('\n')));
-}
-
 std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name) {
     // Segments (ITU-T T.81, annex B): 0xff, marker, length of two bytes that counts itself, data.
     std::vector<std::uint8_t> kept(bytes.begin(), bytes.begin() + 2);

@@ -52,19 +52,11 @@ void write_jpeg(const std::filesystem::path& path, const Image<Rgb>& linear, int
     write_file(path, encode_for(path, [&] { return encode_jpeg(linear, quality); }));
 }
 
-std::size_t write_hdr(const std::filesystem::path& path, const Image<Rgb>& linear, const PictureTexts& texts) {
-    std::size_t changed = 0;
-    write_file(path, encode_for(path, [&] { return encode_hdr(linear, changed, texts); }));
-    return changed;
-}
-
 std::optional<std::string> read_picture_text(const std::filesystem::path& path, const std::string& key) {
     try {
         if (lower_extension(path) == ".exr") return find_exr_text(path, key);
         const Bytes bytes = read_bytes(path);
-        const std::optional<ImageFormat> format = detect_format(bytes);
-        if (format == ImageFormat::png) return find_png_text(bytes, key);
-        if (format == ImageFormat::hdr) return find_hdr_text(bytes, key);
+        if (detect_format(bytes) == ImageFormat::png) return find_png_text(bytes, key);
     } catch (const InputError&) {  // not whole
     }
     return std::nullopt;

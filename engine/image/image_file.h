@@ -40,7 +40,7 @@ struct ChannelImage {
 /// @throws OutputError naming the file
 void write_exr(const std::filesystem::path& path, const ChannelImage& image);
 
-/// Text beside the pixels of PNG and HDR files, by key: ASCII, one line each, keys of at most 79 bytes.
+/// Text beside the pixels of PNG files, by key: ASCII, one line each, keys of at most 79 bytes.
 using PictureTexts = std::map<std::string, std::string>;
 
 /// Writes 8-bit sRGB: clamped to [0,1], NaN as 0, rounded.
@@ -52,15 +52,7 @@ void write_png(const std::filesystem::path& path, const Image<Rgb>& linear, cons
 /// @throws OutputError naming the file
 void write_jpeg(const std::filesystem::path& path, const Image<Rgb>& linear, int quality);
 
-/// Writes a Radiance picture (RGBE). Each pixel has one exponent and 8 bits per channel, so that a value is off by up
-/// to 1/256 of the pixel's largest channel: a small channel beside a large one becomes 0. Values below 0 and NaN are
-/// written as 0, those above 1.7e38 as that.
-/// @param texts  comments "# KEY=TEXT"
-/// @return how many values were below 0, NaN or too large
-/// @throws OutputError naming the file
-std::size_t write_hdr(const std::filesystem::path& path, const Image<Rgb>& linear, const PictureTexts& texts = {});
-
-/// Returns the text with this key of an EXR file (an attribute), PNG or HDR file. Nothing where there is no such file,
+/// Returns the text with this key of an EXR file (an attribute) or PNG file. Nothing where there is no such file,
 /// no such text, or where the file is cut; decodes no more of an EXR file than its last rows.
 std::optional<std::string> read_picture_text(const std::filesystem::path& path, const std::string& key);
 

@@ -16,9 +16,8 @@ enum class PixelType { bytes, floats };
 using PixelPlace = std::function<void*(int width, int height, int channels)>;
 
 struct EncodedPicture {
-    std::string format;  ///< "png", "jpg" or "hdr"
+    std::string format;  ///< "png" or "jpg"
     int width = 0, height = 0, channels = 0;
-    PixelType type = PixelType::bytes;
     const void* pixels = nullptr;  ///< row by row, channels together; alpha is not multiplied in
     PictureTexts attributes;       ///< by OpenImageIO's names, or texts of a PNG file
 };

@@ -39,7 +39,7 @@ std::string decode(ByteView bytes, const std::string& format, PixelType type, co
 std::string encode(const EncodedPicture& picture, std::string& bytes) {
     const auto output = OIIO::ImageOutput::create(picture.format);
     if (!output) return "OpenImageIO cannot write " + picture.format + ": " + OIIO::geterror();
-    OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, type_of(picture.type));
+    OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
     if (picture.channels == 4) spec.attribute("oiio:UnassociatedAlpha", 1);  // else colours are divided by alpha
     for (const auto& [key, text] : picture.attributes) spec.attribute(key, text);
     std::vector<unsigned char> written;

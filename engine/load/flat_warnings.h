@@ -1,5 +1,5 @@
 #pragma once
-// Warnings about objects without volume, which rays leave out (RayScene::skipped_instances).
+// Warnings about objects without volume, which rays leave out (RayScene::update).
 
 #include "engine/load/scene_format.h"
 

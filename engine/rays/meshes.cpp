@@ -16,16 +16,6 @@
 namespace aleph {
 namespace {
 
-std::size_t count_degenerate(const Mesh& mesh) {
-    std::size_t count = 0;
-    for (const glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-        const glm::dvec3 n = glm::cross(b - a, c - a);
-        if (!(glm::dot(n, n) > 0.0)) ++count;
-    }
-    return count;
-}
-
 void check_mesh(const Mesh& mesh, std::size_t index) {
     const std::string place = fmt::format("mesh {} \"{}\"", index, printable(mesh.name));
     for (const glm::vec3& p : mesh.positions) {
@@ -174,10 +164,7 @@ MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::un
     const FlushDenormals flush;
     if (rtcGetDeviceProperty(device->handle(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) packet_width = 8;
     if (rtcGetDeviceProperty(device->handle(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) packet_width = 16;
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        check_mesh(scene.meshes[i], i);
-        degenerate_triangles += count_degenerate(scene.meshes[i]);
-    }
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) check_mesh(scene.meshes[i], i);
     cutouts.resize(scene.meshes.size());
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         if (!has_cutout(scene, scene.meshes[i])) continue;

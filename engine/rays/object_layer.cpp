@@ -80,8 +80,6 @@ bool ObjectLayer::place(std::size_t index, const PlacedTree& object, const glm::
         object.tree->bounds().add_corners_to(bounds, placed);
         enabled = is_below(bounds, max_coordinate);
     }
-    skipped_ = skipped_ + (state.shown && !enabled ? 1 : 0) - (placement.skipped ? 1 : 0);
-    placement.skipped = state.shown && !enabled;
     const bool same =
         !state.changed && world == placement.world && place == placement.place && placement.object == object;
     if (enabled == placement.enabled && (!enabled || same)) return false;

@@ -24,7 +24,6 @@ struct Placement {
     glm::dvec3 place{0.0};  ///< of the object's origin, m, relative to the anchor
     Bounds bounds;          ///< m, relative to the anchor
     bool enabled = false;
-    bool skipped = false;  ///< shown, but no ray can meet it
 };
 
 struct ObjectState {
@@ -42,7 +41,6 @@ class ObjectLayer {
 
     std::size_t size() const { return placements_.size(); }
     std::size_t enabled() const { return enabled_; }
-    std::size_t skipped() const { return skipped_; }
     const TreeExtent& extent() const { return extent_; }
     const Placement& placement(unsigned index) const { return placements_[index]; }
     RTCScene scene() const { return scene_.get(); }
@@ -56,7 +54,7 @@ class ObjectLayer {
   private:
     const EmbreeDevice& device_;
     std::vector<Placement> placements_;
-    std::size_t enabled_ = 0, skipped_ = 0;
+    std::size_t enabled_ = 0;
     TreeExtent extent_;
     EmbreeGeometry geometry_;
     EmbreeScene scene_;

@@ -109,12 +109,6 @@ bool RayScene::is_flat(int instance) const {
 const glm::dvec3& RayScene::flat_origin() const {
     return state_->meshes->flat.origin;
 }
-std::size_t RayScene::degenerate_triangles() const {
-    return state_->meshes->degenerate_triangles;
-}
-std::size_t RayScene::skipped_instances() const {
-    return state_->moving->skipped() + state_->still->skipped();
-}
 std::uint64_t RayScene::rays_traced() const {
     return state_->rays_traced.load();
 }

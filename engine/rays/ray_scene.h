@@ -32,7 +32,7 @@ bool are_traceable(const std::vector<glm::dvec3>& positions);
 class RayScene {
   public:
     /// Builds the structures of every rigid mesh; those of deforming meshes are built by the first update. What stands
-    /// still is put into one tree (flat_plan.h). Degenerate triangles are left out and counted.
+    /// still is put into one tree (flat_plan.h). No ray meets triangles without area.
     /// @throws InputError for a mesh that cannot be traced; std::bad_alloc, also from Embree
     /// @param plan  make_pose_plan(scene); only read during the call
     RayScene(const Scene& scene, const PosePlan& plan);
@@ -46,7 +46,7 @@ class RayScene {
     /// Places the instances as in a pose of the scene that this was made for. Those that cannot move by their tracks
     /// are skipped, so that the cost follows what moves (all if the anchor moved); of the others only those are touched
     /// whose transform, points or visibility changed. Instances that are not traceable (a scale of 0, points that are
-    /// not finite) are left out and counted.
+    /// not finite) are left out.
     /// @return number of instances touched
     /// @throws std::bad_alloc, also from Embree; after that this can only be destroyed
     std::size_t update(const ScenePose& posed, const glm::dvec3& anchor);
@@ -56,8 +56,6 @@ class RayScene {
     /// relative to flat_origin (m, world), not to its object's. Rounding of a hit follows that distance.
     bool is_flat(int instance) const;
     const glm::dvec3& flat_origin() const;
-    std::size_t degenerate_triangles() const;
-    std::size_t skipped_instances() const;
     /// Number of rays traced, and of invalid ones (NaN, infinite, out of range), which count as misses.
     std::uint64_t rays_traced() const;
     std::uint64_t invalid_rays() const;

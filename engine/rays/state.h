@@ -55,7 +55,6 @@ struct MeshStructures {
     std::vector<DeformingMesh> deforming;
     bool any_cutout = false;
     bool any_blended = false;  ///< of the cutouts
-    std::size_t degenerate_triangles = 0;
 };
 
 struct RayScene::State {

@@ -38,8 +38,7 @@ struct Shape {
 struct PointCache {
     std::string name;
     TimeSampling sampling;
-    std::vector<std::vector<glm::vec3>> positions;   ///< m, object space; at least one sample; linear between them
-    std::vector<std::vector<glm::vec3>> velocities;  ///< m/s; empty or as `positions`; not used by the renderer
+    std::vector<std::vector<glm::vec3>> positions;  ///< m, object space; at least one sample; linear between them
     int include = no_index;
 
     std::size_t point_count() const { return positions.empty() ? 0 : positions.front().size(); }

@@ -70,20 +70,6 @@ int add_points(SceneReader& reader, const JsonRef& at, const std::string& name) 
         cache.positions.push_back(read_vectors<glm::vec3>(at));
     } else {
         cache.sampling = read_point_samples(at, reader.scene.film.frame_rate, cache.positions);
-        if (const auto velocities = at.find("velocities")) {
-            for (std::size_t i = 0; i < velocities->array_size(); ++i) {
-                const JsonRef sample = (*velocities)[i];
-                cache.velocities.push_back(read_vectors<glm::vec3>(sample));
-                if (cache.velocities.back().size() != cache.point_count()) {
-                    sample.fail(fmt::format("has {} velocities for {} points", cache.velocities.back().size(),
-                                            cache.point_count()));
-                }
-            }
-            if (cache.velocities.size() != cache.positions.size()) {
-                velocities->fail(fmt::format("has {} lists, one for each of {} keys was expected",
-                                             cache.velocities.size(), cache.positions.size()));
-            }
-        }
     }
     if (cache.point_count() == 0) at.fail("has no points");
     return SceneReader::add(std::move(cache), reader.scene.point_caches, reader.names.points);

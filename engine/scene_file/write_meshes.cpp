@@ -37,11 +37,8 @@ void write_word(ordered_json& out, const char* key, const Words& words, Word wor
 }  // namespace
 
 ordered_json write_points(const PointCache& cache, const FrameRate& rate) {
-    const bool constant = cache.positions.size() == 1 && cache.sampling == TimeSampling{} && cache.velocities.empty();
-    if (constant) return write_vectors(cache.positions.front());
-    ordered_json out = write_samples_of_points(cache.sampling, cache.positions, rate);
-    for (const auto& sample : cache.velocities) out["velocities"].push_back(write_vectors(sample));
-    return out;
+    if (cache.positions.size() == 1 && cache.sampling == TimeSampling{}) return write_vectors(cache.positions.front());
+    return write_samples_of_points(cache.sampling, cache.positions, rate);
 }
 
 ordered_json write_shape(const Shape& shape) {

@@ -75,7 +75,6 @@ class DirectGrid {
     /// The cells that have samples, to go on with in another process.
     std::vector<Cell> save() const;
     void restore(const std::vector<Cell>& cells);
-    std::size_t size() const { return used_; }  ///< number of cells
 
   private:
     Cell& place_of(std::uint64_t key);

@@ -45,12 +45,10 @@ struct IrradianceGradients {
 struct IrradianceSample {
     Rgb irradiance{0.0f};  ///< of reflected light, without light straight from the lights
     IrradianceGradients gradients{};
-    float harmonic_mean_distance = 0.0f;  ///< m (Yee 2000, eq. 6.5); infinite if no ray hit anything
     /// m, to the nearest surface met, the point's own left out; infinite if no ray hit anything.
     float nearest_distance = std::numeric_limits<float>::infinity();
     FreeSpace space{};
-    int rays = 0;               ///< that were spent, those below the true surface included
-    int ignored_distances = 0;  ///< hits of the point's own surface, left out of the mean
+    int rays = 0;  ///< that were spent, those below the true surface included
     /// Standard error of the irradiance's luminance over the luminance, estimated from this one gather; 0 if all is
     /// dark, infinite if there are too few cells to tell.
     float relative_error = 0.0f;

@@ -89,19 +89,12 @@ float shortest_true_distance(GatherScratch& scratch) {
     return share * *middle;
 }
 
-/// The harmonic mean (Yee 2000, eq. 6.5) in double, where the inverse of an infinite distance is 0, and the nearest.
-void set_distances(const std::vector<float>& distances, float shortest, IrradianceSample& out) {
-    double sum = 0.0;
-    for (const float d : distances) {
-        if (d < shortest) {
-            ++out.ignored_distances;
-        } else {
-            sum += 1.0 / d;
-            out.nearest_distance = std::min(out.nearest_distance, d);
-        }
-    }
-    const double mean = static_cast<double>(std::ssize(distances) - out.ignored_distances) / sum;
-    out.harmonic_mean_distance = sum > 0.0 ? static_cast<float>(mean) : infinite;
+/// The nearest of the distances that count.
+float find_nearest(const std::vector<float>& distances, float shortest) {
+    float nearest = infinite;
+    for (const float d : distances)
+        if (d >= shortest) nearest = std::min(nearest, d);
+    return nearest;
 }
 
 /// Distances to what may stand between this point and a neighbour: along the tangent plane from the rows next to the
@@ -196,7 +189,7 @@ float estimate_relative_error(const HemisphereStrata& strata, GatherScratch& scr
 void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, GatherScratch& scratch,
                           IrradianceSample& out) {
     const float shortest = shortest_true_distance(scratch);
-    set_distances(scratch.distances, shortest, out);
+    out.nearest_distance = find_nearest(scratch.distances, shortest);
     set_clearance(strata, basis, scratch, shortest, out);
     add_gradients(strata, basis, scratch, std::max(shortest, min_distance), out);
     out.relative_error = estimate_relative_error(strata, scratch);

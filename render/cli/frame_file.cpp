@@ -6,7 +6,6 @@
 
 #include "engine/image/image_file.h"
 #include "render/cli/support/output_path.h"
-#include "render/output/flow_file.h"
 #include "render/output/frame_files.h"
 #include "render/output/map_preview.h"
 #include "render/settings/fingerprint.h"
@@ -42,20 +41,14 @@ std::filesystem::path partial_file(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
-                        bool importance, const std::string& fingerprint) {
+void write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
+                 bool importance, const std::string& fingerprint) {
     StageClock clock;
-    std::size_t changed = 0;
     const PictureTexts texts{{fingerprint_key, fingerprint}};
-    const OutputFormat format = output_format(path);
-    if (format == OutputFormat::flow) {
-        write_flow(path, output.motion);
-    } else if (importance) {
+    if (importance) {
         write_importance(path, output, texts);
-    } else if (format == OutputFormat::exr) {
+    } else if (output_format(path) == OutputFormat::exr) {
         write_exr(path, with_texts(make_frame_image(output, maps, job.scene, job.settings, job.exposure), texts));
-    } else if (format == OutputFormat::hdr) {
-        changed = write_hdr(path, output.shaded.color, texts);
     } else if (output.shaded.color.empty()) {
         write_map_preview(path, output, texts);
     } else {
@@ -64,7 +57,6 @@ std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, 
     StageSeconds& seconds = output.statistics.seconds;
     clock.add_to(seconds.write);
     seconds.total += seconds.write;
-    return changed;
 }
 
 void remove_unfinished(const std::filesystem::path& file) {
@@ -75,10 +67,10 @@ void remove_unfinished(const std::filesystem::path& file) {
 
 void write_partial(const std::filesystem::path& file, const Image<Rgb>& color) {
     const std::filesystem::path partial = partial_file(file);
-    const OutputFormat format = output_format(file);
-    if (format == OutputFormat::png) write_png(partial, color);
-    if (format == OutputFormat::hdr) write_hdr(partial, color);
-    if (format == OutputFormat::exr) write_exr(partial, make_color_image(color));
+    if (output_format(file) == OutputFormat::png)
+        write_png(partial, color);
+    else
+        write_exr(partial, make_color_image(color));
 }
 
 }  // namespace aleph

@@ -1,7 +1,6 @@
 #pragma once
 // The file of one frame, and what lies beside it while the frame is made.
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -12,10 +11,9 @@ namespace aleph {
 /// Writes a frame, and adds the time for it to the frame's statistics.
 /// @param importance   one picture in place of the maps
 /// @param fingerprint  kept in the file
-/// @return how many values the format could not hold
 /// @throws OutputError
-std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
-                        bool importance, const std::string& fingerprint);
+void write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
+                 bool importance, const std::string& fingerprint);
 
 /// Writes the picture so far beside the frame's file, as "name.0020.partial.exr".
 /// @throws OutputError

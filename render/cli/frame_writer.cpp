@@ -20,14 +20,6 @@ namespace aleph {
 
 namespace {
 
-void warn_of_changed_values(std::size_t count) {
-    if (count == 0) return;
-    std::cerr << fmt::format(
-        "aleph: warning: {} values were below 0, NaN or too large for .hdr files, and were changed; write .exr to keep "
-        "them\n",
-        count);
-}
-
 /// Thresholds of vision are in cd/m2. In a scene of another unit every pixel is above or below all of them.
 void warn_of_units(const FrameStatistics& frame) {
     const double median = frame.estimate.median_luminance;
@@ -134,7 +126,6 @@ void FrameWriter::finish() {
     keep_rows();
     statistics_.finish();
     if (options_.quiet) return;
-    warn_of_changed_values(changed_);
     std::cerr << describe_copies(made_);
     print_files();
 }
@@ -193,7 +184,7 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
     FrameOutput output = job_.make(frame, watched);
     if (job_.keep_light) job_.keep_light();
     statistics_.note(output.statistics, fingerprint);
-    changed_ += write_frame(file, job_, output, request_.maps, options_.importance, fingerprint);
+    write_frame(file, job_, output, request_.maps, options_.importance, fingerprint);
     remove_unfinished(file);
     if (options_.watch != nullptr && options_.film.empty()) options_.watch->show(file);
     statistics_.add(place, output.statistics, fingerprint);

@@ -75,7 +75,6 @@ class FrameWriter {
     std::vector<FinishedFrame> made_;
     std::vector<std::size_t> kept_;  ///< places of frames that others made
     double done_ = 0.0;              ///< frames
-    std::size_t changed_ = 0;
     std::vector<double> estimates_;  ///< of the frames that tell
 };
 

@@ -207,7 +207,6 @@ constexpr const char* after_channels =
     "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
     "  aleph maps scenes/pool/scene.json --frames 20 -o maps.png      six maps in one picture, to look at\n"
     "  aleph maps --images 'shot/frame.####.png' --fps 24 -o maps/\n"
-    "  aleph maps scenes/pool/scene.json -o motion.####.flo           motion in Middlebury's format\n"
     "  aleph maps --images 'shot/frame.####.png' --motion census -o maps/   motion as the thesis finds it\n"
     "  aleph maps --images 'quick.####.exr' --importance -o importance.####.png\n"
     "  aleph maps --images 'blender.####.exr' --layer ViewLayer.Combined -o maps/\n"

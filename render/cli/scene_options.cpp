@@ -178,15 +178,15 @@ void add_shot_options(CLI::App& app, SceneOptions& options, const std::string& o
 void add_scene_options(CLI::App& app, SceneOptions& options) {
     add_shot_options(
         app, options,
-        "output files: name.####.exr, .png or .hdr (#### is the frame number), or a folder; missing folders are made; "
-        "HDR keeps 8 bits per channel beside the pixel's brightest; name.mp4, .mov, .webm or .gif: a film, made by the "
-        "program ffmpeg; default: SCENE.####.exr, or SCENE-maps.####.exr, in the current folder");
+        "output files: name.####.exr or .png (#### is the frame number), or a folder; missing folders are made; "
+        "name.mp4, .mov, .webm or .gif: a film, made by the program ffmpeg; default: SCENE.####.exr, or "
+        "SCENE-maps.####.exr, in the current folder");
     add_text(app, "--fps", "N", options.fps, "frames per second, such as 30 or 30000/1001; default: the scene's");
     add_text(app, "--stats", "FILE.json", options.stats,
              "write counts and times of every frame as JSON; while frames are made, the file has the finished ones");
     app.add_flag("--resume", options.resume,
                  "keep frames whose files are whole and have the fingerprint of this scene, these settings and this "
-                 "program; several processes with the same command divide the frames (EXR, PNG, HDR)");
+                 "program; several processes with the same command divide the frames");
     add_setting_options(app, options.settings);
 }
 

@@ -22,20 +22,8 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
                            const std::string& cache) {
     if (!options.film.empty()) film_rate(options, prepared.frames, prepared.scene.film.frame_rate);
     const std::filesystem::path path = output_path(options.output, prepared.name, prepared.frames.front());
-    const OutputFormat format = output_format(path);
-    if (format == OutputFormat::flow && (request.frame || options.importance)) {
-        throw InputError("--output", printable(options.output), "only `aleph maps` writes motion as .flo, by itself");
-    }
-    if (format == OutputFormat::flow && options.resume) {
-        throw InputError("--resume", printable(options.output),
-                         ".flo files cannot tell what they were made from; write .exr or .png");
-    }
-    const bool instead = (format == OutputFormat::png || format == OutputFormat::flow) && !request.frame;
-    if (request.maps && format != OutputFormat::exr && !instead) {
-        throw InputError("--output", printable(options.output),
-                         fmt::format("{} cannot hold the channels of maps; write .exr{}",
-                                     format == OutputFormat::png ? "PNG" : "HDR",
-                                     request.frame ? "" : ", or .png to look at them, or .flo for motion alone"));
+    if (request.maps && request.frame && output_format(path) == OutputFormat::png) {
+        throw InputError("--output", printable(options.output), "PNG cannot hold the channels of maps; write .exr");
     }
     std::vector<OutputFile> outputs;
     if (!options.stats.empty()) outputs.push_back({options.stats, "--stats"});

@@ -26,7 +26,7 @@ FramePrints fingerprint_frames(const PreparedScene& prepared, const SceneOptions
 std::string describe_content(const SceneOptions& options, const FrameRequest& request);
 
 /// Checks and tries --output, --stats and --cache, and makes their folders; called before anything is computed.
-/// @param maps  the files have channels of maps, which PNG and HDR cannot hold
+/// @param maps  the files have channels of maps, which PNG cannot hold beside a picture
 /// @throws InputError (--output; a file that is read or written twice), OutputError
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
                            const std::string& cache = "");

@@ -161,7 +161,6 @@ ImageSequence::ImageSequence(Scene shot, std::map<std::int64_t, PictureFrame> pi
 }
 
 ImageSequence::~ImageSequence() = default;
-ImageSequence::ImageSequence(ImageSequence&&) noexcept = default;
 
 FrameOutput ImageSequence::compute_maps(std::int64_t frame) {
     State& s = *state_;

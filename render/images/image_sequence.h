@@ -32,7 +32,6 @@ class ImageSequence {
     /// @throws InputError: as above, if there are none, or if their sizes differ
     ImageSequence(Scene shot, std::map<std::int64_t, PictureFrame> pictures, const RenderSettings& settings);
     ~ImageSequence();
-    ImageSequence(ImageSequence&&) noexcept;
 
     /// Fills estimate (the picture, exposed and sanitized), motion, depth if the file has it, velocity, perception,
     /// alpha, threshold, statistics.

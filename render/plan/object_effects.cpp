@@ -115,7 +115,6 @@ void stop_deformation(Scene& scene) {
     }
     for (PointCache& cache : scene.point_caches) {
         cache.positions.resize(std::min<std::size_t>(cache.positions.size(), 1));
-        cache.velocities.clear();
         cache.sampling = {};
     }
 }

@@ -97,11 +97,7 @@ void save(const Frame& frame, const py::object& to) {
     const Image<Rgb>& color = frame.output.shaded.color;
     if (color.empty()) throw InputError(path.string(), "save", "the frame has maps only, and no picture: write .exr");
     if (ending == ".png") return write_png(path, color);
-    if (ending == ".hdr") {
-        write_hdr(path, color);
-        return;
-    }
-    throw InputError(path.string(), "save", "the name has to end in .exr, .png or .hdr");
+    throw InputError(path.string(), "save", "the name has to end in .exr or .png");
 }
 
 }  // namespace
@@ -126,7 +122,7 @@ void bind_frames(py::module_& module) {
             "plan", [](const py::object& self) -> py::object { return self.attr("statistics")["plan"]; },
             "The effects plan: for each effect its decision, reason and bound.")
         .def("save", &save, py::arg("path"),
-             "Writes the picture as .png or .hdr, or the picture and all maps as .exr (`aleph maps --help` has the "
+             "Writes the picture as .png, or the picture and all maps as .exr (`aleph maps --help` has the "
              "channels).")
         .def("__repr__",
              [](const Frame& f) { return "<aleph.Frame " + std::to_string(f.output.statistics.frame) + ">"; });

@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// The EXR attribute, or the text of a PNG or HDR file, with the fingerprint of a frame.
+/// The EXR attribute, or the text of a PNG file, with the fingerprint of a frame.
 inline constexpr const char* fingerprint_key = "aleph:fingerprint";
 
 /// The version and the SHA-1 of the file that holds this code: the program, or the Python module.

@@ -76,10 +76,8 @@ void scale_lengths(Scene& scene, double factor) {
         scale_points(mesh.positions, factor);
         for (MorphTarget& target : mesh.deformation.targets) scale_points(target.positions, factor);
     }
-    for (PointCache& cache : scene.point_caches) {
+    for (PointCache& cache : scene.point_caches)
         for (auto& sample : cache.positions) scale_points(sample, factor);
-        for (auto& sample : cache.velocities) scale_points(sample, factor);
-    }
     for (Skin& skin : scene.skins)
         for (glm::dmat4& bind : skin.inverse_binds) scale_column(bind, factor);
     for (Material& material : scene.materials) {

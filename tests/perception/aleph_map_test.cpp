@@ -7,6 +7,7 @@
 #include "perception/vision/kelly_vision.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
+#include "tests/support/vision_formulas.h"
 
 namespace aleph {
 namespace {
@@ -69,7 +70,7 @@ TEST(RetinalVelocityRow, AgreesWithTheDoubleFormula) {
     std::vector<float> out(velocity.size());
     retinal_velocity_row(velocity.data(), saliency.data(), static_cast<int>(out.size()), out.data());
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const double exact = retinal_velocity(velocity[i], saliency[i]);
+        const double exact = written_retinal_velocity(velocity[i], saliency[i]);
         ASSERT_NEAR(out[i], exact, 1e-6 * (exact + 1)) << velocity[i] << " " << saliency[i];
         ASSERT_GE(out[i], 0.15f);
     }
@@ -127,7 +128,7 @@ TEST(Perception, OutputsAreThoseAskedFor) {
             EXPECT_GT(mean_of(*map), 0.0);
         }
         for (std::size_t i = 0; i < all.aleph.size(); ++i) {
-            const double v = retinal_velocity(frame.velocity.pixels[i], all.saliency.pixels[i]);
+            const double v = written_retinal_velocity(frame.velocity.pixels[i], all.saliency.pixels[i]);
             ASSERT_NEAR(all.retinal_velocity.pixels[i], v, 1e-5 * v);
         }
     }

@@ -8,6 +8,7 @@
 #include "perception/vision/display_hold.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
+#include "tests/support/vision_formulas.h"
 
 namespace aleph {
 namespace {
@@ -83,8 +84,8 @@ TEST(CastleMap, IsTheSumOfTheBandsElevations) {
         const PerceptionSettings settings{.guide = Guide::full, .vision = &castle_vision()};
         const PerceptionMaps maps = compute_perception(flat, velocity, {}, {}, settings);
         const double s = tracking_efficiency;
-        const double expected =
-            castle_elevation(0.25, retinal_velocity(speed, s), tracked_velocity(speed, s), 50.0, 1.0, {});
+        const double expected = castle_elevation(0.25, written_retinal_velocity(speed, s),
+                                                 written_tracked_velocity(speed, s), 50.0, 1.0, {});
         EXPECT_NEAR(maps.aleph(20, 15) / expected, 1.0, 2e-3) << speed;
         EXPECT_NEAR(maps.adaptation(20, 15), 50.0, 1e-3);
     }

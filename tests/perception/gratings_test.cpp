@@ -155,7 +155,8 @@ TEST(Gratings, ScalarModelsAreTheWrittenFormulas) {
     const FrameRate frame_rate{};
     for (double rho = 16.0; rho >= 0.25; rho *= 0.5) {
         for (double v = 0.1; v < 200.0; v *= 1.3) {
-            const EyeMotion motion{.retinal = retinal_velocity(v, 0.82), .tracked = tracked_velocity(v, 0.82)};
+            const EyeMotion motion{.retinal = written_retinal_velocity(v, 0.82),
+                                   .tracked = written_tracked_velocity(v, 0.82)};
             const double thesis = written_elevation(&thesis_vision(), rho, motion);
             const double laird = written_elevation(&laird_vision(), rho, motion);
             EXPECT_NEAR(elevation(rho, motion.retinal) / thesis, 1.0, 1e-12) << rho << " " << v;

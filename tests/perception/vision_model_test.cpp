@@ -7,6 +7,7 @@
 #include "perception/vision/tvi.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
+#include "tests/support/vision_formulas.h"
 
 namespace aleph {
 namespace {
@@ -101,7 +102,7 @@ TEST(OwnVision, ReceivesLuminanceAndMotion) {
     const Image<Rgb> flat(40, 30, Rgb(0.5f));
     const PerceptionMaps maps =
         compute_perception(flat, Image<float>(40, 30, 10.0f), {}, {24, 1}, {.guide = Guide::full, .vision = &bright});
-    const double expected = 1.0 + 0.5 + retinal_velocity(10.0, 0.82) + 8.2 / 24.0;
+    const double expected = 1.0 + 0.5 + written_retinal_velocity(10.0, 0.82) + 8.2 / 24.0;
     for (const float aleph : maps.aleph.pixels) ASSERT_NEAR(aleph, expected, 1e-4);
     EXPECT_NEAR(compute_threshold(maps.aleph, maps.adaptation, bright)(20, 15), expected * 0.5, 1e-4);
 }

@@ -3,7 +3,6 @@
 
 #include "tests/scenes/hard_scenes.h"
 #include "engine/load/framing_camera.h"
-#include "engine/rays/ray_scene.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/test.h"
 
@@ -91,10 +90,6 @@ TEST(HardScenes, RC07_TheFirstOfCoplanarWins) {
         const double x = (static_cast<double>(i % 48) + 0.5 - 24.0) / pixels_per_unit * output.surface.depth.pixels[i];
         EXPECT_GT(x, 1.0 - 1e-6);
     }
-}
-TEST(HardScenes, RC09_DegenerateTrianglesAreCounted) {
-    const HardScene hard("slivers");
-    EXPECT_EQ(RayScene(hard.scene).degenerate_triangles(), 2u);
 }
 TEST(HardScenes, RC10_EmptySceneShowsItsEnvironment) {
     HardScene hard("empty");

@@ -19,7 +19,6 @@ struct WrittenKeys {
     std::vector<float> values;                            ///< row by row; cubic: rows of in-tangent, value, out-tangent
     std::size_t row = 1;                                  ///< numbers in a row
 
-    std::size_t byte_count() const { return (times.size() + values.size()) * sizeof(float); }
     /// True where the value never changes.
     bool is_constant() const;
     /// Adds a row. A rotation gets the sign that is near the row before it.

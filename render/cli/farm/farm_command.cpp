@@ -84,8 +84,6 @@ std::vector<std::string> prepare_job(const FarmOptions& options, FarmJob& job) {
     job.frames = options.scene.frames;
     const PreparedScene prepared = prepare_scene(parse_frame_command(job).options);
     const fs::path first = output_path(job.output, prepared.name, prepared.frames.front());
-    if (output_format(first) == OutputFormat::flow)
-        throw InputError("", "--output", ".flo files cannot tell what they were made from; write .exr, .png or .hdr");
     prepare_output(job.output, prepared.name, prepared.frames);
     job.frames = format_frame_list(prepared.frames);
     job.folder = fs::absolute(first).parent_path() / "farm";

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 std::optional<OutputFormat> find_format(const fs::path& path) {
     const std::string extension = lower_extension(path);
-    constexpr const char* known[] = {".exr", ".png", ".hdr", ".flo"};  // in the order of OutputFormat
+    constexpr const char* known[] = {".exr", ".png"};  // in the order of OutputFormat
     const auto found = std::ranges::find(known, extension);
     return found == std::end(known) ? std::nullopt : std::optional(static_cast<OutputFormat>(found - known));
 }
@@ -43,11 +43,10 @@ fs::path full_pattern(const std::string& pattern, const std::string& scene_name)
     find_number_field(path.filename().string(), "--output");  // its reasons come before the extension's
     if (find_format(path)) return path;
     if (names_film(pattern))
-        refuse_pattern(pattern,
-                       "films are written by `aleph render`, `maps` and `preview`; name .exr, .png or .hdr files");
+        refuse_pattern(pattern, "films are written by `aleph render`, `maps` and `preview`; name .exr or .png files");
     const std::string extension = path.extension().string();
-    refuse_pattern(pattern, fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/', for "
-                                        "motion .flo, and films: .mp4, .mov, .webm and .gif",
+    refuse_pattern(pattern, fmt::format("{}; possible are .exr and .png, or a folder, which ends in '/', and "
+                                        "films: .mp4, .mov, .webm and .gif",
                                         extension.find_first_of("#%") == std::string::npos && !extension.empty()
                                             ? fmt::format("the extension {} is not known", printable(extension))
                                             : "the name has no extension"));

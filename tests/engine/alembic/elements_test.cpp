@@ -71,13 +71,6 @@ TEST(AlembicSubdivision, CreasesCornersHolesAndRules) {
     for (const char* name : {"cage", "tetra"}) EXPECT_GT(mesh_of(scene, name).triangles.size(), 50u);
 }
 
-TEST(AlembicVelocities, OfTheWrongLengthAreLeftOut) {
-    const Scene scene =
-        load({draft_triangle("m", {draft_array<float>(".velocities", DraftProperty::f32, 3, {{1, 2, 3}})})});
-    EXPECT_TRUE(scene.point_caches[0].velocities.empty());
-    EXPECT_TRUE(has_warning(scene, "velocities do not fit"));
-}
-
 DraftObject draft_xform(const std::vector<DraftProperty>& properties) {
     return {"x", "schema=AbcGeom_Xform_v3", {draft_compound(".xform", properties)}, {}};
 }

@@ -8,7 +8,7 @@
 namespace aleph {
 namespace {
 
-TEST(BadGeometry, RC02_KF18_InstancesWithoutVolumeAreLeftOutAndCounted) {
+TEST(BadGeometry, RC02_KF18_InstancesWithoutVolumeAreLeftOut) {
     for (const glm::dvec3& scale :
          {glm::dvec3(0.0), glm::dvec3(not_a_number), glm::dvec3(1.0, 0.0, 1.0), glm::dvec3(1.0, 1.0, 1e-30),
           glm::dvec3(1.0, 1e-20, 1.0), glm::dvec3(1.0, 1.0, not_a_number), glm::dvec3(1e300), glm::dvec3(infinity)}) {
@@ -17,7 +17,7 @@ TEST(BadGeometry, RC02_KF18_InstancesWithoutVolumeAreLeftOutAndCounted) {
         scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, -1.0);
         scene.nodes[0].transform.scale = scale;
         RayScene rays = place(scene);
-        EXPECT_EQ(rays.skipped_instances(), 1u) << scale.x << " " << scale.y << " " << scale.z;
+        SCOPED_TRACE(testing::PrintToString(std::array{scale.x, scale.y, scale.z}));
         EXPECT_EQ(instance_at(rays, 0.3f, 0.2f), 1);
         EXPECT_EQ(instance_at(rays, 0.0f, 0.0f), 1);
     }
@@ -25,7 +25,6 @@ TEST(BadGeometry, RC02_KF18_InstancesWithoutVolumeAreLeftOutAndCounted) {
         Scene scene = make_sheet_scene(1);
         scene.nodes[0].transform.scale = glm::dvec3(scale);
         RayScene rays = place(scene);
-        EXPECT_EQ(rays.skipped_instances(), 0u);
         EXPECT_EQ(instance_at(rays, 0.0f, 0.0f), 0);
         EXPECT_EQ(instance_at(rays, 1e-15f, 0.0f), no_index);
     }
@@ -67,12 +66,11 @@ TEST(BadGeometry, RC08_ADeformingMeshIsLeftOutWhileItsPointsAreBad) {
         for (const auto& [seconds, instance] : {std::pair(0.0, 0), {1.0, no_index}, {2.0, 0}}) {
             rays.update(pose(scene, seconds), glm::dvec3(0.0));
             EXPECT_EQ(instance_at(rays, 0.3f, 0.2f), instance) << bad << " " << seconds;
-            EXPECT_EQ(rays.skipped_instances(), instance == no_index ? 1u : 0u);
         }
     }
 }
 
-TEST(BadGeometry, RC09_RC12_TrianglesWithoutAreaAreCountedAndNeverMet) {
+TEST(BadGeometry, RC09_RC12_TrianglesWithoutAreaAreNeverMet) {
     Scene scene = make_sheet_scene(1);
     Mesh& mesh = scene.meshes[0];
     const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
@@ -83,10 +81,8 @@ TEST(BadGeometry, RC09_RC12_TrianglesWithoutAreaAreCountedAndNeverMet) {
     add({0.5f, 0.5f, 1.0f}, {0.5f, 0.5f, 1.0f}, {0.5f, 0.5f, 1.0f});       // a point
     add({-0.5f, 0.5f, 1.0f}, {0.0f, 0.5f, 1.0f}, {0.5f, 0.5f, 1.0f});      // a line
     add({0.25f, 0.25f, 1.0f}, {0.25f, 0.25f, 1.0f}, {0.5f, 0.25f, 1.0f});  // two corners are one
-    EXPECT_EQ(RayScene(scene).degenerate_triangles(), 3u);
-    add({0.0f, 0.0f, 1.0f}, {3e-13f, 0.0f, 1.0f}, {0.0f, 3e-13f, 1.0f});  // 5e-26 m2: a float normal of length 0
+    add({0.0f, 0.0f, 1.0f}, {3e-13f, 0.0f, 1.0f}, {0.0f, 3e-13f, 1.0f});   // 5e-26 m2: a float normal of length 0
     RayScene rays = place(scene);
-    EXPECT_EQ(rays.degenerate_triangles(), 3u);
     Tracer tracer(rays);
     for (const auto& [x, y] : {std::pair(0.5f, 0.5f), {0.0f, 0.5f}, {0.25f, 0.25f}, {0.3f, 0.25f}}) {
         const Hit hit = tracer.intersect(ray_down(x, y));
@@ -103,7 +99,6 @@ TEST(BadGeometry, RC10_NoTrianglesAreNoGeometry) {
     scene.nodes[0].meshes = {0, 1};
     RayScene rays = place(scene);
     EXPECT_EQ(instance_at(rays, 0.0f, 0.0f), no_index);
-    EXPECT_EQ(rays.degenerate_triangles(), 0u);
 }
 
 TEST(BadGeometry, RC14_TrianglesAreKeptInBlocksOfTheirOwn) {

@@ -159,7 +159,6 @@ TEST(RayScene, KF19_TinyInstancesWithVolumeAreMet) {
         Scene scene = make_many();
         scene.nodes[0].transform.scale = glm::dvec3(scale);
         const Stage stage(scene);
-        EXPECT_EQ(stage.rays.skipped_instances(), 0u) << scale;
         Tracer tracer(stage.rays);
         const glm::vec3 anchor(stage.shading.anchor);
         // Rays of the largest valid size, too.
@@ -172,7 +171,6 @@ TEST(RayScene, KF19_TinyInstancesWithVolumeAreMet) {
         Scene scene = make_many();
         scene.nodes[0].transform.scale = glm::dvec3(scale);
         const Stage stage(scene);
-        EXPECT_EQ(stage.rays.skipped_instances(), 0u) << scale;
         const glm::vec3 beside = glm::vec3(1e-6f, 0.0f, 0.0f) - glm::vec3(stage.shading.anchor);
         EXPECT_NE(Tracer(stage.rays).intersect({beside, {0.0f, 0.0f, -1.0f}}).instance, 0) << scale;
     }
@@ -191,7 +189,6 @@ TEST(RayScene, KF19_ALargeMeshAtATinyScaleIsMet) {
                 keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
         RayScene rays(scene);
         rays.update(pose(scene, 0.0), glm::dvec3(0.0));
-        EXPECT_EQ(rays.skipped_instances(), 0u);
         const Hit hit = Tracer(rays).intersect({{0.2f, 0.1f, 5.0f}, {0.0f, 0.0f, -1.0f}});
         EXPECT_EQ(hit.instance, 0);
         EXPECT_NEAR(hit.distance, 4.5f, 1e-5f);

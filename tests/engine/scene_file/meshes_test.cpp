@@ -52,7 +52,7 @@ TEST(SceneJsonMeshes, KeyedPositionsMove) {
 TEST(SceneJsonMeshes, PointsAreSharedByMeshes) {
     const Scene scene =
         read(R"(, "points": {"cloth": {"values": [[0,0,0, 1,0,0, 0,1,0, 1,1,0], [0,0,1, 1,0,1, 0,1,1, 1,1,1]],
-        "period": 0.5, "unit": "seconds", "velocities": [[0,0,2, 0,0,2, 0,0,2, 0,0,2], [0,0,2, 0,0,2, 0,0,2, 0,0,2]]}},
+        "period": 0.5, "unit": "seconds"}},
         "meshes": {"a": {"shape": {"type": "mesh", "points": "cloth", "vertex_points": [0,1,2,1], "triangles": [0,1,2],
           "normals": {"values": [[0,0,1, 0,0,1, 0,0,1, 0,0,1], [1,0,0, 1,0,0, 1,0,0, 1,0,0]], "period": 15}}},
         "b": {"shape": {"type": "mesh", "points": "cloth", "positions": [9,9,9, 1,0,0, 0,1,0, 1,1,0], "triangles": [1,3,2]},
@@ -63,7 +63,6 @@ TEST(SceneJsonMeshes, PointsAreSharedByMeshes) {
     EXPECT_EQ(scene.meshes[0].deformation.normal_sampling.period, 0.5);
     EXPECT_EQ(scene.meshes[1].positions[0], glm::vec3(9, 9, 9)) << "a rest shape may differ from the first key";
     EXPECT_EQ(scene.meshes[1].present.values, (std::vector<double>{1.0, 0.0}));
-    EXPECT_EQ(scene.point_caches[0].velocities.size(), 2u);
     EXPECT_EQ(again(scene), scene);
 }
 
@@ -156,8 +155,6 @@ TEST(SceneJsonMeshes, WhatDoesNotFitTogetherIsRefusedAtItsPlace) {
         mesh("\"positions\": {\"keys\": [[0, [0,0,0]], [0, [0,0,0]]]}, \"triangles\": []", "/positions/keys/1/0",
              "ascend"),
         mesh("\"positions\": {\"values\": [[]]}, \"triangles\": []", "/positions", "no points"),
-        mesh("\"positions\": {\"values\": [[0,0,0]], \"velocities\": []}, \"triangles\": []", "/positions/velocities",
-             "one for each"),
         mesh("\"positions\": {\"values\": [[0,0,0]], \"interpolation\": \"cubic\"}, \"triangles\": []",
              "/positions/interpolation", "unknown key"),
         cage(faces + ", \"level\": 11", "/cage/level", "from 0 to 10"),

@@ -141,7 +141,6 @@ TEST(DirectGrid, SamplesAddUp) {
     }
     const DirectSample bad[] = {{7, Rgb(float_nan)}, {7, Rgb(float_infinity)}};
     grid.insert(bad);
-    EXPECT_EQ(grid.size(), cells);
     for (std::uint64_t i = 0; i < cells; ++i) {
         const DirectGrid::Cell& cell = grid.find(mix_bits(i) | 1);
         ASSERT_EQ(cell.count, 2u);
@@ -151,7 +150,6 @@ TEST(DirectGrid, SamplesAddUp) {
     DirectGrid single;
     const DirectSample one[] = {{5, Rgb(1.0f)}};
     single.insert(one);
-    EXPECT_EQ(single.size(), 1u);
     EXPECT_EQ(single.find(5).count, 1u);
 }
 

@@ -151,22 +151,6 @@ TEST(CommandLine, CS14_AnUnlikelyUnitOfLightGivesAWarning) {
     }
 }
 
-TEST(CommandLine, OU03_WhatHdrFilesCannotHoldIsCounted) {
-    const ScratchFolder folder;
-    // Red of 1e46, beyond single precision, in two frames of 48 pixels.
-    std::ofstream(folder / "bright.json") << R"({"aleph": 1, "exposure": 1e18, "frames": [0, 1], "nodes": [
-        {"translation": [0, 0, 5], "camera": {"fov": 40}},
-        {"shape": {"type": "quad", "size": [100, 100]},
-         "material": {"base_color": [0, 0, 0], "emission": [1e18, 1, 1], "emission_strength": 1e10}}]})";
-    const std::vector<std::string> render{"render", folder / "bright.json", "--size", "8x6", "--spp", "1",
-                                          "-o",     folder / "f.####.hdr"};
-    expect_answer(run_aleph(render), 0, "warning: 96 values were");
-    const ChannelImage image = read_image(folder / "f.0001.hdr");
-    EXPECT_EQ(image.find("R")->pixels[7], 0xffp119f);
-    EXPECT_EQ(run_aleph(joined(render, {"-q"})).err, "");
-    expect_one_error_line(run_command({"maps", folder / "bright.json", "-o", folder / "m.####.hdr"}), 2, "write .exr");
-}
-
 TEST(CommandLine, OU05_FullDiskIsExitCode1AndLeavesNothing) {
     const ScratchFolder folder;
     ChannelImage a = grey_image(300, 200, 0.5f);

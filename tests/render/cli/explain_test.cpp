@@ -92,8 +92,7 @@ TEST(Explain, PointsOfACacheAsTheFileHasThem) {
     scene.point_caches.push_back(
         {.name = "points",
          .sampling = {.kind = TimeSampling::Kind::uniform, .start = 0.0, .period = 1.0, .times = {}},
-         .positions = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}},
-         .velocities = {}});
+         .positions = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}}});
     Mesh mesh;
     mesh.deformation.points = 0;
     mesh.deformation.vertex_points = {2, 1, 0};

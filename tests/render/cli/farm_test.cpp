@@ -147,7 +147,6 @@ TEST_F(FarmTest, WhatCannotBeDividedIsRefused) {
     refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "0"}), "--tasks: expected 1 to");
     refused(with({"farm", "slurm"}, {"--tasks", "2"}), "--output: name the files");
     refused(with({"farm", "slurm"}, {"-o", out_ / "one.exr", "--tasks", "2"}), "need a number in the name");
-    refused(with({"farm", "slurm"}, {"-o", out_ / "a.####.flo", "--command", "maps", "--tasks", "2"}), "--output");
     refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "2", "--taks", "3"}),
             "there is no option --taks; did you mean \"--tasks\"");
     refused({"farm"}, "commands: slurm, parallel, status, collate; aleph farm --help describes them");

@@ -102,7 +102,7 @@ TEST_F(Films, OfMapsHasThePicturesOfMaps) {
 
 TEST_F(Films, WhatCannotBeAFilmIsRefusedAndLeavesNothing) {
     const std::vector<std::tuple<std::string, Words, std::string>> cases{
-        {"film.mp5", {}, "the extension .mp5 is not known; possible are .exr, .png and .hdr"},
+        {"film.mp5", {}, "the extension .mp5 is not known; possible are .exr and .png"},
         {"film.####.mp4", {}, "a film has no frame number"},
         {"film.mp4", {"--aovs"}, "films cannot hold the channels of maps"},
         {"film.mp4", {"--frames", "1-3,5"}, "frame 5 follows frame 3: a film has frames at one distance"},

@@ -105,7 +105,7 @@ TEST_F(KilledRender, KilledAnywhereAResumedRenderCompletesIt) {
 }
 
 TEST_F(KilledRender, WhatIsCutOrOfSomethingElseIsMadeAgain) {
-    for (const std::string ending : {"exr", "png", "hdr"}) {
+    for (const std::string ending : {"exr", "png"}) {
         SCOPED_TRACE(ending);
         const std::string output = folder_ / ("out/f.####." + ending);
         const auto file = [&](int frame) { return folder_ / "out" / fmt::format("f.{:04}.{}", frame, ending); };

@@ -56,7 +56,7 @@ TEST(MapsImages, RefusesWhatItCannotMean) {
     expect_refusal({"--images", pattern, "--exposure", "0"}, {"--exposure"});
     expect_refusal({"--images", pattern, "--cuts", "x"}, {"--cuts"});
     expect_refusal({"--images", pattern, "--fps", "0"}, {"--fps"});
-    expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"write .exr, or .png to look at them"});
+    expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"possible are .exr and .png"});
     expect_refusal({"--images", pattern, "-o", pattern}, {"--output", "is read by this command"});
     expect_refusal({"scene.json", "--cuts", "3"}, {"--cuts"});
 }

@@ -1,15 +1,12 @@
-// Files for other programs: Cryptomatte, motion as a .flo file, importance as one picture.
+// Files for other programs: Cryptomatte, importance as one picture.
 
 #include <bit>
 #include <nlohmann/json.hpp>
 
 #include "engine/pose/pose.h"
 #include "render/output/cryptomatte.h"
-#include "render/output/flow_file.h"
 #include "render/output/frame_files.h"
 #include "render/surface/node_paths.h"
-#include "tests/support/read_bytes.h"
-#include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -52,32 +49,6 @@ TEST(Cryptomatte, FilesNameTheObjectsOfTheirPixels) {
     ASSERT_EQ(manifest.size(), 1u);
     const auto bits = static_cast<std::uint32_t>(std::stoul(manifest["/table/cup"].get<std::string>(), nullptr, 16));
     EXPECT_EQ(std::bit_cast<float>(bits), file.find("CryptoObject00.r")->pixels[1]);
-}
-
-TEST(FlowFile, HoldsDisplacementsRowByRowAndMarksWhatIsNotKnown) {
-    MotionField motion;
-    motion.displacement = Image<glm::dvec2>(3, 2, glm::dvec2(0.0));
-    motion.validity = Image<MotionValidity>(3, 2, MotionValidity::valid);
-    motion.displacement(2, 0) = {1.5, -2.25};
-    motion.displacement(0, 1) = {-3.0, 4.0};
-    motion.validity(0, 1) = MotionValidity::hidden;
-    motion.validity(1, 1) = MotionValidity::no_counterpart;
-    motion.validity(2, 1) = MotionValidity::behind_camera;
-    const ScratchFolder folder;
-    write_flow(folder.path() / "motion.flo", motion);
-    const auto bytes = read_bytes(folder.path() / "motion.flo");
-    ASSERT_EQ(bytes.size(), 12u + 6u * 8u);
-    float tag = 0.0f;
-    std::memcpy(&tag, bytes.data(), 4);
-    EXPECT_EQ(tag, 202021.25f) << "the format's check of the byte order";
-    std::int32_t size[2];
-    std::memcpy(size, bytes.data() + 4, 8);
-    EXPECT_EQ(size[0], 3);
-    EXPECT_EQ(size[1], 2);
-    std::vector<float> flow(12);
-    std::memcpy(flow.data(), bytes.data() + 12, 48);
-    // y down; what is hidden there is known.
-    EXPECT_EQ(flow, (std::vector<float>{0, 0, 0, 0, 1.5f, -2.25f, -3, 4, 1e10f, 1e10f, 1e10f, 1e10f}));
 }
 
 TEST(Importance, IsOneWhereViewersAreStrictest) {

@@ -55,7 +55,6 @@ void for_every_ball(const Check& check) {
             for (const bool turned : {false, true}) {
                 SCOPED_TRACE(testing::Message() << "radius " << radius << " at " << distance << " turned " << turned);
                 const Ball ball(radius, distance, turned);
-                ASSERT_EQ(ball.stage.rays.skipped_instances(), 0u);
                 check(ball);
             }
         }
@@ -261,7 +260,6 @@ TEST(SelfHits, RC08_BoundsOfPointsThatAreNotFiniteAreFinite) {
             return sample == 1 && p.x > 0.0f ? glm::vec3(p.x, bad, p.z) : p;
         });
         const Stage stage(std::move(scene), 8, 8, 1.0);
-        EXPECT_EQ(stage.rays.skipped_instances(), 1u);
         EXPECT_EQ(stage.lights.count(), 0) << bad;  // no ray can meet it
         EXPECT_NEAR(scene_radius(stage.shading), std::sqrt(2.0f), 1e-5f) << bad;
     }

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 /// The values of a layer, read as report_layers.h describes it.
 std::vector<float> decode(const std::string& text, std::size_t count, LayerType type) {
     const std::size_t width = type == LayerType::f16 ? 2 : 4;
-    const Bytes packed = decode_data_uri("data:;base64," + text, "", "").bytes;
+    const Bytes packed = decode_data_uri("data:;base64," + text, "", "");
     std::string bytes(count * width, '\0');
     uLongf size = bytes.size();
     EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, packed.data(), packed.size()), Z_OK);
