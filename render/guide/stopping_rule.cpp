@@ -27,9 +27,9 @@ struct NoiseSum {
 };
 
 template <class Counts>
-NoiseSum sum_around(const Image<PixelSamples>& pixels, int x, int y, int reach, const Counts& counts) {
+NoiseSum sum_around(const Image<PixelSamples>& pixels, int x, int y, const Counts& counts) {
     NoiseSum sum;
-    visit_around(pixels, x, y, reach, [&](int nx, int ny) {
+    visit_around(pixels, x, y, 2, [&](int nx, int ny) {
         if ((nx != x || ny != y) && counts(nx, ny)) sum.add(pixels(nx, ny));
     });
     return sum;
@@ -39,15 +39,13 @@ NoiseSum sum_around(const Image<PixelSamples>& pixels, int x, int y, int reach, 
 
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
     const auto alike = [&](int nx, int ny) { return are_alike(outlines, x, y, nx, ny); };
-    NoiseSum near = sum_around(pixels, x, y, 1, alike), wide = sum_around(pixels, x, y, 2, alike);
-    if (wide.count == 0) near = sum_around(pixels, x, y, 1, [](int, int) { return true; });
-    if (pixels.size() == 1) near.add(pixels(x, y));
+    NoiseSum sum = sum_around(pixels, x, y, alike);
+    if (sum.count == 0) sum = sum_around(pixels, x, y, [](int, int) { return true; });
+    if (pixels.size() == 1) sum.add(pixels(x, y));
     MeanEstimate estimate{pixels(x, y).taken()};
-    for (const NoiseSum& sum : {near, wide}) {
-        if (sum.count == 0) continue;
-        estimate.error2 = std::max(estimate.error2, sum.error2 / (sum.count * static_cast<double>(estimate.samples)));
-        estimate.variance = std::max(estimate.variance, sum.variance / sum.count);
-    }
+    if (sum.count == 0) return estimate;
+    estimate.error2 = sum.error2 / (sum.count * static_cast<double>(estimate.samples));
+    estimate.variance = sum.variance / sum.count;
     return estimate;
 }
 

@@ -34,9 +34,9 @@ struct MeanEstimate {
 /// light (PixelSamples::Error::total): of independent samples with as much error as theirs.
 Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach);
 
-/// The larger of what the eight pixels around (x, y) tell, and the 24. Only those count that have an outline as it has,
-/// or have none as it has none: beside an outline the noise is another. Where there is no such pixel, all eight
-/// tell; where it is alone, the pixel itself.
+/// What the 24 pixels around (x, y) tell. Only those count that have an outline as it has, or have none as it has none:
+/// beside an outline the noise is another. Where there is no such pixel, all of them tell; where it is alone, the
+/// pixel itself.
 /// @param outlines  of the same size, or empty: none
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y);
 

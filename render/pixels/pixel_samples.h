@@ -72,6 +72,7 @@ class PixelSamples {
     void add_invalid() { end_sample(); }
 
     int taken() const { return taken_; }
+    int valid() const { return valid_; }
     /// Mean of the valid samples; 0 if there are none.
     Rgb mean() const { return valid_ == 0 ? Rgb(0.0f) : Rgb(radiance_ / static_cast<double>(valid_)); }
     Rgb mean_indirect() const { return valid_ == 0 ? Rgb(0.0f) : indirect_ / static_cast<float>(valid_); }

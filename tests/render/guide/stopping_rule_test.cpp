@@ -183,7 +183,7 @@ TEST(StoppingRule, OnePixelDecidesByItself) {
 
 TEST(StoppingRule, SamplesFollowTheTolerance) {
     // Independent samples of deviation s need n = (d s / t)^2 for d standard errors within t, and at most twice that
-    // after doubling. The error is told by eight neighbours, so that some pixels stop too early.
+    // after doubling. The error is told by 24 neighbours, so that some pixels stop too early.
     const double deviation = std::sqrt(1.0 / 12.0);
     for (const float tolerance : {0.2f, 0.1f, 0.05f}) {
         const SamplingPlan plan = make_plan(Sampling::threshold, 4096, 40, 30, tolerance);
@@ -220,7 +220,7 @@ TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
     }
     for (int i = 0; i < 2; ++i) pixels(0, 1).add(grey_sample(static_cast<float>(i)));
     EXPECT_GT(estimate_mean(pixels, outlines, 1, 1).error2, 0.0);
-    // Noise two pixels away, where the nearest are calm.
+    // Noise two pixels away, and three.
     EXPECT_EQ(estimate_mean(pixels, {}, 3, 1).error2, 0.0);
     EXPECT_GT(estimate_mean(pixels, {}, 2, 1).error2, 0.0);
 }
