@@ -19,12 +19,14 @@ struct SquaredErrors {
 };
 
 /// Returns the squared errors of a pixel's mean, from the pixel and those around it that are like it (estimate_mean).
-SquaredErrors estimate_sampling(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
+SquaredErrors estimate_sampling(const ErrorInput& input, int x, int y) {
+    const Image<PixelSamples>& pixels = input.pixels;
     SquaredErrors sum;
     int count = 0;
     visit_around(pixels, x, y, 1, [&](int nx, int ny) {
         const PixelSamples::Error& error = pixels(nx, ny).error();
-        if (error.samples == 0 || !are_alike(outlines, x, y, nx, ny)) return;
+        if (error.samples == 0 || !are_alike(input.outlines, x, y, nx, ny)) return;
+        if (is_shown_white(pixels(nx, ny), input.white)) return;
         ++count;
         sum.total += static_cast<double>(error.total) * error.samples;
         for (std::size_t i = 0; i < sum.parts.size(); ++i) {
@@ -42,7 +44,8 @@ using CauseErrors = std::array<double, cause_count>;
 /// Squared errors by cause.
 CauseErrors find_causes(const ErrorInput& input, int x, int y) {
     const PixelSamples& pixel = input.pixels(x, y);
-    const SquaredErrors sampled = estimate_sampling(input.pixels, input.outlines, x, y);
+    if (is_shown_white(pixel, input.white)) return {};
+    const SquaredErrors sampled = estimate_sampling(input, x, y);
     CauseErrors errors{};
     const auto error = [&errors](ErrorCause cause) -> double& { return errors[static_cast<std::size_t>(cause)]; };
     double& of_surfaces = error(input.blurred ? ErrorCause::blur : ErrorCause::edges);

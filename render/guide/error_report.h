@@ -23,6 +23,7 @@ struct ErrorInput {
     const Image<float>& noise;      ///< cd/m2 (NoiseVisibility)
     const Image<float>& accuracy;   ///< alpha
     const Image<Outline>& outlines;
+    double white = 1.0;            ///< radiance that is shown as white
     double luminance_scale = 1.0;  ///< cd/m2 for a luminance of 1 of the samples: exposure times display white
     bool blurred = false;          ///< the shutter or the lens is open
     int reach = 1;                 ///< find_seen_reach
@@ -30,7 +31,8 @@ struct ErrorInput {
 
 /// From the halves of the samples of a pixel and the eight around it (PixelSamples), and from the accuracy of cached
 /// light: irradiance that is interpolated at accuracy alpha errs by about a tenth of alpha (standard deviation). In
-/// just visible differences: those of samples over `noise`, those of cached light over `threshold`.
+/// just visible differences: those of samples over `noise`, those of cached light over `threshold`. Pixels
+/// that are shown white have no errors, and tell none of others.
 ErrorMaps estimate_errors(const ErrorInput& input);
 
 /// Shares of pixels around which the error's energy (mean_around) is beyond asked^2, if it is distributed as

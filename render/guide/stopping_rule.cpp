@@ -10,8 +10,9 @@ namespace aleph {
 
 namespace {
 
-constexpr int thesis_samples = 16;  // least number of the thesis's rules
-constexpr int outline_samples = 8;  // where few neighbours are alike, and each may miss what the others see
+constexpr int thesis_samples = 16;       // least number of the thesis's rules
+constexpr int outline_samples = 8;       // where few neighbours are alike, and each may miss what the others see
+constexpr int bright_edge_samples = 16;  // neighbours that are shown white do not tell of a lamp that these miss
 
 /// Sums over pixels around one.
 struct NoiseSum {
@@ -27,20 +28,29 @@ struct NoiseSum {
 };
 
 template <class Counts>
-NoiseSum sum_around(const Image<PixelSamples>& pixels, int x, int y, const Counts& counts) {
+NoiseSum sum_around(const Image<PixelSamples>& pixels, double white, int x, int y, const Counts& counts) {
     NoiseSum sum;
     visit_around(pixels, x, y, 2, [&](int nx, int ny) {
-        if ((nx != x || ny != y) && counts(nx, ny)) sum.add(pixels(nx, ny));
+        const bool tells = (nx != x || ny != y) && counts(nx, ny) && !is_shown_white(pixels(nx, ny), white);
+        if (tells) sum.add(pixels(nx, ny));
     });
     return sum;
 }
 
 }  // namespace
 
-MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
+bool is_shown_white(const PixelSamples& pixel, double white) {
+    const Rgb mean = pixel.mean();
+    const double least = std::min({mean.x, mean.y, mean.z});
+    if (!(least > white)) return false;
+    return least * (1.0 - 3.0 * std::sqrt(pixel.variance()) / luminance(mean)) > white;
+}
+
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, double white, int x,
+                           int y) {
     const auto alike = [&](int nx, int ny) { return are_alike(outlines, x, y, nx, ny); };
-    NoiseSum sum = sum_around(pixels, x, y, alike);
-    if (sum.count == 0) sum = sum_around(pixels, x, y, [](int, int) { return true; });
+    NoiseSum sum = sum_around(pixels, white, x, y, alike);
+    if (sum.count == 0) sum = sum_around(pixels, white, x, y, [](int, int) { return true; });
     if (pixels.size() == 1) sum.add(pixels(x, y));
     MeanEstimate estimate{pixels(x, y).taken()};
     if (sum.count == 0) return estimate;
@@ -49,13 +59,13 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outlin
     return estimate;
 }
 
-Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach) {
+Image<float> deviations_around(const Image<PixelSamples>& pixels, double white, int reach) {
     constexpr float normal = 0.797884561f;  // mean size of a normal number: the halves of a pixel tell one
     Image<float> deviations(pixels.width, pixels.height);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const PixelSamples::Error& error = pixels.pixels[i].error();
-        deviations.pixels[i] =
-            error.samples == 0 ? -1.0f : std::sqrt(error.total * static_cast<float>(error.samples)) / normal;
+        const bool tells = error.samples > 0 && !is_shown_white(pixels.pixels[i], white);
+        deviations.pixels[i] = !tells ? -1.0f : std::sqrt(error.total * static_cast<float>(error.samples)) / normal;
     }
     return mean_around(deviations, reach, false);
 }
@@ -97,7 +107,7 @@ double allow_noise(double error) {
     return std::min(error, std::pow(error, 0.8));
 }
 
-int first_samples(Sampling rule, Outline outline, int most) {
+int first_samples(Sampling rule, Outline outline, bool bright_edge, int most) {
     switch (rule) {
         case Sampling::uniform:
         case Sampling::protocol:
@@ -108,6 +118,7 @@ int first_samples(Sampling rule, Outline outline, int most) {
         case Sampling::threshold:
             break;
     }
+    if (bright_edge) return std::min(most, bright_edge_samples);
     return std::min(most, outline == Outline::none ? own_samples : outline_samples);
 }
 

@@ -30,15 +30,21 @@ struct MeanEstimate {
     double around = 0.0;    ///< deviation of one sample of the pixels around (deviations_around), luminance
 };
 
+/// Returns whether a pixel is shown as white whatever its error: three standard errors less of all channels still are.
+/// @param white  radiance that the display shows as white
+bool is_shown_white(const PixelSamples& pixel, double white);
+
 /// Mean over the pixels around, without the pixel itself (mean_around), of the standard deviation of their samples'
-/// light (PixelSamples::Error::total): of independent samples with as much error as theirs.
-Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach);
+/// light (PixelSamples::Error::total): of independent samples with as much error as theirs. Those that are shown white
+/// do not count.
+Image<float> deviations_around(const Image<PixelSamples>& pixels, double white, int reach);
 
 /// What the 24 pixels around (x, y) tell. Only those count that have an outline as it has, or have none as it has none:
 /// beside an outline the noise is another. Where there is no such pixel, all of them tell; where it is alone, the
-/// pixel itself.
+/// pixel itself. Those that are shown white never count.
 /// @param outlines  of the same size, or empty: none
-MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y);
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, double white, int x,
+                           int y);
 
 /// The same, as the pixel's own samples tell it.
 MeanEstimate estimate_own_mean(const PixelSamples& pixel);
@@ -80,6 +86,7 @@ class StoppingRule {
 int protocol_samples(double aleph, int most);
 
 /// Samples before a rule is asked first.
-int first_samples(Sampling rule, Outline outline, int most);
+/// @param bright_edge  the outline of a lamp may lie in the pixel (find_bright_edges)
+int first_samples(Sampling rule, Outline outline, bool bright_edge, int most);
 
 }  // namespace aleph

@@ -55,6 +55,7 @@ SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSetting
     plan.aleph = limits->aleph;
     plan.outlines = limits->outlines;
     plan.reach = find_seen_reach(limits->viewing.pixels_per_degree);
+    if (plan.rule == Sampling::threshold) plan.white = 1.0 / exposure;
     return plan;
 }
 

@@ -69,7 +69,7 @@ class FrameShading {
         // A lens or an open shutter would need rays from all of it: their outlines and textures are soft.
         if (!place_.centered && !options_.at_sample && !(options_.lens.radius > 0.0)) {
             const ShadingScene& shading = context_.lighting.shading;
-            bright_edges_ =
+            plan_.bright_edges =
                 find_bright_edges(context_.lighting, context_.view, centers, exposure_, out_.counts.rays.primary);
             // Paths alone are to judge what an estimate guides.
             if (options_.estimate != nullptr && context_.settings.light.integrator == Integrator::cache)
@@ -197,7 +197,7 @@ class FrameShading {
                 light[LightPart::direct] += correction;
                 light.control = luminance(correction);
             }
-            if (!bright_edges_.empty() && bright_edges_(x, y) != 0) {
+            if (!plan_.bright_edges.empty() && plan_.bright_edges(x, y) != 0) {
                 const glm::ivec2 pixel(x, y);
                 light[LightPart::surface] +=
                     average_light_seen(scene, task, at, pixel) - light_seen(scene, at, hit, direction, pixel);
@@ -231,6 +231,7 @@ class FrameShading {
                                        .noise = options_.limits->noise,
                                        .accuracy = options_.limits->accuracy,
                                        .outlines = options_.limits->outlines,
+                                       .white = 1.0 / exposure_,
                                        .luminance_scale = exposure_ * options_.limits->viewing.display_white,
                                        .blurred = options_.at_sample || options_.lens.radius > 0.0,
                                        .reach = find_seen_reach(options_.limits->viewing.pixels_per_degree)});
@@ -260,7 +261,6 @@ class FrameShading {
     const SampleOptions& options_;
     ShadedFrame& out_;
     Image<PixelSamples> pixels_;
-    Image<std::uint8_t> bright_edges_;
     std::optional<TextureControl> textures_;
     SamplePlace place_;  ///< of the first sample
     const double exposure_;

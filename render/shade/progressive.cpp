@@ -19,8 +19,9 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
         for (int x = 0; x < pixels.width; ++x) {
             if (plan.part != nullptr && (*plan.part)(x, y) == 0) continue;
             const Outline outline = plan.outlines.empty() ? Outline::none : plan.outlines(x, y);
+            const bool bright = !plan.bright_edges.empty() && plan.bright_edges(x, y) != 0;
             const int count = plan.rule == Sampling::protocol ? protocol_samples(plan.aleph(x, y), plan.most)
-                                                              : first_samples(plan.rule, outline, plan.most);
+                                                              : first_samples(plan.rule, outline, bright, plan.most);
             ranges.push_back({x, y, 0, count});
         }
     }
@@ -29,7 +30,7 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
 
 MeanEstimate tell_mean(const SamplingPlan& plan, const Image<PixelSamples>& pixels, int x, int y) {
     const bool own = plan.stopping == Stopping::pixel && plan.rule != Sampling::threshold;
-    return own ? estimate_own_mean(pixels(x, y)) : estimate_mean(pixels, plan.outlines, x, y);
+    return own ? estimate_own_mean(pixels(x, y)) : estimate_mean(pixels, plan.outlines, plan.white, x, y);
 }
 
 enum class Decision : std::uint8_t {
@@ -39,6 +40,7 @@ enum class Decision : std::uint8_t {
 };
 
 Decision decide(const SamplingPlan& plan, const PixelSamples& pixel, const MeanEstimate& mean, double tolerance) {
+    if (is_shown_white(pixel, plan.white)) return Decision::stop;
     if (!pixel.has_kept_mean() && !is_enough(plan.rule, plan.stopping, mean, tolerance)) return Decision::go_on;
     const bool alone = plan.rule == Sampling::threshold && stands_out(pixel, tolerance);
     return alone ? Decision::go_on_by_itself : Decision::stop;
@@ -49,7 +51,7 @@ std::vector<Decision> ask_rule(const SamplingPlan& plan, const Image<PixelSample
                                const std::vector<PixelRange>& stage) {
     std::vector<Decision> decisions(stage.size(), Decision::stop);
     const Image<float> around =
-        plan.rule == Sampling::threshold ? deviations_around(pixels, plan.reach) : Image<float>();
+        plan.rule == Sampling::threshold ? deviations_around(pixels, plan.white, plan.reach) : Image<float>();
     parallel_for(stage.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const PixelRange& range = stage[i];

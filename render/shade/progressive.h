@@ -2,6 +2,7 @@
 // Progressive sampling: which pixels take how many more samples, stage by stage.
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct SamplingPlan {
     Image<float> aleph;       ///< for `protocol`
     Image<Outline> outlines;  ///< for `threshold`; empty: none
     int reach = 1;            ///< for `threshold`: pixels on either side that are seen together (find_seen_reach)
-    const PicturePart* part = nullptr;  ///< pixels that take samples; null: all
+    Image<std::uint8_t> bright_edges;                        ///< for `threshold` (bright_edges.h); empty: none
+    double white = std::numeric_limits<double>::infinity();  ///< for `threshold`: radiance that is shown as white
+    const PicturePart* part = nullptr;                       ///< pixels that take samples; null: all
 };
 
 /// Samples of one pixel: those from `first` up to, not including, `last`.
