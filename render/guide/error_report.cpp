@@ -26,7 +26,6 @@ SquaredErrors estimate_sampling(const ErrorInput& input, int x, int y) {
     visit_around(pixels, x, y, 1, [&](int nx, int ny) {
         const PixelSamples::Error& error = pixels(nx, ny).error();
         if (error.samples == 0 || !are_alike(input.outlines, x, y, nx, ny)) return;
-        if (is_shown_white(pixels(nx, ny), input.white)) return;
         ++count;
         sum.total += static_cast<double>(error.total) * error.samples;
         for (std::size_t i = 0; i < sum.parts.size(); ++i) {

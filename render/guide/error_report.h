@@ -32,7 +32,7 @@ struct ErrorInput {
 /// From the halves of the samples of a pixel and the eight around it (PixelSamples), and from the accuracy of cached
 /// light: irradiance that is interpolated at accuracy alpha errs by about a tenth of alpha (standard deviation). In
 /// just visible differences: those of samples over `noise`, those of cached light over `threshold`. Pixels
-/// that are shown white have no errors, and tell none of others.
+/// that are shown white have none.
 ErrorMaps estimate_errors(const ErrorInput& input);
 
 /// Shares of pixels around which the error's energy (mean_around) is beyond asked^2, if it is distributed as

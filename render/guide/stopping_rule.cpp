@@ -12,7 +12,7 @@ namespace {
 
 constexpr int thesis_samples = 16;       // least number of the thesis's rules
 constexpr int outline_samples = 8;       // where few neighbours are alike, and each may miss what the others see
-constexpr int bright_edge_samples = 16;  // neighbours that are shown white do not tell of a lamp that these miss
+constexpr int bright_edge_samples = 16;  // pixels that show the lamp as white do not tell that these miss it
 
 /// Sums over pixels around one.
 struct NoiseSum {
@@ -28,10 +28,11 @@ struct NoiseSum {
 };
 
 template <class Counts>
-NoiseSum sum_around(const Image<PixelSamples>& pixels, double white, int x, int y, const Counts& counts) {
+NoiseSum sum_around(const Image<PixelSamples>& pixels, const Image<std::uint8_t>& silent, int x, int y,
+                    const Counts& counts) {
     NoiseSum sum;
     visit_around(pixels, x, y, 2, [&](int nx, int ny) {
-        const bool tells = (nx != x || ny != y) && counts(nx, ny) && !is_shown_white(pixels(nx, ny), white);
+        const bool tells = (nx != x || ny != y) && counts(nx, ny) && (silent.empty() || silent(nx, ny) == 0);
         if (tells) sum.add(pixels(nx, ny));
     });
     return sum;
@@ -46,11 +47,11 @@ bool is_shown_white(const PixelSamples& pixel, double white) {
     return least * (1.0 - 3.0 * std::sqrt(pixel.variance()) / luminance(mean)) > white;
 }
 
-MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, double white, int x,
-                           int y) {
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
+                           const Image<std::uint8_t>& silent, int x, int y) {
     const auto alike = [&](int nx, int ny) { return are_alike(outlines, x, y, nx, ny); };
-    NoiseSum sum = sum_around(pixels, white, x, y, alike);
-    if (sum.count == 0) sum = sum_around(pixels, white, x, y, [](int, int) { return true; });
+    NoiseSum sum = sum_around(pixels, silent, x, y, alike);
+    if (sum.count == 0) sum = sum_around(pixels, silent, x, y, [](int, int) { return true; });
     if (pixels.size() == 1) sum.add(pixels(x, y));
     MeanEstimate estimate{pixels(x, y).taken()};
     if (sum.count == 0) return estimate;
@@ -59,12 +60,12 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outlin
     return estimate;
 }
 
-Image<float> deviations_around(const Image<PixelSamples>& pixels, double white, int reach) {
+Image<float> deviations_around(const Image<PixelSamples>& pixels, const Image<std::uint8_t>& silent, int reach) {
     constexpr float normal = 0.797884561f;  // mean size of a normal number: the halves of a pixel tell one
     Image<float> deviations(pixels.width, pixels.height);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const PixelSamples::Error& error = pixels.pixels[i].error();
-        const bool tells = error.samples > 0 && !is_shown_white(pixels.pixels[i], white);
+        const bool tells = error.samples > 0 && (silent.empty() || silent.pixels[i] == 0);
         deviations.pixels[i] = !tells ? -1.0f : std::sqrt(error.total * static_cast<float>(error.samples)) / normal;
     }
     return mean_around(deviations, reach, false);

@@ -35,16 +35,17 @@ struct MeanEstimate {
 bool is_shown_white(const PixelSamples& pixel, double white);
 
 /// Mean over the pixels around, without the pixel itself (mean_around), of the standard deviation of their samples'
-/// light (PixelSamples::Error::total): of independent samples with as much error as theirs. Those that are shown white
-/// do not count.
-Image<float> deviations_around(const Image<PixelSamples>& pixels, double white, int reach);
+/// light (PixelSamples::Error::total): of independent samples with as much error as theirs.
+/// @param silent  1 for pixels that do not count; empty: none
+Image<float> deviations_around(const Image<PixelSamples>& pixels, const Image<std::uint8_t>& silent, int reach);
 
 /// What the 24 pixels around (x, y) tell. Only those count that have an outline as it has, or have none as it has none:
 /// beside an outline the noise is another. Where there is no such pixel, all of them tell; where it is alone, the
-/// pixel itself. Those that are shown white never count.
+/// pixel itself.
 /// @param outlines  of the same size, or empty: none
-MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, double white, int x,
-                           int y);
+/// @param silent    1 for pixels that never count; empty: none
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
+                           const Image<std::uint8_t>& silent, int x, int y);
 
 /// The same, as the pixel's own samples tell it.
 MeanEstimate estimate_own_mean(const PixelSamples& pixel);

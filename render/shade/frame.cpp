@@ -12,6 +12,7 @@
 #include "render/settings/measure.h"
 #include "render/shade/bright_edges.h"
 #include "render/shade/integrator.h"
+#include "render/shade/lost_light.h"
 #include "render/shade/progressive.h"
 #include "render/shade/resolve.h"
 #include "render/shade/sample_packet.h"

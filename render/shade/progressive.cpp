@@ -5,7 +5,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/base/pixel_loops.h"
 #include "render/time/shutter.h"
 
 namespace aleph {
@@ -28,9 +27,18 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
     return ranges;
 }
 
-MeanEstimate tell_mean(const SamplingPlan& plan, const Image<PixelSamples>& pixels, int x, int y) {
+/// Edges of lamps that are shown white: no viewer sees their errors.
+Image<std::uint8_t> find_clipped(const SamplingPlan& plan, const Image<PixelSamples>& pixels) {
+    Image<std::uint8_t> clipped = plan.bright_edges;
+    for (std::size_t i = 0; i < clipped.size(); ++i)
+        clipped.pixels[i] = clipped.pixels[i] != 0 && is_shown_white(pixels.pixels[i], plan.white) ? 1 : 0;
+    return clipped;
+}
+
+MeanEstimate tell_mean(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const Image<std::uint8_t>& clipped,
+                       int x, int y) {
     const bool own = plan.stopping == Stopping::pixel && plan.rule != Sampling::threshold;
-    return own ? estimate_own_mean(pixels(x, y)) : estimate_mean(pixels, plan.outlines, plan.white, x, y);
+    return own ? estimate_own_mean(pixels(x, y)) : estimate_mean(pixels, plan.outlines, clipped, x, y);
 }
 
 enum class Decision : std::uint8_t {
@@ -40,7 +48,6 @@ enum class Decision : std::uint8_t {
 };
 
 Decision decide(const SamplingPlan& plan, const PixelSamples& pixel, const MeanEstimate& mean, double tolerance) {
-    if (is_shown_white(pixel, plan.white)) return Decision::stop;
     if (!pixel.has_kept_mean() && !is_enough(plan.rule, plan.stopping, mean, tolerance)) return Decision::go_on;
     const bool alone = plan.rule == Sampling::threshold && stands_out(pixel, tolerance);
     return alone ? Decision::go_on_by_itself : Decision::stop;
@@ -50,13 +57,14 @@ Decision decide(const SamplingPlan& plan, const PixelSamples& pixel, const MeanE
 std::vector<Decision> ask_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
                                const std::vector<PixelRange>& stage) {
     std::vector<Decision> decisions(stage.size(), Decision::stop);
+    const Image<std::uint8_t> clipped = find_clipped(plan, pixels);
     const Image<float> around =
-        plan.rule == Sampling::threshold ? deviations_around(pixels, plan.white, plan.reach) : Image<float>();
+        plan.rule == Sampling::threshold ? deviations_around(pixels, clipped, plan.reach) : Image<float>();
     parallel_for(stage.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const PixelRange& range = stage[i];
-            if (range.last >= plan.most) continue;
-            MeanEstimate mean = tell_mean(plan, pixels, range.x, range.y);
+            if (range.last >= plan.most || (!clipped.empty() && clipped(range.x, range.y) != 0)) continue;
+            MeanEstimate mean = tell_mean(plan, pixels, clipped, range.x, range.y);
             if (!around.empty()) mean.around = static_cast<double>(around(range.x, range.y));
             decisions[i] = decide(plan, pixels(range.x, range.y), mean, plan.tolerance(range.x, range.y));
         }
@@ -69,7 +77,7 @@ std::vector<Decision> ask_own_rule(const SamplingPlan& plan, const Image<PixelSa
                                    const std::vector<PixelRange>& stage) {
     StagePixels asked;
     for (const PixelRange& range : stage) {
-        const MeanEstimate mean = tell_mean(plan, pixels, range.x, range.y);
+        const MeanEstimate mean = tell_mean(plan, pixels, {}, range.x, range.y);
         asked.x.push_back(range.x);
         asked.y.push_back(range.y);
         asked.samples.push_back(range.last);
@@ -154,26 +162,6 @@ void sample_by_stages(const SamplingPlan& plan, Image<PixelSamples>& pixels, con
         if (plan.tolerance.empty()) return;
         stage = next_ranges(plan, pixels, stage);
     }
-}
-
-void spread_lost_light(Image<PixelSamples>& pixels, int reach) {
-    Image<Rgb> gained(pixels.width, pixels.height);
-    for (int y = 0; y < pixels.height; ++y) {
-        for (int x = 0; x < pixels.width; ++x) {
-            const PixelSamples& from = pixels(x, y);
-            if (!from.has_kept_mean()) continue;
-            const auto takes = [&](const PixelSamples& to) {
-                return to.valid() > 0 && to.first_instance() == from.first_instance();
-            };
-            int count = 0;
-            visit_around(pixels, x, y, reach, [&](int nx, int ny) { count += takes(pixels(nx, ny)) ? 1 : 0; });
-            const Rgb part = from.lost() / static_cast<float>(count);
-            visit_around(pixels, x, y, reach, [&](int nx, int ny) {
-                if (takes(pixels(nx, ny))) gained(nx, ny) += part;
-            });
-        }
-    }
-    for (std::size_t i = 0; i < gained.size(); ++i) pixels.pixels[i].add_to_mean(gained.pixels[i]);
 }
 
 }  // namespace aleph

@@ -3,6 +3,7 @@
 #include "render/guide/stopping_rule.h"
 #include "engine/base/sampling.h"
 #include "render/guide/mean_around.h"
+#include "render/shade/lost_light.h"
 #include "render/shade/progressive.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
@@ -155,6 +156,24 @@ TEST(StoppingRule, LostLightStaysOnItsObject) {
     }
 }
 
+TEST(StoppingRule, LightIsTakenFromWhatThereIsAndNotFromTheBackground) {
+    Image<PixelSamples> pixels(3, 1);
+    SampleLight light = grey_sample(0.0f), background = grey_sample(0.5f);
+    light.place.instance = 0;
+    background.place.instance = no_index;
+    pixels(0, 0).add(light);
+    pixels(2, 0).add(background);
+    pixels(1, 0).add(light);
+    pixels(1, 0).keep_mean();
+    light[LightPart::surface] = Rgb(3.0f);
+    pixels(1, 0).add(light);
+    EXPECT_FLOAT_EQ(luminance(pixels(1, 0).lost()), -1.5f);
+    spread_lost_light(pixels, 2);
+    EXPECT_EQ(pixels(0, 0).mean(), Rgb(0.0f));
+    EXPECT_FLOAT_EQ(luminance(pixels(1, 0).mean()), 0.0f) << "no other pixel has light to take";
+    EXPECT_FLOAT_EQ(luminance(pixels(2, 0).mean()), 0.5f);
+}
+
 TEST(StoppingRule, MC17_BlackPixelsStopAtTheLeastNumber) {
     for (const Sampling rule : rules) {
         for (const float tolerance : {0.0f, 1e-6f}) {
@@ -209,9 +228,9 @@ TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
             for (int i = 0; i < 2; ++i) pixels(x, y).add(grey_sample(x == 1 ? static_cast<float>(i) : 0.0f));
         }
     }
-    EXPECT_NEAR(estimate_mean(pixels, outlines, infinity, 1, 1).error2, 0.25, 1e-7);
-    EXPECT_EQ(estimate_mean(pixels, outlines, infinity, 0, 1).error2, 0.0);
-    EXPECT_NEAR(estimate_mean(pixels, {}, infinity, 1, 1).error2, 0.25 * 2.0 / 8.0, 1e-7);
+    EXPECT_NEAR(estimate_mean(pixels, outlines, {}, 1, 1).error2, 0.25, 1e-7);
+    EXPECT_EQ(estimate_mean(pixels, outlines, {}, 0, 1).error2, 0.0);
+    EXPECT_NEAR(estimate_mean(pixels, {}, {}, 1, 1).error2, 0.25 * 2.0 / 8.0, 1e-7);
     pixels = Image<PixelSamples>(5, 5);
     outlines = Image<Outline>(5, 5, Outline::none);
     outlines(1, 1) = Outline::still;  // alone among others
@@ -219,10 +238,10 @@ TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
         for (int i = 0; i < 2; ++i) pixel.add(grey_sample(0.0f));
     }
     for (int i = 0; i < 2; ++i) pixels(0, 1).add(grey_sample(static_cast<float>(i)));
-    EXPECT_GT(estimate_mean(pixels, outlines, infinity, 1, 1).error2, 0.0);
+    EXPECT_GT(estimate_mean(pixels, outlines, {}, 1, 1).error2, 0.0);
     // Noise two pixels away, and three.
-    EXPECT_EQ(estimate_mean(pixels, {}, infinity, 3, 1).error2, 0.0);
-    EXPECT_GT(estimate_mean(pixels, {}, infinity, 2, 1).error2, 0.0);
+    EXPECT_EQ(estimate_mean(pixels, {}, {}, 3, 1).error2, 0.0);
+    EXPECT_GT(estimate_mean(pixels, {}, {}, 2, 1).error2, 0.0);
 }
 
 /// Every pixel's two samples differ by twice its deviation.
@@ -237,15 +256,15 @@ Image<PixelSamples> pixels_of_deviations(int width, int height, const std::funct
 TEST(StoppingRule, DeviationsAroundAreMeansOfOtherPixels) {
     Image<PixelSamples> pixels = pixels_of_deviations(12, 7, [](int x, int) { return x < 6 ? 1.0f : 3.0f; });
     const double one = std::sqrt(2.0) / std::sqrt(2.0 / std::numbers::pi);  // halves of one sample each
-    const Image<float> around = deviations_around(pixels, infinity, 4);
+    const Image<float> around = deviations_around(pixels, {}, 4);
     EXPECT_NEAR(around(0, 3), one, 1e-5);
     EXPECT_NEAR(around(11, 0), one * 3.0, 1e-5);
     EXPECT_NEAR(around(5, 6), one * (5.0 * 5.0 + 4.0 * 5.0 * 3.0 - 1.0) / (9.0 * 5.0 - 1.0), 1e-5);
     pixels(0, 0) = PixelSamples();  // not known
     for (const float value : {0.0f, 100.0f}) pixels(1, 0).add(grey_sample(value));
-    EXPECT_NEAR(deviations_around(pixels, infinity, 4)(6, 6), around(6, 6), 1e-6) << "beyond reach";
-    EXPECT_NEAR(deviations_around(pixels_of_deviations(1, 1, [](int, int) { return 2.0f; }), infinity, 4)(0, 0),
-                2.0 * one, 1e-5);
+    EXPECT_NEAR(deviations_around(pixels, {}, 4)(6, 6), around(6, 6), 1e-6) << "beyond reach";
+    EXPECT_NEAR(deviations_around(pixels_of_deviations(1, 1, [](int, int) { return 2.0f; }), {}, 4)(0, 0), 2.0 * one,
+                1e-5);
     Image<float> values(20, 1, 1.0f);
     values(10, 0) = 9.0f;
     EXPECT_EQ(mean_around(values, 4, false)(10, 0), 1.0f);
@@ -254,7 +273,7 @@ TEST(StoppingRule, DeviationsAroundAreMeansOfOtherPixels) {
     EXPECT_LT(mean_around(Image<float>(3, 3, -1.0f), 4, true)(1, 1), 0.0f);
 }
 
-TEST(StoppingRule, PixelsShownWhiteStopAndTellNoError) {
+TEST(StoppingRule, EdgesOfLampsShownWhiteStopAndTellNoError) {
     PixelSamples lamp, outline, coloured;
     for (const float value : {40.0f, 100.0f, 100.0f, 100.0f}) lamp.add(grey_sample(value));
     for (const float value : {0.0f, 0.0f, 0.0f, 100.0f}) outline.add(grey_sample(value));
@@ -266,16 +285,20 @@ TEST(StoppingRule, PixelsShownWhiteStopAndTellNoError) {
     EXPECT_FALSE(is_shown_white(outline, 1.0));
     EXPECT_FALSE(is_shown_white(coloured, 1.0)) << "its blue shows";
     Image<PixelSamples> pixels = pixels_of_deviations(5, 5, [](int, int) { return 0.1f; });
-    const Image<float> calm = deviations_around(pixels, 1e3, 4);
+    const Image<float> calm = deviations_around(pixels, {}, 4);
     pixels(1, 2) = lamp;
-    EXPECT_NEAR(deviations_around(pixels, 20.0, 4)(2, 2), calm(2, 2), 1e-5);
-    EXPECT_GT(deviations_around(pixels, infinity, 4)(2, 2), 2.0f * calm(2, 2));
-    EXPECT_NEAR(estimate_mean(pixels, {}, 20.0, 2, 2).error2, 0.01, 1e-6);
-    EXPECT_GT(estimate_mean(pixels, {}, infinity, 2, 2).error2, 1.0);
+    Image<std::uint8_t> silent(5, 5);
+    silent(1, 2) = 1;
+    EXPECT_NEAR(deviations_around(pixels, silent, 4)(2, 2), calm(2, 2), 1e-5);
+    EXPECT_GT(deviations_around(pixels, {}, 4)(2, 2), 2.0f * calm(2, 2));
+    EXPECT_NEAR(estimate_mean(pixels, {}, silent, 2, 2).error2, 0.01, 1e-6);
+    EXPECT_GT(estimate_mean(pixels, {}, {}, 2, 2).error2, 1.0);
     SamplingPlan plan = make_plan(Sampling::threshold, 4096, 8, 8, 1e-3f);
     const Distribution brighter = [](RandomStream& random) { return 10.0 + random.next(); };
     plan.white = 9.0;
-    EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), own_samples);
+    EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), 4096) << "no lamp's edge";
+    plan.bright_edges = Image<std::uint8_t>(8, 8, 1);
+    EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), 16);
     plan.white = 11.0;
     EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), 4096);
 }
