@@ -5,6 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "engine/pose/pose.h"
 
@@ -35,6 +36,18 @@ inline glm::dvec3 to_camera(const CameraView& view, const glm::dvec3& world) {
 inline glm::dvec2 project_camera_point(const CameraView& view, const glm::dvec3& p) {
     const double scale = view.orthographic ? view.pixels_per_unit : view.pixels_per_unit / -p.z;
     return {0.5 * view.width + view.axis_offset.x + p.x * scale, 0.5 * view.height + view.axis_offset.y - p.y * scale};
+}
+
+/// Pixel position of a sphere's centre; nothing where it is not before the camera, or the sphere is larger than so many
+/// pixels.
+/// @param center  world, m
+/// @param radius  m
+inline std::optional<glm::dvec2> project_small_sphere(const CameraView& view, const glm::dvec3& center, double radius,
+                                                      double most_pixels) {
+    const glm::dvec3 p = to_camera(view, center);
+    if (!(-p.z > view.near_plane)) return std::nullopt;
+    const double scale = view.orthographic ? view.pixels_per_unit : view.pixels_per_unit / -p.z;
+    return radius * scale <= most_pixels ? std::optional(project_camera_point(view, p)) : std::nullopt;
 }
 
 /// Where a pixel position lies on the plane z = -1 (perspective) or z = 0, m (orthographic), in camera axes.

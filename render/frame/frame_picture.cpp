@@ -35,10 +35,11 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
 }
 
 /// Empty where nothing is known of what a viewer sees.
-Image<Outline> find_visible_outlines(const Shot& shot, const PreparedFrame& frame) {
+Image<Outline> find_visible_outlines(const Shot& shot, const ShadingScene& shading, const PreparedFrame& frame) {
     const FrameOutput& out = frame.out;
     if (out.limits.threshold.empty()) return {};
     Image<Outline> outlines = find_outlines(out.view, frame.centers.hits, out.motion);
+    mark_small_objects(outlines, out.view, shading);
     const double asked = frame.plan.settings.error, error = asked > 0.0 ? asked : 1.0;
     mark_contrasts(outlines, out.estimate, out.limits.threshold, error / shot.scene.film.viewing.display_white);
     return outlines;
@@ -73,7 +74,7 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
                     SampleOptions options, const FrameRequest& request) {
     options.partial = &request.partial;
     FrameOutput& out = prepared.out;
-    const Image<Outline> outlines = find_visible_outlines(s.shot, prepared);
+    const Image<Outline> outlines = find_visible_outlines(s.shot, s.here.shading(), prepared);
     const VisibleLimits limits{
         out.limits.threshold,     out.limits.threshold_noise, out.perception.aleph, out.limits.alpha, outlines,
         s.shot.scene.film.viewing};

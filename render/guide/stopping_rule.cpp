@@ -10,9 +10,10 @@ namespace aleph {
 
 namespace {
 
-constexpr int thesis_samples = 16;       // least number of the thesis's rules
-constexpr int outline_samples = 8;       // where few neighbours are alike, and each may miss what the others see
-constexpr int bright_edge_samples = 16;  // pixels that show the lamp as white do not tell that these miss it
+constexpr int thesis_samples = 16;        // least number of the thesis's rules
+constexpr int outline_samples = 8;        // where few neighbours are alike, and each may miss what the others see
+constexpr int small_object_samples = 32;  // of an object that fills a tenth of the pixel, they hardly miss all
+constexpr int bright_edge_samples = 16;   // pixels that show the lamp as white do not tell that these miss it
 
 /// Sums over pixels around one.
 struct NoiseSum {
@@ -119,6 +120,7 @@ int first_samples(Sampling rule, Outline outline, bool bright_edge, int most) {
         case Sampling::threshold:
             break;
     }
+    if (outline == Outline::small) return std::min(most, small_object_samples);
     if (bright_edge) return std::min(most, bright_edge_samples);
     return std::min(most, outline == Outline::none ? own_samples : outline_samples);
 }

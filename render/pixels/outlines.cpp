@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
 
 #include "engine/base/pixel_loops.h"
 
@@ -13,6 +15,7 @@ namespace {
 constexpr double least_step = 0.5;        // pixels, from a plane
 constexpr double different_motion = 0.5;  // pixels per frame
 constexpr float least_contrast = 0.5f;    // of what is tolerated
+constexpr double small_object = 1.5;      // pixels, largest radius
 
 class OutlineFinder {
   public:
@@ -60,7 +63,30 @@ class OutlineFinder {
     const MotionField& motion_;
 };
 
+/// Place of an object in the picture, if it is small there. Two of its vertices rule most others out.
+std::optional<glm::dvec2> place_if_small(const CameraView& view, const ShadingScene& shading,
+                                         const PosedInstance& instance) {
+    if (!instance.visible || instance.mesh->positions.empty()) return std::nullopt;
+    const auto vertices = static_cast<std::uint32_t>(instance.mesh->positions.size());
+    const glm::vec3 first = instance.place(0), middle = instance.place(vertices / 2);
+    const double extent = 0.5 * static_cast<double>(glm::length(middle - first));
+    // Its centre is nearer than its first vertex by no more than a radius, of which this leaves room for twice.
+    if (!project_small_sphere(view, shading.anchor + glm::dvec3(first), extent, 2.0 * small_object))
+        return std::nullopt;
+    const BoundingSphere sphere = find_sphere(instance);
+    return project_small_sphere(view, shading.anchor + glm::dvec3(sphere.center), sphere.radius, small_object);
+}
+
 }  // namespace
+
+void mark_small_objects(Image<Outline>& outlines, const CameraView& view, const ShadingScene& shading) {
+    for (const PosedInstance& instance : shading.instances) {
+        const std::optional<glm::dvec2> at = place_if_small(view, shading, instance);
+        if (!at || !(at->x >= 0.0 && at->x < outlines.width && at->y >= 0.0 && at->y < outlines.height)) continue;
+        visit_around(outlines, static_cast<int>(at->x), static_cast<int>(at->y), 1,
+                     [&](int nx, int ny) { outlines(nx, ny) = Outline::small; });
+    }
+}
 
 Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, const MotionField& motion) {
     Image<Outline> outlines(hits.width, hits.height);

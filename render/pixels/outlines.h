@@ -7,14 +7,16 @@
 #include "engine/pose/camera_view.h"
 #include "engine/rays/hit.h"
 #include "motion/motion_field.h"
+#include "render/surface/shading_scene.h"
 
 namespace aleph {
 
 /// Outline of a pixel: the faces that its centre and the eight around it show.
 enum class Outline : std::uint8_t {
-    none = 0,   ///< one face, evenly lit
-    still = 1,  ///< several faces, which move alike, or a contrast
-    moving = 2  ///< several faces, some of which move differently
+    none = 0,    ///< one face, evenly lit
+    still = 1,   ///< several faces, which move alike, or a contrast
+    moving = 2,  ///< several faces, some of which move differently
+    small = 3,   ///< an object that is smaller than pixels may lie in it, or beside it
 };
 
 /// Faces differ where pixel centres show several objects, or where one object has a step or a crease: along a plane the
@@ -24,6 +26,10 @@ enum class Outline : std::uint8_t {
 /// @param hits    through pixel centres, of the view's size
 /// @param motion  of these surfaces; empty: nothing moves
 Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, const MotionField& motion);
+
+/// Marks the pixels that objects of at most 1.5 pixels' radius lie in, and those around them, as `small`, whether
+/// something hides the objects or not: rays through pixel centres, and the first samples, may miss them.
+void mark_small_objects(Image<Outline>& outlines, const CameraView& view, const ShadingScene& shading);
 
 /// Marks pixels without an outline as `still` where the luminances of the nine differ by more than half of what is
 /// tolerated, as at shadows and in textures: a few samples of one pixel may miss what those of another meet.

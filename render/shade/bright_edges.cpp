@@ -30,14 +30,11 @@ void mark_small_lamps(const LightingContext& context, const CameraView& view, do
                       Image<std::uint8_t>& seen) {
     for (const Emitter& lamp : context.lights.emitters) {
         if (luminance(lamp.brightest) * exposure < bright) continue;
-        const glm::dvec3 center = to_camera(view, context.shading.anchor + glm::dvec3(lamp.center));
-        if (!(-center.z > view.near_plane)) continue;
-        const double scale = view.orthographic ? view.pixels_per_unit : view.pixels_per_unit / -center.z;
-        const glm::dvec2 at = project_camera_point(view, center);
-        const glm::dvec2 place = at + static_cast<double>(reach);
-        if (!(lamp.radius * scale <= small_lamp && place.x >= 0.0 && place.x < seen.width && place.y >= 0.0 &&
-              place.y < seen.height))
-            continue;
+        const glm::dvec3 center = context.shading.anchor + glm::dvec3(lamp.center);
+        const std::optional<glm::dvec2> at = project_small_sphere(view, center, lamp.radius, small_lamp);
+        if (!at) continue;
+        const glm::dvec2 place = *at + static_cast<double>(reach);
+        if (!(place.x >= 0.0 && place.x < seen.width && place.y >= 0.0 && place.y < seen.height)) continue;
         seen(static_cast<int>(place.x), static_cast<int>(place.y)) = 1;
     }
 }

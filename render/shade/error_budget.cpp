@@ -36,7 +36,8 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
     Image<float> tolerance(limits.threshold.width, limits.threshold.height);
     for (int y = 0; y < tolerance.height; ++y) {
         for (int x = 0; x < tolerance.width; ++x) {
-            const bool moves = limits.outlines(x, y) == Outline::moving;
+            const Outline outline = limits.outlines(x, y);
+            const bool moves = outline == Outline::moving || outline == Outline::small;
             const float threshold = moves ? strictest_around(limit, x, y) : limit(x, y);
             tolerance(x, y) = static_cast<float>(factor * threshold);
         }

@@ -303,13 +303,16 @@ TEST(StoppingRule, EdgesOfLampsShownWhiteStopAndTellNoError) {
     EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), 4096);
 }
 
-TEST(StoppingRule, EdgesOfLampsBeginWithMoreSamples) {
+TEST(StoppingRule, EdgesOfLampsAndSmallObjectsBeginWithMoreSamples) {
     SamplingPlan plan = make_plan(Sampling::threshold, 64, 6, 1, 1.0f);
     plan.bright_edges = Image<std::uint8_t>(6, 1);
     plan.bright_edges(2, 0) = 1;
     const Image<PixelSamples> pixels = sample_picture(plan, 1, rarely_lit(0.0));
     EXPECT_EQ(pixels(1, 0).taken(), own_samples);
     EXPECT_EQ(pixels(2, 0).taken(), 16);
+    plan.outlines = Image<Outline>(6, 1, Outline::none);
+    plan.outlines(4, 0) = Outline::small;
+    EXPECT_EQ(sample_picture(plan, 1, rarely_lit(0.0))(4, 0).taken(), 32);
     plan.most = 8;
     EXPECT_EQ(sample_picture(plan, 1, rarely_lit(0.0))(2, 0).taken(), 8);
 }

@@ -1,6 +1,7 @@
 // Which pixels show more than one thing: objects, steps, creases, contrasts; and which of them move differently.
 
 #include "render/pixels/outlines.h"
+#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -83,6 +84,30 @@ TEST(Outlines, WhatMovesDifferentlyIsTold) {
     EXPECT_EQ(find_outlines(view, hits, motion)(20, 15), Outline::moving);
     EXPECT_EQ(find_outlines(view, hits, motion)(19, 15), Outline::moving);
     EXPECT_EQ(find_outlines(view, hits, motion)(22, 15), Outline::none);
+}
+
+TEST(Outlines, SmallObjectsAreMarkedWhereverTheyLie) {
+    // 100 m away a pixel is 1 m over its focal length of pixels; behind another, off centre, hidden, too large.
+    const CameraView view = test_view();
+    const double pixel = 100.0 / view.pixels_per_unit;
+    Scene scene;
+    const int grey = add_lambert(scene, glm::dvec3(0.5));
+    const auto place = [&](double x, double y, double z) {
+        return view.position + view.axes * glm::dvec3((x - 20.0) * pixel, (15.0 - y) * pixel, z);
+    };
+    add_mesh(scene, make_quad(0.4 * pixel, 0.4 * pixel, grey), place(10.2, 20.7, -100.0));
+    add_mesh(scene, make_quad(0.4 * pixel, 0.4 * pixel, grey), place(0.3, 0.3, -100.0));
+    add_mesh(scene, make_quad(4.0 * pixel, 4.0 * pixel, grey), place(30.0, 10.0, -100.0));
+    add_mesh(scene, make_quad(0.4 * pixel, 0.4 * pixel, grey), place(25.0, 5.0, 100.0));
+    add_camera(scene, view.position, view.position - view.axes[2]);
+    const Stage stage(scene, width, height);
+    Image<Outline> outlines(width, height, Outline::none);
+    outlines(10, 20) = Outline::moving;
+    mark_small_objects(outlines, view, stage.shading);
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const bool near = (std::abs(x - 10) <= 1 && std::abs(y - 20) <= 1) || (x <= 1 && y <= 1);
+        EXPECT_EQ(outlines(x, y), near ? Outline::small : Outline::none) << x << ' ' << y;
+    }
 }
 
 TEST(Outlines, ContrastsBeyondHalfOfWhatIsToleratedAreMarked) {
