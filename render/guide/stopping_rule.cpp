@@ -12,8 +12,8 @@ namespace {
 
 constexpr int thesis_samples = 16;        // least number of the thesis's rules
 constexpr int outline_samples = 8;        // where few neighbours are alike, and each may miss what the others see
-constexpr int small_object_samples = 32;  // of an object that fills a tenth of the pixel, they hardly miss all
-constexpr int bright_edge_samples = 16;   // pixels that show the lamp as white do not tell that these miss it
+constexpr int small_object_samples = 32;  // hardly all of them miss an object that fills a tenth of the pixel
+constexpr int bright_edge_samples = 16;   // hardly all of them miss the lamp: white pixels beside them do not count
 
 /// Sums over pixels around one.
 struct NoiseSum {

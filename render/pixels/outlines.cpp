@@ -70,7 +70,7 @@ std::optional<glm::dvec2> place_if_small(const CameraView& view, const ShadingSc
     const auto vertices = static_cast<std::uint32_t>(instance.mesh->positions.size());
     const glm::vec3 first = instance.place(0), middle = instance.place(vertices / 2);
     const double extent = 0.5 * static_cast<double>(glm::length(middle - first));
-    // Its centre is nearer than its first vertex by no more than a radius, of which this leaves room for twice.
+    // The centre of a small object is at least half as far away as a vertex: twice its size there is enough.
     if (!project_small_sphere(view, shading.anchor + glm::dvec3(first), extent, 2.0 * small_object))
         return std::nullopt;
     const BoundingSphere sphere = find_sphere(instance);
