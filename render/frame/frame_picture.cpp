@@ -39,7 +39,7 @@ Image<Outline> find_visible_outlines(const Shot& shot, const ShadingScene& shadi
     const FrameOutput& out = frame.out;
     if (out.limits.threshold.empty()) return {};
     Image<Outline> outlines = find_outlines(out.view, frame.centers.hits, out.motion);
-    mark_small_objects(outlines, out.view, shading);
+    mark_small_objects(outlines, out.view, frame.centers.hits, shading);
     const double asked = frame.plan.settings.error, error = asked > 0.0 ? asked : 1.0;
     mark_contrasts(outlines, out.estimate, out.limits.threshold, error / shot.scene.film.viewing.display_white);
     return outlines;

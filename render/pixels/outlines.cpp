@@ -63,8 +63,13 @@ class OutlineFinder {
     const MotionField& motion_;
 };
 
-/// Place of an object in the picture, if it is small there. Two of its vertices rule most others out.
-std::optional<glm::dvec2> place_if_small(const CameraView& view, const ShadingScene& shading,
+struct SmallObject {
+    glm::dvec2 place{0.0};  ///< pixels
+    double nearest = 0.0;   ///< m, from the camera
+};
+
+/// An object that is small in the picture. Two of its vertices rule most others out.
+std::optional<SmallObject> find_if_small(const CameraView& view, const ShadingScene& shading,
                                          const PosedInstance& instance) {
     if (!instance.visible || instance.mesh->positions.empty()) return std::nullopt;
     const auto vertices = static_cast<std::uint32_t>(instance.mesh->positions.size());
@@ -74,17 +79,29 @@ std::optional<glm::dvec2> place_if_small(const CameraView& view, const ShadingSc
     if (!project_small_sphere(view, shading.anchor + glm::dvec3(first), extent, 2.0 * small_object))
         return std::nullopt;
     const BoundingSphere sphere = find_sphere(instance);
-    return project_small_sphere(view, shading.anchor + glm::dvec3(sphere.center), sphere.radius, small_object);
+    const glm::dvec3 center = shading.anchor + glm::dvec3(sphere.center);
+    const std::optional<glm::dvec2> at = project_small_sphere(view, center, sphere.radius, small_object);
+    if (!at) return std::nullopt;
+    const glm::dvec3 p = to_camera(view, center);
+    return SmallObject{*at, (view.orthographic ? -p.z : glm::length(p)) - sphere.radius};
 }
 
 }  // namespace
 
-void mark_small_objects(Image<Outline>& outlines, const CameraView& view, const ShadingScene& shading) {
+void mark_small_objects(Image<Outline>& outlines, const CameraView& view, const Image<Hit>& hits,
+                        const ShadingScene& shading) {
     for (const PosedInstance& instance : shading.instances) {
-        const std::optional<glm::dvec2> at = place_if_small(view, shading, instance);
-        if (!at || !(at->x >= 0.0 && at->x < outlines.width && at->y >= 0.0 && at->y < outlines.height)) continue;
-        visit_around(outlines, static_cast<int>(at->x), static_cast<int>(at->y), 1,
-                     [&](int nx, int ny) { outlines(nx, ny) = Outline::small; });
+        const std::optional<SmallObject> object = find_if_small(view, shading, instance);
+        if (!object) continue;
+        const glm::dvec2 at = object->place;
+        if (!(at.x >= 0.0 && at.x < outlines.width && at.y >= 0.0 && at.y < outlines.height)) continue;
+        const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+        bool hidden = true;
+        visit_around(hits, x, y, 1, [&](int nx, int ny) {
+            const Hit& hit = hits(nx, ny);
+            hidden = hidden && hit.instance != no_index && hit.distance < object->nearest;
+        });
+        if (!hidden) visit_around(outlines, x, y, 1, [&](int nx, int ny) { outlines(nx, ny) = Outline::small; });
     }
 }
 

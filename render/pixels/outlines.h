@@ -27,9 +27,11 @@ enum class Outline : std::uint8_t {
 /// @param motion  of these surfaces; empty: nothing moves
 Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, const MotionField& motion);
 
-/// Marks the pixels that objects of at most 1.5 pixels' radius lie in, and those around them, as `small`, whether
-/// something hides the objects or not: rays through pixel centres, and the first samples, may miss them.
-void mark_small_objects(Image<Outline>& outlines, const CameraView& view, const ShadingScene& shading);
+/// Marks the pixels that objects of at most 1.5 pixels' radius lie in, and those around them, as `small`: rays through
+/// pixel centres, and the first samples, may miss the objects. Not where all these centres show something nearer.
+/// @param hits  through pixel centres, of the view's size
+void mark_small_objects(Image<Outline>& outlines, const CameraView& view, const Image<Hit>& hits,
+                        const ShadingScene& shading);
 
 /// Marks pixels without an outline as `still` where the luminances of the nine differ by more than half of what is
 /// tolerated, as at shadows and in textures: a few samples of one pixel may miss what those of another meet.

@@ -86,8 +86,8 @@ TEST(Outlines, WhatMovesDifferentlyIsTold) {
     EXPECT_EQ(find_outlines(view, hits, motion)(22, 15), Outline::none);
 }
 
-TEST(Outlines, SmallObjectsAreMarkedWhereverTheyLie) {
-    // 100 m away a pixel is 1 m over its focal length of pixels; behind another, off centre, hidden, too large.
+TEST(Outlines, SmallObjectsAreMarkedUnlessTheyAreHidden) {
+    // Off centre, in a corner, behind a wall, too large, and behind the camera.
     const CameraView view = test_view();
     const double pixel = 100.0 / view.pixels_per_unit;
     Scene scene;
@@ -97,13 +97,19 @@ TEST(Outlines, SmallObjectsAreMarkedWhereverTheyLie) {
     };
     add_mesh(scene, make_quad(0.4 * pixel, 0.4 * pixel, grey), place(10.2, 20.7, -100.0));
     add_mesh(scene, make_quad(0.4 * pixel, 0.4 * pixel, grey), place(0.3, 0.3, -100.0));
+    add_mesh(scene, make_quad(0.4 * pixel, 0.4 * pixel, grey), place(30.5, 22.5, -100.0));
     add_mesh(scene, make_quad(4.0 * pixel, 4.0 * pixel, grey), place(30.0, 10.0, -100.0));
     add_mesh(scene, make_quad(0.4 * pixel, 0.4 * pixel, grey), place(25.0, 5.0, 100.0));
     add_camera(scene, view.position, view.position - view.axes[2]);
     const Stage stage(scene, width, height);
     Image<Outline> outlines(width, height, Outline::none);
     outlines(10, 20) = Outline::moving;
-    mark_small_objects(outlines, view, stage.shading);
+    Image<Hit> hits(width, height);
+    for (int y = 18; y < height; ++y) {
+        for (int x = 25; x < width; ++x) hits(x, y) = {.instance = 9, .distance = 50.0f};
+    }
+    hits(10, 20) = {.instance = 9, .distance = 50.0f};  // those around it show nothing
+    mark_small_objects(outlines, view, hits, stage.shading);
     for (const auto [x, y] : all_pixels(width, height)) {
         const bool near = (std::abs(x - 10) <= 1 && std::abs(y - 20) <= 1) || (x <= 1 && y <= 1);
         EXPECT_EQ(outlines(x, y), near ? Outline::small : Outline::none) << x << ' ' << y;
