@@ -57,7 +57,7 @@ class NoiseVisibility {
 /// NoiseVisibility::threshold of every pixel.
 /// @param picture   what is shown; white = 1
 /// @param white     luminance of the display's white, cd/m2
-/// @param adaptation_luminance  cd/m2, of the picture as the display shows it: no more than white
+/// @param adaptation_luminance  cd/m2, of the picture as the display shows it: from screen_reflection to white and that
 /// @param retinal   deg/s (perception.h)
 /// @param velocity  image velocity, deg/s: what is not retinal motion is tracked; empty: nothing is
 /// @throws InputError if the sizes differ

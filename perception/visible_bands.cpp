@@ -68,11 +68,13 @@ Image<float> difference(Image<float> a, const Image<float>& b) {
 
 Image<float> compute_visual_channel(const Image<Rgb>& picture, double white, int channel) {
     const std::array<double, 3> weights = rgb_to_channels()[static_cast<std::size_t>(channel)];
+    const double reflected = channel == 0 ? screen_reflection : 0.0;
     Image<float> out(picture.width, picture.height);
     for (std::size_t i = 0; i < picture.size(); ++i) {
         const Rgb& p = picture.pixels[i];
         out.pixels[i] = static_cast<float>(
-            white * (weights[0] * displayed(p.x) + weights[1] * displayed(p.y) + weights[2] * displayed(p.z)));
+            white * (weights[0] * displayed(p.x) + weights[1] * displayed(p.y) + weights[2] * displayed(p.z)) +
+            reflected);
     }
     return out;
 }

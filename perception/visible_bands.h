@@ -14,7 +14,13 @@ namespace aleph {
 inline constexpr int visual_channels = 3;
 using VisualChannels = std::array<Image<float>, visual_channels>;
 
-/// The light of a display, in one channel: components are clamped to [0,1], NaN counts as 0.
+/// Luminance that a screen adds to every pixel, cd/m2: it reflects about 1 % of the light around it, 64 lux in the
+/// surroundings that sRGB is made for (IEC 61966-2-1). Without it the eye would adapt to the black beside a bright
+/// thing, and see in it the faintest light of coarse bands.
+inline constexpr float screen_reflection = 0.2f;
+
+/// The light of a display, in one channel: components are clamped to [0,1], NaN counts as 0. The achromatic one has
+/// screen_reflection too.
 /// @param picture  linear RGB, Rec.709, white = 1
 /// @param white    cd/m2
 Image<float> compute_visual_channel(const Image<Rgb>& picture, double white, int channel);

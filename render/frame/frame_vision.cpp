@@ -2,6 +2,7 @@
 
 #include "motion/velocity.h"
 #include "perception/threshold.h"
+#include "perception/visible_bands.h"
 #include "render/estimate/estimate.h"
 #include "render/guide/accuracy_map.h"
 
@@ -19,10 +20,12 @@ bool follows_motion(Guide guide) {
     return guide == Guide::full || guide == Guide::saliency;
 }
 
-/// As a display shows it, which emits no more than its white.
-Image<Rgb> clamp_to_white(Image<Rgb> picture) {
+/// The luminance of the display that the eye is adapted to, cd/m2: it emits no more than its white.
+Image<float> find_shown_luminance(Image<Rgb> picture, const ViewingConditions& viewing) {
     for (Rgb& value : picture.pixels) value = glm::clamp(value, Rgb(0.0f), Rgb(1.0f));
-    return picture;
+    Image<float> shown = compute_adaptation_luminance(picture, viewing);
+    for (float& value : shown.pixels) value += screen_reflection;
+    return shown;
 }
 
 }  // namespace
@@ -39,8 +42,8 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     Image<float>& adaptation = out.perception.adaptation;
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.film.viewing);
     out.limits.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
-    // Noise is seen on the display, to which the eye is adapted: a lamp there is no brighter than white.
-    const Image<float> shown = compute_adaptation_luminance(clamp_to_white(out.estimate), shot.film.viewing);
+    // Noise is seen on the display: a lamp there is no brighter than white.
+    const Image<float> shown = find_shown_luminance(out.estimate, shot.film.viewing);
     out.limits.threshold_noise = compute_noise_threshold(
         noise, out.estimate, shot.film.viewing.display_white, shown, out.perception.retinal_velocity,
         follows_motion(settings.perception.guide) ? out.velocity : Image<float>());

@@ -251,6 +251,23 @@ TEST(VisibleDifference, DisplayShowsNothingAboveWhite) {
     EXPECT_EQ(show(bright(3.0), bright(40.0)).seen, 0.0);
 }
 
+/// A square on black, and a pixel of it that is darker.
+TEST(VisibleDifference, NothingIsSeenInTheBlackFarFromAnError) {
+    Image<Rgb> reference(width, height), picture;
+    for (int y = 56; y < 72; ++y) {
+        for (int x = 88; x < 104; ++x) reference(x, y) = Rgb(0.8f);
+    }
+    picture = reference;
+    picture(90, 58) = Rgb(0.6f);
+    VisibleDifference difference({});
+    difference.add(0, {picture, reference}, uniform_motion(0.0f));
+    const VisibleMaps maps = difference.finish().at(0);
+    EXPECT_GT(maps.seen(90, 58), 1.0f);
+    for (const auto& [x, y] : {std::pair{0, 0}, {191, 0}, {0, 127}, {191, 127}, {20, 64}}) {
+        EXPECT_LT(maps.seen(x, y), 0.2f) << x << ' ' << y;
+    }
+}
+
 TEST(VisibleDifference, ValuesThatAreNotFiniteAreSeen) {
     Image<Rgb> broken = picture_of(flat);
     broken(10, 20).y = float_nan;
