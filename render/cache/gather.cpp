@@ -37,11 +37,11 @@ struct Lighting {
     /// sr, that a ray represents. Cells towards the horizon are 1 / cosine larger.
     float solid_angle(std::size_t ray) const {
         const float cosine = std::max(glm::dot(normal, scratch.rays[ray].direction), min_ray_cosine);
-        return pi * scratch.places[ray].share / (static_cast<float>(strata.count()) * cosine);
+        return pi / (static_cast<float>(strata.count()) * cosine);
     }
     /// Numbers for a light at what this ray hit.
     LightNumbers light_numbers(std::size_t ray) const {
-        const auto& [cell, row, column, share] = scratch.places[ray];
+        const auto& [cell, row, column] = scratch.places[ray];
         return {numbers.light(row, column), numbers.light_point(row, column)};
     }
     /// Cell of the direct grid; 0: there is no grid.
@@ -69,8 +69,9 @@ struct Lighting {
         }
         return found;
     }
-    Rgb sample_multi_bounce(const SurfacePlace& met) const {
-        return sample_multi_bounce_irradiance(context, task, met, options.multi_bounce, options.depth, random);
+    Rgb sample_multi_bounce(const SurfacePlace& met, const SurfaceMaterial* material = nullptr) const {
+        return sample_multi_bounce_irradiance(context, task, met, material, options.multi_bounce, options.depth,
+                                              random);
     }
     bool notes_further() const { return options.multi_bounce.noted && options.multi_bounce.bounces > 0; }
     void note_further(std::size_t ray, const Rgb& weight, const SurfacePlace& met, const Hit& hit) const {
@@ -156,7 +157,7 @@ void light_hit(const Lighting& lighting, std::size_t i) {
         } else if (const auto known = lighting.look_up(i, surface.point, scratch.hits[i])) {
             scratch.light[i] += weight * *known;
         } else {
-            scratch.light[i] += weight * lighting.sample_multi_bounce(surface.point);
+            scratch.light[i] += weight * lighting.sample_multi_bounce(surface.point, &surface.material);
         }
     }
     const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
@@ -259,15 +260,24 @@ void add_unshadowed(const LightingContext& context, RayTask& task, const GatherO
                     scratch);
 }
 
+/// Weighs the light of all rays by how much of it enters the Lambert layer.
+void weigh_by_transmission(const SurfaceMaterial& material, const glm::vec3& normal, GatherScratch& scratch) {
+    if (!(material.gloss.f90_max > 0.0f || material.gloss.f0_max > 0.0f)) return;
+    const auto weight = [&](std::size_t ray) {
+        return relative_transmission(material, glm::dot(normal, scratch.rays[ray].direction));
+    };
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) scratch.light[i] *= weight(i);
+    for (FurtherLight& further : scratch.further) further.weight *= weight(static_cast<std::size_t>(further.ray));
+}
+
 /// From what the rays found to the radiance and the distance of every cell.
-void merge_rays(const HemisphereStrata& strata, GatherScratch& scratch) {
+void sort_by_cell(const HemisphereStrata& strata, GatherScratch& scratch) {
     scratch.distances.assign(static_cast<std::size_t>(strata.count()), infinite);
     scratch.radiance.assign(static_cast<std::size_t>(strata.count()), Rgb(0.0f));
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
-        const RayPlace& place = scratch.places[i];
-        scratch.radiance[place.cell] += scratch.light[i] * place.share;
-        if (scratch.hits[i].instance == no_index) continue;
-        scratch.distances[place.cell] = std::min(scratch.distances[place.cell], scratch.hits[i].distance);
+        const int cell = scratch.places[i].cell;
+        scratch.radiance[cell] = scratch.light[i];
+        if (scratch.hits[i].instance != no_index) scratch.distances[cell] = scratch.hits[i].distance;
     }
 }
 
@@ -284,21 +294,21 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     const HemisphereStrata& strata = pattern.strata;
     RandomStream random(pattern.key);
     const CellNumbers numbers(random);
-    const int most = divide_cells(strata, options.divided, scratch);
-    place_rays(strata, make_basis(point.normal), point, numbers, most, scratch);
+    place_rays(strata, make_basis(point.normal), point, numbers, scratch);
     scratch.strata = strata;
     task.tracer.intersect(scratch.rays, scratch.hits, scratch.normals);
     task.counts.gather += scratch.rays.size();
     light_hits(
         {context, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});
     add_unshadowed(context, task, options, scratch);
+    if (options.material != nullptr) weigh_by_transmission(*options.material, point.normal, scratch);
     return add_up_rays(strata, point.normal, scratch);
 }
 
 IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch) {
-    merge_rays(strata, scratch);
+    sort_by_cell(strata, scratch);
     IrradianceSample out;
-    for (const std::uint8_t side : scratch.sides) out.rays += side * side;
+    out.rays = strata.count();
     glm::dvec3 sum(0.0);
     for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
     out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));

@@ -7,7 +7,6 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "engine/base/color.h"
@@ -68,17 +67,10 @@ inline int sector_of(float x, float y) {
     return (x < 0.0f ? 1 : 0) | (y < 0.0f ? 2 : 0) | (across < along ? 4 : 0) | (diagonal ? 8 : 0);
 }
 
-/// A cell of the strata that takes side x side rays, one in each of its equal parts. Their mean is the cell's radiance.
-struct DividedCell {
-    int cell = 0;
-    int side = 1;  ///< at least 1
-};
-
-/// Where a ray of a gather belongs.
+/// The cell of the strata that a ray belongs to.
 struct RayPlace {
-    int cell = 0;             ///< of the strata
-    int row = 0, column = 0;  ///< in strata as fine as the parts of its cell
-    float share = 1.0f;       ///< of the cell
+    int cell = 0;
+    int row = 0, column = 0;
 };
 
 /// Light of a sampled light, until its shadow ray is cast.
@@ -124,13 +116,12 @@ struct GatherScratch {
     std::vector<RayPlace> places;
     std::vector<Rgb> light;  ///< radiance that the ray finds
     // One for every cell.
-    std::vector<std::uint8_t> sides;    ///< of DividedCell; 1: one ray
     std::vector<std::uint8_t> below;    ///< no ray is cast: all directions are below the true surface
     std::vector<FurtherLight> further;  ///< not in `light`; of MultiBounceLight::noted
     std::vector<glm::vec3> normals;     ///< of the hits (Tracer::intersect)
     // One for every cell.
-    std::vector<Rgb> radiance;     ///< mean over its rays; those below the true surface are black
-    std::vector<float> distances;  ///< m, the shortest of its rays; infinite where nothing is met
+    std::vector<Rgb> radiance;     ///< black below the true surface
+    std::vector<float> distances;  ///< m; infinite where nothing is met
     // One for every shadow ray.
     std::vector<Ray> shadow_rays;
     std::vector<ShadowSample> shadow_samples;
@@ -147,12 +138,11 @@ struct KeptRays {
         glm::vec3 direction{0.0f};
         float distance = 0.0f;  ///< infinite: nothing is met
         int cell = 0;
-        float share = 1.0f;
         Rgb light{0.0f};
     };
     HemisphereStrata strata;
     std::vector<KeptRay> rays;
-    std::vector<std::uint8_t> sides, below;
+    std::vector<std::uint8_t> below;
     std::vector<FurtherLight> further;
 };
 
@@ -163,8 +153,9 @@ struct GatherOptions {
     const DirectGrid* grid = nullptr;
     std::vector<DirectSample>* found = nullptr;  ///< if given, samples for the grid are added
     MultiBounceLight multi_bounce{};             ///< light of further bounces; none: one bounce only
-    /// Each cell at most once. Which cells are here must not depend on the gather's own random numbers.
-    std::span<const DividedCell> divided{};
+    /// Weighs the light of each ray by its relative_transmission, which is what diffuse_radiance needs. Null: all
+    /// alike.
+    const SurfaceMaterial* material = nullptr;
 };
 
 /// Where the rays of a gather go.

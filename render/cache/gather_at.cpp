@@ -44,8 +44,11 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     const RandomKey key = choose_key(context, surface);
     return gather_irradiance(context.lighting, task, surface.point, {choose_strata(rays), key}, scratch,
-                             {std::max(0, context.settings.light.path_depth - 2 - context.bounces.before),
-                              context.direct, found, context.bounces.further});
+                             {.depth = std::max(0, context.settings.light.path_depth - 2 - context.bounces.before),
+                              .grid = context.direct,
+                              .found = found,
+                              .multi_bounce = context.bounces.further,
+                              .material = &surface.material});
 }
 
 }  // namespace aleph

@@ -34,7 +34,6 @@ inline void find_sine_cosine(float turn, float& sine, float& cosine) {
 struct RayBlock {
     static constexpr std::size_t most = 64;
     std::array<RayPlace, most> places;
-    std::array<float, most> parts;  ///< along each side of the cell
     std::array<float, most> x, y, z;
     std::array<float, most> rise;  ///< cosine with the true normal
     std::size_t count = 0;
@@ -48,8 +47,8 @@ void find_directions(const HemisphereStrata strata, const Basis basis, const glm
     for (std::size_t i = 0; i < block.count; ++i) {
         const int row = block.places[i].row, column = block.places[i].column;
         const glm::vec2 place = numbers.place(row, column);
-        const float elevation = (static_cast<float>(row) + place.x) * by_row / block.parts[i];
-        const float azimuth = (static_cast<float>(column) + place.y) * by_column / block.parts[i];
+        const float elevation = (static_cast<float>(row) + place.x) * by_row;
+        const float azimuth = (static_cast<float>(column) + place.y) * by_column;
         float sine, cosine;
         find_sine_cosine(azimuth, sine, cosine);
         const float radius = std::sqrt(elevation), rest = 1.0f - elevation;
@@ -78,20 +77,11 @@ std::size_t add_rays(const RayBlock& block, const glm::vec3& origin, std::size_t
 
 }  // namespace
 
-int divide_cells(const HemisphereStrata& strata, std::span<const DividedCell> divided, GatherScratch& scratch) {
-    scratch.sides.assign(static_cast<std::size_t>(strata.count()), 1);
-    int rays = strata.count();
-    for (const DividedCell& cell : divided) {
-        scratch.sides[cell.cell] = static_cast<std::uint8_t>(cell.side);
-        rays += cell.side * cell.side - 1;
-    }
-    return rays;
-}
-
 void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePlace& point,
-                const CellNumbers& numbers, int most, GatherScratch& scratch) {
+                const CellNumbers& numbers, GatherScratch& scratch) {
     scratch.below.assign(static_cast<std::size_t>(strata.count()), 1);
-    const std::size_t room = static_cast<std::size_t>(most) + 1;  // one more is written after the last that counts
+    // One more is written after the last that counts.
+    const std::size_t room = static_cast<std::size_t>(strata.count()) + 1;
     scratch.rays.resize(room);
     scratch.places.resize(room);
     const glm::vec3 origin = point.ray_origin();
@@ -103,13 +93,8 @@ void place_rays(const HemisphereStrata& strata, const Basis& basis, const Surfac
         block.count = 0;
     };
     visit_blocks(strata, [&](int cell, int row, int column) {
-        const int side = scratch.sides[cell];
-        const float share = 1.0f / static_cast<float>(side * side);
-        for (int part = 0; part < side * side; ++part) {
-            block.places[block.count] = {cell, row * side + part / side, column * side + part % side, share};
-            block.parts[block.count] = static_cast<float>(side);
-            if (++block.count == RayBlock::most) finish();
-        }
+        block.places[block.count] = {cell, row, column};
+        if (++block.count == RayBlock::most) finish();
     });
     finish();
     scratch.rays.resize(count);
@@ -119,21 +104,19 @@ void place_rays(const HemisphereStrata& strata, const Basis& basis, const Surfac
 }
 
 KeptRays keep_rays(GatherScratch& scratch) {
-    KeptRays kept{scratch.strata, {}, scratch.sides, scratch.below, std::exchange(scratch.further, {})};
+    KeptRays kept{scratch.strata, {}, scratch.below, std::exchange(scratch.further, {})};
     kept.further.shrink_to_fit();
     kept.rays.reserve(scratch.rays.size());
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         const Hit& hit = scratch.hits[i];
-        const RayPlace& place = scratch.places[i];
-        kept.rays.push_back({scratch.rays[i].direction, hit.instance == no_index ? infinite : hit.distance, place.cell,
-                             place.share, scratch.light[i]});
+        kept.rays.push_back({scratch.rays[i].direction, hit.instance == no_index ? infinite : hit.distance,
+                             scratch.places[i].cell, scratch.light[i]});
     }
     return kept;
 }
 
 void restore_rays(const KeptRays& kept, GatherScratch& scratch) {
     scratch.strata = kept.strata;
-    scratch.sides = kept.sides;
     scratch.below = kept.below;
     scratch.rays.resize(kept.rays.size());
     scratch.hits.resize(kept.rays.size());
@@ -144,7 +127,7 @@ void restore_rays(const KeptRays& kept, GatherScratch& scratch) {
         scratch.rays[i].direction = ray.direction;
         scratch.hits[i].instance = std::isfinite(ray.distance) ? 0 : no_index;
         scratch.hits[i].distance = ray.distance;
-        scratch.places[i] = {.cell = ray.cell, .share = ray.share};
+        scratch.places[i] = {.cell = ray.cell};
         scratch.light[i] = ray.light;
     }
 }

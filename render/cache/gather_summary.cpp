@@ -125,43 +125,21 @@ void set_clearance(const HemisphereStrata& strata, const Basis& basis, const Gat
 /// smoothly, and least where a few rays meet something very bright. In a bare room it is twice the spread.
 constexpr float share_of_independent = 0.8f;
 
-/// Variance of the brightness that one ray finds in a cell of the strata, from the cells that take one ray each: mixed
-/// differences a - b - c + d over squares of four cells, whose variance is that of four cells. Light that varies along
-/// rows and columns smoothly, and edges along either, cancel in them.
-double estimate_cell_variance(const HemisphereStrata& strata, const std::vector<std::uint8_t>& sides,
-                              const std::vector<float>& brightness) {
+/// Variance of the brightness that one ray finds in a cell of the strata, from mixed differences a - b - c + d over
+/// squares of four cells, whose variance is that of four cells. Light that varies along rows and columns smoothly, and
+/// edges along either, cancel in them.
+double estimate_cell_variance(const HemisphereStrata& strata, const std::vector<float>& brightness) {
     double squares = 0.0;
-    int count = 0;
     for (int j = 1; j < strata.rows; ++j) {
         for (int k = 0; k < strata.columns; ++k) {
             const int before = k == 0 ? strata.columns - 1 : k - 1;
             const int a = strata.cell(j, k), b = strata.cell(j - 1, k);
             const int c = strata.cell(j, before), d = strata.cell(j - 1, before);
-            if ((sides[a] | sides[b] | sides[c] | sides[d]) != 1) continue;
             const float mixed = brightness[a] - brightness[b] - brightness[c] + brightness[d];
             squares += static_cast<double>(mixed) * mixed;
-            ++count;
         }
     }
-    return count > 0 ? squares / (4.0 * count) : 0.0;
-}
-
-/// Sum of the variances of the means of all divided cells, from the differences of their own rays.
-double sum_divided_variance(const GatherScratch& scratch) {
-    double sum = 0.0;
-    for (std::size_t i = 0, end = 0; i < scratch.places.size(); i = end) {
-        const int cell = scratch.places[i].cell, side = scratch.sides[cell];
-        double light = 0.0, squares = 0.0;
-        for (end = i; end < scratch.places.size() && scratch.places[end].cell == cell; ++end) {
-            const double found = luminance(scratch.light[end]);
-            light += found;
-            squares += found * found;
-        }
-        if (side == 1) continue;
-        const double rays = static_cast<double>(side) * side;
-        sum += std::max(0.0, squares - light * light / rays) / (rays * (rays - 1.0));
-    }
-    return sum;
+    return squares / (4.0 * (strata.rows - 1) * strata.columns);
 }
 
 /// The standard error of the irradiance's luminance over the luminance itself. With one sample in each cell, the
@@ -177,10 +155,7 @@ float estimate_relative_error(const HemisphereStrata& strata, GatherScratch& scr
     }
     if (!(sum > 0.0)) return 0.0f;
     if (strata.rows < 2 || strata.columns < 2) return infinite;
-    const auto divided = strata.count() - std::ranges::count(scratch.sides, 1);
-    double variance =
-        static_cast<double>(strata.count() - divided) * estimate_cell_variance(strata, scratch.sides, brightness);
-    if (divided > 0) variance += sum_divided_variance(scratch);
+    const double variance = strata.count() * estimate_cell_variance(strata, brightness);
     return share_of_independent * static_cast<float>(std::sqrt(variance) / sum);
 }
 

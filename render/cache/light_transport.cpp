@@ -45,7 +45,7 @@ struct Place {
 /// Takes out what the rays of a place did not look up. Weights become those of the place's irradiance.
 std::vector<FurtherLight> take_further(KeptRays& found) {
     const float per_share = pi / static_cast<float>(found.strata.count());
-    for (FurtherLight& further : found.further) further.weight *= found.rays[further.ray].share * per_share;
+    for (FurtherLight& further : found.further) further.weight *= per_share;
     return std::exchange(found.further, {});
 }
 
@@ -82,7 +82,7 @@ class LightTransport {
                 restore_rays(gathered_[i], scratch);
                 const float per_share = pi / static_cast<float>(scratch.strata.count());
                 for (const LinkedLight& light : places_[i].linked) {
-                    scratch.light[light.ray] += arrive(light) / (per_share * scratch.places[light.ray].share);
+                    scratch.light[light.ray] += arrive(light) / per_share;
                 }
                 set_light(add_up_rays(scratch.strata, records[i].normal, scratch), records[i]);
             }

@@ -4,6 +4,7 @@
 
 #include "render/cache/irradiance_cache.h"
 #include "render/path/path.h"
+#include "render/surface/bsdf.h"
 
 namespace aleph {
 
@@ -19,9 +20,11 @@ std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& poi
 
 /// Lamps that the ray meets, or sees straight through sheets of glass, are direct light of the point.
 Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                                   const MultiBounceLight& multi_bounce, int depth, RandomStream& random) {
+                                   const SurfaceMaterial* material, const MultiBounceLight& multi_bounce, int depth,
+                                   RandomStream& random) {
     if (multi_bounce.bounces <= 0) return Rgb(0.0f);
-    const glm::vec3 direction = make_basis(point.normal).to_world(sample_cosine_hemisphere(random.next_2d()));
+    const glm::vec3 local = sample_cosine_hemisphere(random.next_2d());
+    const glm::vec3 direction = make_basis(point.normal).to_world(local);
     if (!(glm::dot(direction, point.geometric) > 0.0f)) return Rgb(0.0f);
     ++task.counts.multi_bounce;
     PathState state;
@@ -30,7 +33,9 @@ Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task
     if (multi_bounce.cache != nullptr) state.roulette_after = 0;
     state.turned = true;
     state.emission = EmissionWeight::none;
-    return std::numbers::pi_v<float> * follow_ray(context, task, {point.ray_origin(), direction}, state, random);
+    const float enters = material == nullptr ? 1.0f : relative_transmission(*material, local.z);
+    return enters * std::numbers::pi_v<float> *
+           follow_ray(context, task, {point.ray_origin(), direction}, state, random);
 }
 
 }  // namespace aleph

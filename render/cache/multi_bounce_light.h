@@ -29,8 +29,10 @@ std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& poi
                                           const MultiBounceLight& multi_bounce);
 
 /// The same without bias from one random path, whose first ray is counted as RayCounts::multi_bounce.
-/// @param depth  surfaces that may scatter on the path
+/// @param material  weighs the light by its relative_transmission; null: pure Lambert
+/// @param depth     surfaces that may scatter on the path
 Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                                   const MultiBounceLight& multi_bounce, int depth, RandomStream& random);
+                                   const SurfaceMaterial* material, const MultiBounceLight& multi_bounce, int depth,
+                                   RandomStream& random);
 
 }  // namespace aleph

@@ -78,10 +78,11 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
     Rgb sum(0.0f);
     for (int i = 0; i < rays; ++i) {
         const glm::vec2 u = sequence.at_2d(SampleUse::indirect, surface.sample * rays + i);
-        const glm::vec3 direction = basis.to_world(sample_cosine_hemisphere(u));
+        const glm::vec3 local = sample_cosine_hemisphere(u), direction = basis.to_world(local);
         if (!(glm::dot(direction, surface.point.geometric) > 0.0f)) continue;
         ++task.counts.path;
-        sum += follow_ray(scene.lighting, task, {surface.point.ray_origin(), direction}, state, random);
+        sum += follow_ray(scene.lighting, task, {surface.point.ray_origin(), direction}, state, random) *
+               relative_transmission(surface.material, local.z);
     }
     return sum * (pi / static_cast<float>(rays));
 }

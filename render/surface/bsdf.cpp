@@ -20,6 +20,11 @@ Rgb evaluate_diffuse(const SurfaceMaterial& material, float cos_view, float cos_
            (diffuse_transmission(material, cos_view) * diffuse_transmission(material, cos_light) / pi);
 }
 
+float relative_transmission(const SurfaceMaterial& material, float cos_light) {
+    const float mean = mean_diffuse_transmission(material);
+    return mean > 0.0f ? diffuse_transmission(material, cos_light) / mean : 1.0f;
+}
+
 Rgb diffuse_radiance(const SurfaceMaterial& material, float cos_view, const Rgb& irradiance) {
     return material.diffuse * irradiance *
            (diffuse_transmission(material, cos_view) * mean_diffuse_transmission(material) / pi);

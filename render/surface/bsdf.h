@@ -16,7 +16,13 @@ float mean_diffuse_transmission(const SurfaceMaterial& material);
 /// f_diffuse for the cosines of both directions with the shading normal.
 Rgb evaluate_diffuse(const SurfaceMaterial& material, float cos_view, float cos_light);
 
-/// Radiance of the Lambert layer for an irradiance E at this cosine of the view. Exact for uniform incoming light.
+/// How much of the light from a direction enters the Lambert layer, over the mean over the hemisphere; 1 where nothing
+/// enters.
+float relative_transmission(const SurfaceMaterial& material, float cos_light);
+
+/// Radiance of the Lambert layer at this cosine of the view.
+/// @param irradiance  with the light of each direction times its relative_transmission. Plain irradiance is the same
+///                    where light is uniform
 Rgb diffuse_radiance(const SurfaceMaterial& material, float cos_view, const Rgb& irradiance);
 
 /// F(v.h) of the glossy layer (Schlick 1994).

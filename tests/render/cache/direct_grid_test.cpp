@@ -110,16 +110,14 @@ TEST(DirectGrid, GathersNoteTheCellsOfTheirHits) {
     const GatherScratch& scratch = ceiling.scratch;
     const DirectGrid grid;
     std::vector<DirectSample> found;
-    const DividedCell divided[] = {{20, 3}};
     ceiling.gather(make_point(-glm::vec3(ceiling.stage.shading.anchor), up), {{6, 16}, {1, 2, 3, 4}},
-                   {.grid = &grid, .found = &found, .divided = divided});
+                   {.grid = &grid, .found = &found});
     std::multiset<std::uint64_t> expected, noted;
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         const Hit& hit = scratch.hits[i];
         if (hit.instance == no_index) continue;
         const glm::vec3 direction = scratch.rays[i].direction;
-        const float share = scratch.places[i].cell == 20 ? 1.0f / 9.0f : 1.0f;
-        const double solid_angle = std::numbers::pi * share / (96.0 * std::max(direction.y, 0.05f));
+        const double solid_angle = std::numbers::pi / (96.0 * std::max(direction.y, 0.05f));
         const glm::vec3 place(direction.x * hit.distance, 0.0f, direction.z * hit.distance);  // the quad's origin
         expected.insert(
             grid.key_of(hit.instance, place, -up, hit.distance * static_cast<float>(std::sqrt(solid_angle))));

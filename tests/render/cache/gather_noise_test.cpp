@@ -30,29 +30,6 @@ TEST(GatherNoise, TheEstimateIsTheSpreadOverSeeds) {
     }
 }
 
-/// Cells that take more rays change neither the mean nor what the estimate says of the noise.
-TEST(GatherNoise, DividedCellsKeepTheMeanAndTheEstimate) {
-    Gathering room(make_cluttered_room());
-    const SurfacePoint point = make_point({-0.2f, -1.499f, -0.2f}, {0.0f, 1.0f, 0.0f});
-    const HemisphereStrata strata = choose_strata(64);
-    std::vector<DividedCell> divided;
-    for (int cell = 0; cell < strata.count(); cell += 3) divided.push_back({cell, 2 + cell % 3});
-    EXPECT_TRUE(holds([&](Trial& trial) {
-        const std::uint32_t runs = trial.times(256u);
-        Mean light, variance, plain;
-        for (std::uint32_t seed = trial.seed; seed < trial.seed + runs; ++seed) {
-            const IrradianceSample sample = room.gather(point, {strata, {seed, 7, 0, 0}}, {.divided = divided});
-            light.add(luminance(sample.irradiance));
-            variance.add(static_cast<double>(sample.relative_error) * sample.relative_error);
-            plain.add(luminance(room.gather(point, {strata, {seed, 8, 0, 0}}).irradiance));
-            EXPECT_GT(sample.rays, 3 * strata.count() / 2);
-        }
-        trial.near(light, plain);
-        EXPECT_LT(plain.error(), 0.01 * plain.mean());
-        EXPECT_NEAR(std::sqrt(variance.mean()) / (light.error() * std::sqrt(runs) / light.mean()), 1.0, 0.3);
-    }));
-}
-
 TEST(GatherNoise, EdgesOfTheEstimate) {
     Gathering room(make_cluttered_room());
     const auto error_of = [&](int samples) {

@@ -86,62 +86,48 @@ struct Placed {
     SurfacePoint point;
     Basis basis;
     GatherScratch scratch;
-    int count = 0;
     const RandomKey key{7, 0, 0, 0};
 
-    Placed(const HemisphereStrata& s, const glm::vec3& normal, const glm::vec3& geometric,
-           std::span<const DividedCell> divided)
+    Placed(const HemisphereStrata& s, const glm::vec3& normal, const glm::vec3& geometric)
         : strata(s), point(make_point({1.0f, 2.0f, 3.0f}, normal)), basis(make_basis(normal)) {
         point.geometric = geometric;
         RandomStream random(key);
-        count = divide_cells(strata, divided, scratch);
-        place_rays(strata, basis, point, CellNumbers(random), count, scratch);
+        place_rays(strata, basis, point, CellNumbers(random), scratch);
     }
 
     glm::dvec3 direction(const RayPlace& place) const {
         RandomStream random(key);
         const glm::vec2 number = CellNumbers(random).place(place.row, place.column);
-        const double side = scratch.sides[place.cell];
-        const double elevation = (place.row + static_cast<double>(number.x)) / (strata.rows * side);
-        const double azimuth = 2.0 * pi * (place.column + static_cast<double>(number.y)) / (strata.columns * side);
+        const double elevation = (place.row + static_cast<double>(number.x)) / strata.rows;
+        const double azimuth = 2.0 * pi * (place.column + static_cast<double>(number.y)) / strata.columns;
         return glm::dvec3(basis.tangent) * (std::sqrt(elevation) * std::cos(azimuth)) +
                glm::dvec3(basis.bitangent) * (std::sqrt(elevation) * std::sin(azimuth)) +
                glm::dvec3(basis.normal) * std::sqrt(1.0 - elevation);
     }
 };
 
-TEST(GatherRays, OneRayLiesInEachPartOfACell) {
-    const DividedCell divided[] = {{3, 2}, {20, 3}, {31, 1}};
+TEST(GatherRays, OneRayLiesInEachCell) {
     for (const glm::vec3& normal : {glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(0.48f, -0.6f, 0.64f)}) {
-        const Placed placed({6, 16}, normal, normal, divided);
-        ASSERT_EQ(placed.count, 96 + 3 + 8);
-        ASSERT_EQ(placed.scratch.rays.size(), 107u);  // more than one block
-        ASSERT_EQ(placed.scratch.places.size(), 107u);
-        ASSERT_EQ(placed.scratch.hits.size(), 107u);
-        std::set<std::pair<int, int>> parts[96];
-        double shares[96] = {};
-        for (std::size_t i = 0; i < 107; ++i) {
+        const Placed placed({6, 16}, normal, normal);
+        ASSERT_EQ(placed.scratch.rays.size(), 96u);  // more than one block
+        ASSERT_EQ(placed.scratch.places.size(), 96u);
+        ASSERT_EQ(placed.scratch.hits.size(), 96u);
+        std::set<int> cells;
+        for (std::size_t i = 0; i < 96; ++i) {
             const RayPlace& place = placed.scratch.places[i];
-            const int side = placed.scratch.sides[place.cell];
-            EXPECT_EQ(side, place.cell == 3 ? 2 : place.cell == 20 ? 3 : 1);
-            EXPECT_EQ(placed.strata.cell(place.row / side, place.column / side), place.cell);
-            parts[place.cell].emplace(place.row, place.column);
-            shares[place.cell] += place.share;
+            EXPECT_EQ(placed.strata.cell(place.row, place.column), place.cell);
+            cells.insert(place.cell);
             const Ray& ray = placed.scratch.rays[i];
             expect_near(ray.direction, placed.direction(place), 5e-7);
             EXPECT_EQ(ray.origin, placed.point.ray_origin());
+            EXPECT_EQ(placed.scratch.below[i], 0);
         }
-        for (int cell = 0; cell < 96; ++cell) {
-            const std::size_t side = placed.scratch.sides[cell];
-            EXPECT_EQ(parts[cell].size(), side * side) << cell;
-            EXPECT_NEAR(shares[cell], 1.0, 1e-6) << cell;
-            EXPECT_EQ(placed.scratch.below[cell], 0);
-        }
+        EXPECT_EQ(cells.size(), 96u);
     }
 }
 
 TEST(GatherRays, AHundredTwentyEightRaysFillTheirBlocks) {
-    const Placed placed({8, 16}, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 1.0f}, {});
+    const Placed placed({8, 16}, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 1.0f});
     ASSERT_EQ(placed.scratch.rays.size(), 128u);
     for (std::size_t i = 0; i < 128; ++i) {
         expect_near(placed.scratch.rays[i].direction, placed.direction(placed.scratch.places[i]), 5e-7);
@@ -149,9 +135,8 @@ TEST(GatherRays, AHundredTwentyEightRaysFillTheirBlocks) {
 }
 
 TEST(GatherRays, RaysBelowTheTrueSurfaceAreLeftOut) {
-    const DividedCell divided[] = {{50, 2}};
     const glm::vec3 normal(0.0f, 1.0f, 0.0f), geometric(0.48f, 0.6f, 0.64f);
-    const Placed placed({6, 16}, normal, geometric, divided);
+    const Placed placed({6, 16}, normal, geometric);
     std::vector<int> rays(96, 0);
     for (std::size_t i = 0; i < placed.scratch.rays.size(); ++i) {
         EXPECT_GT(glm::dot(placed.scratch.rays[i].direction, geometric), 0.0f);
@@ -160,12 +145,8 @@ TEST(GatherRays, RaysBelowTheTrueSurfaceAreLeftOut) {
     }
     int expected_count = 0;
     for (int cell = 0; cell < 96; ++cell) {
-        const int side = placed.scratch.sides[cell], row = cell / 16 * side, column = cell % 16 * side;
-        int expected = 0;
-        for (int part = 0; part < side * side; ++part) {
-            const RayPlace place{cell, row + part / side, column + part % side, 1.0f};
-            expected += glm::dot(placed.direction(place), glm::dvec3(geometric)) > 1e-6;
-        }
+        const RayPlace place{cell, cell / 16, cell % 16};
+        const int expected = glm::dot(placed.direction(place), glm::dvec3(geometric)) > 1e-6 ? 1 : 0;
         EXPECT_EQ(rays[cell], expected) << cell;
         EXPECT_EQ(placed.scratch.below[cell] != 0, expected == 0) << cell;
         expected_count += expected;

@@ -16,7 +16,6 @@ struct Hemisphere {
         const auto cells = static_cast<std::size_t>(strata.count());
         scratch.radiance.assign(cells, Rgb(radiance));
         scratch.distances.assign(cells, distance);
-        scratch.sides.assign(cells, 1);
         scratch.below.assign(cells, 0);
         for (int row = 0; row < strata.rows; ++row) {
             for (int column = 0; column < strata.columns; ++column) add_ray(row, column);
@@ -27,7 +26,7 @@ struct Hemisphere {
         const auto angle = static_cast<float>(azimuth(column));
         const glm::vec3 local(radius * std::cos(angle), radius * std::sin(angle), height);
         scratch.rays.push_back({glm::vec3(0.0f), basis.to_world(local)});
-        scratch.places.push_back({strata.cell(row, column), row, column, 1.0f});
+        scratch.places.push_back({strata.cell(row, column), row, column});
         scratch.hits.push_back({.instance = 0, .distance = scratch.distances[0]});
         scratch.light.emplace_back(scratch.radiance[0]);
     }
@@ -183,34 +182,6 @@ TEST(GatherSummary, NoiseIsThatOfMixedDifferences) {
     EXPECT_EQ(Hemisphere({1, 8}).summarize().relative_error, float_infinity);
     EXPECT_EQ(Hemisphere({8, 1}).summarize().relative_error, float_infinity);
     EXPECT_NEAR(Hemisphere({2, 2}).summarize().relative_error, 0.0f, 1e-6f);
-}
-
-TEST(GatherSummary, DividedCellsTellTheirOwnNoise) {
-    Hemisphere hemisphere({4, 8});
-    GatherScratch& scratch = hemisphere.scratch;
-    const auto cell = static_cast<std::size_t>(hemisphere.strata.cell(2, 3));
-    // In place of its ray, four rays of 1, 1, 1 and 5: the variance is 4, that of their mean 1.
-    scratch.sides[cell] = 2;
-    scratch.radiance[cell] = Rgb(2.0f);
-    const auto at = static_cast<std::ptrdiff_t>(cell);
-    scratch.places.insert(scratch.places.begin() + at, 3, scratch.places[cell]);
-    scratch.rays.insert(scratch.rays.begin() + at, 3, scratch.rays[cell]);
-    scratch.hits.insert(scratch.hits.begin() + at, 3, scratch.hits[cell]);
-    scratch.light.insert(scratch.light.begin() + at, 3, scratch.light[cell]);
-    scratch.light[cell + 3] = Rgb(5.0f);
-    EXPECT_NEAR(hemisphere.summarize().relative_error, 0.8 * std::sqrt(1.0) / 33.0, 1e-6);
-    // Where every square has a divided cell, only these tell.
-    Hemisphere small({2, 2});
-    small.scratch.sides[0] = 2;
-    small.scratch.places.insert(small.scratch.places.begin(), 3, small.scratch.places[0]);
-    small.scratch.rays.insert(small.scratch.rays.begin(), 3, small.scratch.rays[0]);
-    small.scratch.hits.insert(small.scratch.hits.begin(), 3, small.scratch.hits[0]);
-    small.scratch.light.insert(small.scratch.light.begin(), 3, small.scratch.light[0]);
-    small.scratch.light[2] = Rgb(5.0f);
-    EXPECT_NEAR(small.summarize().relative_error, 0.8 * std::sqrt(1.0) / 4.0, 1e-6);
-    // And one cell far from it adds its own: 31 cells of one ray, 20 squares without the divided cell.
-    scratch.radiance[static_cast<std::size_t>(hemisphere.strata.cell(2, 7))] = Rgb(2.0f);
-    EXPECT_NEAR(hemisphere.summarize().relative_error, 0.8 * std::sqrt(31.0 * 4.0 / (4.0 * 20.0) + 1.0) / 34.0, 1e-6);
 }
 
 }  // namespace

@@ -63,6 +63,24 @@ TEST(Gather, DiscOverheadIsSineSquared) {
     }
 }
 
+/// Of a ceiling that is seen up to an angle of 1 - cosine = m, (1 - c)^5 of Schlick integrates to m^6 / 6 - m^7 / 7.
+TEST(Gather, RaysCountByWhatEntersTheLambertLayer) {
+    SurfaceMaterial plastic;
+    plastic.gloss.f0_max = 0.04f;
+    plastic.gloss.f90_max = 1.0f;
+    for (const float height : {0.3f, 1.0f, 3.0f}) {
+        Gathering gathering(make_lit_disc(1.0f, 720, {0.0, height, 0.0}));
+        const double sine2 = 1.0 / (1.0 + height * height), m = 1.0 - std::sqrt(1.0 - sine2);
+        const double entering = 0.5 * sine2 - (std::pow(m, 6.0) / 6.0 - std::pow(m, 7.0) / 7.0);
+        const double expected = 3.0 * 2.0 * entering / (1.0 - 1.0 / 21.0);
+        const SurfacePoint point = make_point(glm::vec3(0.0f), up);
+        const IrradianceSample sample =
+            gathering.gather(point, {choose_strata(16384), {5, 0, 0, 0}}, {.material = &plastic});
+        EXPECT_NEAR(sample.irradiance.x, expected, 4e-3 * expected) << height;
+        EXPECT_GT(std::abs(expected - 3.0 * sine2), 0.01 * expected) << height;
+    }
+}
+
 TEST(Gather, EndlessCeilingGivesItsRadiosity) {
     Gathering gathering(make_lit_disc(5000.0f, 64, {0.0, 1.0, 0.0}));
     const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 1024);

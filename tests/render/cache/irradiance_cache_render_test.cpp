@@ -32,6 +32,32 @@ TEST(IrradianceCache, IC04_RecordsInACornerAreBounded) {
     EXPECT_EQ(out.counts.invalid_samples, 0u);
 }
 
+/// A floor of plastic in the open that is lit by a low wall alone, at grazing angles.
+Scene make_plastic_floor() {
+    Scene scene;
+    const int plastic = add_lambert(scene, glm::dvec3(0.5)), white = add_lambert(scene, glm::dvec3(0.8));
+    scene.materials[plastic].gloss.specular = 1.0;
+    add_mesh(scene, make_quad(2.0, 2.0, plastic), {0.0, 0.0, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(2.0, 0.4, white), {1.0, 0.2, 0.0}, turn_about_y(-pi / 2));
+    add_light(scene, Light::Kind::directional, glm::dvec3(2.0), glm::dvec3(0.0), turn_about_y(-pi / 2));
+    add_camera(scene, {0.0, 2.0, 1.0}, {0.0, 0.0, 0.0}, 0.4);
+    return scene;
+}
+
+TEST(IrradianceCache, PlasticTakesInAsMuchGrazingLightAsPathsSay) {
+    const Stage stage(make_plastic_floor(), 16, 12);
+    const Mean paths = mean_of_pixels(shade(stage, path_settings(1, 16384)));
+    RenderSettings settings = plain_settings(0.02, 4096);
+    settings.sampling.spp = 64;  // for gloss
+    const double records = mean_of_pixels(shade(stage, settings)).mean();
+    settings.cache.accuracy = 0.0;
+    settings.cache.gather = 256;
+    const double rays = mean_of_pixels(shade(stage, settings)).mean();
+    // Were all light to enter alike, both would be a fifth brighter.
+    EXPECT_NEAR(records, paths.mean(), 0.015 * paths.mean());
+    EXPECT_NEAR(rays, paths.mean(), 0.01 * paths.mean());
+}
+
 /// Two floor tiles 10 m apart in the open; beside the second stands a lit red wall.
 Scene make_open_tiles() {
     Scene scene;

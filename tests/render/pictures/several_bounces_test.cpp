@@ -150,7 +150,8 @@ TEST(SeveralBounces, IC23_ALampBehindGlassIsNotFoundAgain) {
     RandomStream random({1, 2, 3, 4});
     const SurfacePoint floor = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
     for (int i = 0; i < 200; ++i) {
-        ASSERT_EQ(sample_multi_bounce_irradiance(stage.lighting(), task, floor, {.bounces = 2}, 8, random), Rgb(0.0f));
+        ASSERT_EQ(sample_multi_bounce_irradiance(stage.lighting(), task, floor, nullptr, {.bounces = 2}, 8, random),
+                  Rgb(0.0f));
     }
     EXPECT_GT(task.counts.specular, 100u);
 }
