@@ -1,6 +1,7 @@
 #include "render/study/timed_run.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 
 #include "render/frame/sequence.h"
@@ -25,12 +26,11 @@ std::vector<std::pair<std::string, double>> list_rays(const RayCounts& rays) {
             {"multi_bounce", number(rays.multi_bounce)}};
 }
 
-/// A copied frame has the counts of the frame that it is a copy of, and took none of that.
-FrameRun describe_frame(const FrameStatistics& statistics) {
+/// @param copied  the picture was there: the statistics are those of the frame that it is a copy of
+FrameRun describe_frame(const FrameStatistics& statistics, bool copied) {
     FrameRun run;
     run.frame = statistics.frame;
     run.plan = to_json(statistics.plan).dump();
-    const bool copied = statistics.copy_of.has_value();
     RayCounts rays = copied ? RayCounts() : statistics.counts.rays;
     double keyframes = 0.0;
     if (!copied) run.records = static_cast<double>(statistics.counts.records);
@@ -53,6 +53,7 @@ FrameRun describe_frame(const FrameStatistics& statistics) {
 std::vector<FrameRun> render_run(const Scene& scene, const RenderSettings& settings, const std::vector<int>& frames,
                                  const SaveFrame& save, const std::function<void(double)>& progress) {
     std::vector<FrameRun> runs;
+    std::optional<std::int64_t> rendered;  // last; first of its static span
     Sequence sequence(scene, settings);
     const double pixels = static_cast<double>(settings.picture.width) * settings.picture.height;
     for (const int frame : frames) {
@@ -66,7 +67,9 @@ std::vector<FrameRun> render_run(const Scene& scene, const RenderSettings& setti
         double wall = 0.0;
         clock.add_to(wall);
         const double processor = processor_seconds() - start;
-        FrameRun run = describe_frame(output.statistics);
+        const std::int64_t first = output.statistics.copy_of.value_or(output.statistics.frame);
+        FrameRun run = describe_frame(output.statistics, rendered == first);
+        rendered = first;
         run.processor_seconds = processor;
         run.wall_seconds = wall;
         run.samples = static_cast<double>(output.statistics.counts.samples) / pixels;

@@ -49,6 +49,17 @@ std::vector<std::map<std::string, double>> numbers_of(const StudyResults& result
     return numbers;
 }
 
+/// Frame 0 has the same picture, but it is not one of the study.
+TEST_F(RunStudy, TheFirstFrameOfAStaticSpanHasItsWork) {
+    study.scenes = {{source_folder() / "scenes/room/scene.json", "1,2"}};
+    study.sweep = {{"spp", {1.0}}};
+    const StudyResults results = run();
+    const VariantResult& variant = results.variants.at(0);
+    ASSERT_EQ(variant.frames.size(), 2u);
+    EXPECT_GT(variant.frames[0].metrics.at("rays").value, 0.0);
+    EXPECT_EQ(variant.frames[1].metrics.at("rays").value, 0.0) << "a copy";
+}
+
 TEST_F(RunStudy, MeasuresEveryVariantAndKeepsIt) {
     const StudyResults first = run();
     ASSERT_EQ(first.variants.size(), 4u);
