@@ -42,7 +42,8 @@ struct IrradianceGradients {
 
 /// Indirect irradiance at a point with its gradients (Ward and Heckbert 1992, "Irradiance Gradients").
 struct IrradianceSample {
-    Rgb irradiance{0.0f};  ///< of reflected light, without light straight from the lights
+    /// Of reflected light, without light straight from the lights; with GatherOptions::material, weighed by it.
+    Rgb irradiance{0.0f};
     IrradianceGradients gradients{};
     /// m, to the nearest surface met, the point's own left out; infinite if no ray hit anything.
     float nearest_distance = std::numeric_limits<float>::infinity();

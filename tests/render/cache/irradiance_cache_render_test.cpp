@@ -4,6 +4,7 @@
 #include "tests/support/first_hits.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -56,6 +57,29 @@ TEST(IrradianceCache, PlasticTakesInAsMuchGrazingLightAsPathsSay) {
     // Were all light to enter alike, both would be a fifth brighter.
     EXPECT_NEAR(records, paths.mean(), 0.015 * paths.mean());
     EXPECT_NEAR(rays, paths.mean(), 0.01 * paths.mean());
+}
+
+TEST(IrradianceCache, ARandomPathCountsByWhatEntersToo) {
+    Gathering floor(make_plastic_floor());
+    const LightingContext lighting = floor.stage.lighting();
+    const SurfacePoint point =
+        make_point(glm::vec3(0.5f, 0.0f, 0.0f) - glm::vec3(floor.stage.shading.anchor), {0.0f, 1.0f, 0.0f});
+    SurfaceMaterial plastic;
+    plastic.gloss.f0_max = 0.04f;
+    plastic.gloss.f90_max = 1.0f;
+    const auto gathered = [&](const SurfaceMaterial* material) {
+        return luminance(floor.gather(point, {choose_strata(16384), {3, 0, 0, 0}}, {.material = material}).irradiance);
+    };
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        RandomStream random({trial.seed, 1, 2, 3});
+        Mean paths;
+        for (std::uint32_t i = 0; i < trial.times(20'000u); ++i) {
+            paths.add(luminance(
+                sample_multi_bounce_irradiance(lighting, floor.task, point, &plastic, {.bounces = 1}, 8, random)));
+        }
+        trial.near(paths, gathered(&plastic), 0.01 * gathered(&plastic));
+    }));
+    EXPECT_LT(gathered(&plastic), 0.95 * gathered(nullptr));
 }
 
 /// Two floor tiles 10 m apart in the open; beside the second stands a lit red wall.
