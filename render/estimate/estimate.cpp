@@ -7,9 +7,11 @@ namespace aleph {
 
 namespace {
 
-/// Points per light: fewer if there are several lights, so that the estimate stays quick.
+/// Points per light: fewer if there are many lights, so that the estimate stays quick. One point alone of a window may
+/// lie behind a glazing bar for the whole picture.
 int points_per_light(const LightSet& lights) {
-    return std::max(1, 4 / std::max(1, lights.count()));
+    constexpr int most_points = 16, most_per_light = 4;
+    return std::clamp(most_points / std::max(1, lights.count()), 1, most_per_light);
 }
 
 }  // namespace

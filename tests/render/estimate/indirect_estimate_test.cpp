@@ -64,6 +64,32 @@ TEST(IndirectEstimate, NothingIsAddedWhereNothingReflects) {
     EXPECT_EQ(part.pixels, Image<float>(32, 24, 0.0f).pixels);
 }
 
+/// A floor below five lamps of 1 m, each behind three bars.
+/// @param width  m, of a bar
+Image<Rgb> estimate_below_windows(double width) {
+    Scene scene;
+    const int black = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0), true);
+    add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.8))), {0.0, -1.0, 0.0}, z_to_up);
+    for (int lamp = 0; lamp < 5; ++lamp) {
+        const glm::dvec3 center(2.0 * lamp - 4.0, 2.0, -3.0);
+        add_lamp(scene, 1.0, glm::dvec3(5.0), center);
+        for (const double bar : {-0.25, 0.0, 0.25})
+            add_mesh(scene, make_quad(1.0, width, black), center + glm::dvec3(0.0, -0.05, bar), z_to_down);
+    }
+    const Stage stage(std::move(scene), 32, 24);
+    RayCounts counts;
+    return estimate(stage, false, counts);
+}
+
+TEST(Estimate, BarsHideTheirShareOfAWindow) {
+    const auto light = [](double width) {
+        double sum = 0.0;
+        for (const Rgb& pixel : estimate_below_windows(width).pixels) sum += luminance(pixel);
+        return sum;
+    };
+    EXPECT_NEAR(light(0.2) / light(0.001), 0.4, 0.15) << "its open area";
+}
+
 TEST(IndirectEstimate, HasNoDetailOnAWall) {
     const Stage stage(make_room(), 160, 120);
     const Image<float> part = indirect_part(stage);
