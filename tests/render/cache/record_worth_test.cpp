@@ -2,7 +2,11 @@
 
 #include "render/cache/record_worth.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "engine/load/load_scene.h"
+#include "perception/vision/castle.h"
 #include "render/cache/gather_at.h"
 #include "render/frame/sequence.h"
 #include "render/guide/stopping_rule.h"
@@ -52,6 +56,32 @@ TEST(RecordWorth, MoreRaysKeepNoiseBelowThatOfSamples) {
     const int more = rays(5.0f, 0.01f);
     EXPECT_GT(more, 512);
     EXPECT_NEAR(0.1 * std::sqrt(5.0 / more), 0.5 * 0.01 / error_deviations, 1e-5) << "half a standard error of samples";
+}
+
+/// How visible noise is at rest that is smooth over so many pixels (the deviation of a normal distribution), over white
+/// noise with the same variance, at 31 pixels per degree: the root mean square of the sensitivity over its spectrum.
+double relative_visibility(double smooth, double luminance) {
+    constexpr int steps = 400;
+    constexpr double lowest = 0.002, highest = 0.5 * std::numbers::sqrt2, pixels_per_degree = 31.0;
+    const auto visibility = [&](double deviation) {
+        double sum = 0.0, energy = 0.0;
+        for (int i = 0; i < steps; ++i) {
+            const double f = lowest * std::pow(highest / lowest, (i + 0.5) / steps);  // cycles per pixel
+            const double arc = f <= 0.5 ? 2.0 * std::numbers::pi : 2.0 * std::numbers::pi - 8.0 * std::acos(0.5 / f);
+            const double share = arc * f * f * std::exp(-std::pow(2.0 * std::numbers::pi * f * deviation, 2.0));
+            const double rho = f * pixels_per_degree, radius = 1.5 / rho;
+            const double sensitivity = castle_sensitivity(rho, 0.0, luminance, std::numbers::pi * radius * radius);
+            sum += share * sensitivity * sensitivity;
+            energy += share;
+        }
+        return std::sqrt(sum / energy);
+    };
+    return visibility(smooth) / visibility(0.0);
+}
+
+TEST(RecordWorth, NoiseThatIsSmoothOverAPixelIsSeenBetter) {
+    EXPECT_NEAR(relative_visibility(1.0, 60.0), 2.5, 0.1);
+    EXPECT_NEAR(relative_visibility(1.0, 5.0), 2.9, 0.1);
 }
 
 TEST(RecordWorth, ATolerantPictureHasFewerRecordsAndAStrictOneAll) {
