@@ -7,8 +7,8 @@ namespace aleph {
 
 namespace {
 
-/// Points per light: fewer if there are many lights, so that the estimate stays quick. One point alone of a window may
-/// lie behind a glazing bar for the whole picture.
+/// Points per light: fewer if there are many lights, so that the estimate stays quick. A single point of a window shows
+/// all of its light or none, whatever share of it glazing bars hide.
 int points_per_light(const LightSet& lights) {
     constexpr int most_points = 16, most_per_light = 4;
     return std::clamp(most_points / std::max(1, lights.count()), 1, most_per_light);

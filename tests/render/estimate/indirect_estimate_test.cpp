@@ -1,4 +1,5 @@
-// Indirect light of the quick estimate: its amount, its smoothness, and the thresholds of vision that it gives.
+// The quick estimate: lamps behind bars; amount and smoothness of its indirect light; the thresholds of vision that it
+// gives.
 
 #include "engine/load/load_scene.h"
 #include "perception/sanitize.h"
