@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "render/cache/aimed_rays.h"
 #include "render/cache/gather_rays.h"
-#include "render/cache/gather_summary.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {
@@ -270,17 +269,6 @@ void weigh_by_transmission(const SurfaceMaterial& material, const glm::vec3& nor
     for (FurtherLight& further : scratch.further) further.weight *= weight(static_cast<std::size_t>(further.ray));
 }
 
-/// From what the rays found to the radiance and the distance of every cell.
-void sort_by_cell(const HemisphereStrata& strata, GatherScratch& scratch) {
-    scratch.distances.assign(static_cast<std::size_t>(strata.count()), infinite);
-    scratch.radiance.assign(static_cast<std::size_t>(strata.count()), Rgb(0.0f));
-    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
-        const int cell = scratch.places[i].cell;
-        scratch.radiance[cell] = scratch.light[i];
-        if (scratch.hits[i].instance != no_index) scratch.distances[cell] = scratch.hits[i].distance;
-    }
-}
-
 }  // namespace
 
 RandomKey make_place_key(std::uint32_t seed, const Hit& hit) {
@@ -296,24 +284,21 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     const CellNumbers numbers(random);
     place_rays(strata, make_basis(point.normal), point, numbers, scratch);
     scratch.strata = strata;
+    const int aimed = options.bright == nullptr ? 0 : std::max(1, strata.count() / around_per_aimed);
+    std::optional<BrightSampler> sampler;
+    if (aimed > 0) {
+        sampler.emplace(*options.bright, Receiver{point.ray_origin(), point.normal}, strata.count(), aimed);
+        aim_rays(*sampler, point, aimed, random, scratch);
+    }
     task.tracer.intersect(scratch.rays, scratch.hits, scratch.normals);
     task.counts.gather += scratch.rays.size();
+    if (sampler) weigh_rays(*sampler, scratch);
     light_hits(
         {context, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});
     add_unshadowed(context, task, options, scratch);
     if (options.material != nullptr) weigh_by_transmission(*options.material, point.normal, scratch);
+    if (sampler) return add_up_with_aimed(strata, point.normal, *options.bright, aimed, scratch);
     return add_up_rays(strata, point.normal, scratch);
-}
-
-IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch) {
-    sort_by_cell(strata, scratch);
-    IrradianceSample out;
-    out.rays = strata.count();
-    glm::dvec3 sum(0.0);
-    for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
-    out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));
-    summarize_hemisphere(strata, make_basis(normal), scratch, out);
-    return out;
 }
 
 }  // namespace aleph

@@ -18,6 +18,8 @@
 
 namespace aleph {
 
+struct BrightSurfaces;
+
 /// Free distance along a tangent plane by sectors of azimuth (sector_of), m.
 using Clearance = std::array<float, 16>;
 
@@ -131,6 +133,9 @@ struct GatherScratch {
     std::vector<float> sorted;
     std::vector<float> inverse_distances;
     std::vector<StrataRow> rows;
+    // Of rays towards bright surfaces, which are the last ones (aimed_rays.h).
+    std::vector<int> aimed;      ///< patch of each
+    std::vector<float> weights;  ///< of all rays, by what they met
 };
 
 /// The part of a gather that add_up_rays needs, while its rays wait for light of further bounces.
@@ -157,6 +162,8 @@ struct GatherOptions {
     /// Weighs the light of each ray by its relative_transmission, which is what diffuse_radiance needs. Null: all
     /// alike.
     const SurfaceMaterial* material = nullptr;
+    /// Rays towards them join those over the hemisphere; null: none. Not with light that is only noted.
+    const BrightSurfaces* bright = nullptr;
 };
 
 /// Where the rays of a gather go.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/cache/aimed_rays.h"
+
 namespace aleph {
 
 namespace {
@@ -43,12 +45,14 @@ int choose_rays_for_noise(double ray_variance, double noise, int fewest, int mos
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     const RandomKey key = choose_key(context, surface);
+    if (context.bright != nullptr) rays = std::max(1, rays * around_per_aimed / (around_per_aimed + 1));
     return gather_irradiance(context.lighting, task, surface.point, {choose_strata(rays), key}, scratch,
                              {.depth = std::max(0, context.settings.light.path_depth - 2 - context.bounces.before),
                               .grid = context.direct,
                               .found = found,
                               .multi_bounce = context.bounces.further,
-                              .material = &surface.material});
+                              .material = &surface.material,
+                              .bright = context.bright});
 }
 
 }  // namespace aleph

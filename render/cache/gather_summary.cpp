@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/settings/numbers.h"
 
@@ -159,6 +160,17 @@ float estimate_relative_error(const HemisphereStrata& strata, GatherScratch& scr
     return share_of_independent * static_cast<float>(std::sqrt(variance) / sum);
 }
 
+/// From what the rays found to the radiance and the distance of every cell.
+void sort_by_cell(const HemisphereStrata& strata, GatherScratch& scratch) {
+    scratch.distances.assign(static_cast<std::size_t>(strata.count()), infinite);
+    scratch.radiance.assign(static_cast<std::size_t>(strata.count()), Rgb(0.0f));
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        const int cell = scratch.places[i].cell;
+        scratch.radiance[cell] = scratch.light[i];
+        if (scratch.hits[i].instance != no_index) scratch.distances[cell] = scratch.hits[i].distance;
+    }
+}
+
 }  // namespace
 
 void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, GatherScratch& scratch,
@@ -168,6 +180,17 @@ void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, Ga
     set_clearance(strata, basis, scratch, shortest, out);
     add_gradients(strata, basis, scratch, std::max(shortest, min_distance), out);
     out.relative_error = estimate_relative_error(strata, scratch);
+}
+
+IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch) {
+    sort_by_cell(strata, scratch);
+    IrradianceSample out;
+    out.rays = strata.count();
+    glm::dvec3 sum(0.0);
+    for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
+    out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));
+    summarize_hemisphere(strata, make_basis(normal), scratch, out);
+    return out;
 }
 
 }  // namespace aleph

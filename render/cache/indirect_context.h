@@ -7,7 +7,7 @@
 #include "render/cache/direct_grid.h"
 #include "render/cache/irradiance_cache.h"
 #include "render/cache/multi_bounce_light.h"
-#include "render/light/light_choice.h"
+#include "render/light/bright_surfaces.h"
 #include "render/pixels/frame_checkpoint.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/pixels/shaded_frame.h"
@@ -44,6 +44,7 @@ struct IndirectContext {
     FrameCheckpoint* checkpoint = nullptr;  ///< keeps the results of gathers; may be null
     /// Direct light that gathers share; filled along with the cache. Null: each computes its own, without bias.
     DirectGrid* direct = nullptr;
+    const BrightSurfaces* bright = nullptr;  ///< that gathers and samples aim at, at least one; null: none
     const CarriedLight* carried = nullptr;  ///< surfaces that it knows get no records; may be null
     /// If set, the hits were cast in this pose of the scene, and the light is wanted where their surfaces are in
     /// `lighting` (carry_point).

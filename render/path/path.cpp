@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/pixels/lattice.h"
 
@@ -128,6 +129,10 @@ class Path {
     /// Casts a ray and adds the emission that it meets. True if it met a surface, which is then `next`.
     bool meet(const Ray& ray, ViewedSurface& next) {
         const Hit hit = hit_ = task_.tracer.intersect(ray);
+        if (const BrightSampler* bright = std::exchange(state_.bright, nullptr)) {
+            state_.throughput *= bright->weigh(hit, ray.direction, state_.patch);
+            if (state_.throughput == Rgb(0.0f)) return false;
+        }
         if (hit.instance == no_index) {
             if (context_.lights.has_environment && state_.emission != EmissionWeight::none) {
                 const float pdf = state_.emission == EmissionWeight::weighted

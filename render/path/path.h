@@ -2,7 +2,7 @@
 // Light along paths: what reaches a surface point by any number of scattering events, without bias. Path tracing with
 // next-event estimation (Kajiya 1986) and multiple importance sampling (Veach 1997), ended by Russian roulette.
 
-#include "render/light/light_choice.h"
+#include "render/light/bright_surfaces.h"
 #include "render/path/known_irradiance.h"
 #include "render/surface/media.h"
 
@@ -39,6 +39,8 @@ struct PathState {
     /// Lights that are sampled where a path arrives with its full weight from a mirror or a narrow lobe; fewer in
     /// proportion to its weight and to the width of the lobe, at least one.
     int light_samples = 1;
+    const BrightSampler* bright = nullptr;  ///< weighs what the next ray meets; null: by 1
+    int patch = no_index;                   ///< that this ray is aimed at
 };
 
 /// Light that the surface scatters towards its viewer, without its own emission.

@@ -21,6 +21,8 @@ enum class SampleUse : std::uint8_t {
     lobe_direction,  ///< the direction that it scatters to
     lobe_side,       ///< reflected, or through the surface
     indirect,        ///< indirect light
+    bright_choice,   ///< which bright surface
+    bright_point,    ///< the place on it
     other,           ///< free for callers
 };
 

@@ -31,12 +31,14 @@ class CacheIntegrator final : public LightIntegrator {
         if (input.options.record_maps) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
     }
 
-    bool shares_light() const override { return cached_ || needs_further(); }
+    bool shares_light() const override { return cached_ || needs_further() || needs_bright(); }
 
     void fill(const SampleHits& first) override {
         if (cached_ && input_.options.risk != nullptr)
             context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
         solve_further(first);
+        if (needs_bright()) bright_ = find_bright_surfaces(context_.lighting, input_.out.counts.rays);
+        if (!bright_.empty()) context_.bright = &bright_;
         if (!cached_) return;
         if (checked_) checked_->check(cache_, context_, input_.out);
         fill_cache(cache_, context_, first, input_.out);
@@ -79,6 +81,9 @@ class CacheIntegrator final : public LightIntegrator {
     /// Paths of samples while the shutter is open do not use it: it holds for the shutter's centre.
     bool needs_further() const { return context_.bounces.further.bounces > 0 && (cached_ || !blurred_); }
 
+    /// Neither do they use bright surfaces.
+    bool needs_bright() const { return indirect_ && (cached_ || !blurred_); }
+
     /// Finds light of further bounces, for gathers and for paths of samples.
     void solve_further(const SampleHits& first) {
         if (!needs_further()) return;
@@ -101,6 +106,7 @@ class CacheIntegrator final : public LightIntegrator {
     std::optional<FurtherBounces> further_bounces_;
     std::optional<FurtherIrradiance> further_;  ///< the same to paths
     DirectGrid direct_;
+    BrightSurfaces bright_;
     Image<RecordUse> uses_;  ///< empty: not asked for
     std::optional<ShutterLight> shutter_;
     std::optional<SampleShading> shading_;  ///< since `begin`

@@ -1,5 +1,6 @@
 #include "render/shade/sample_shading.h"
 
+#include "render/cache/aimed_rays.h"
 #include "render/cache/record_worth.h"
 #include "render/path/glossy_light.h"
 #include "render/settings/numbers.h"
@@ -75,14 +76,29 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
     state.accuracy = shading.context.accuracy(surface.x, surface.y);
     const Basis basis = make_basis(surface.point.normal);
     const int rays = count_sample_rays(settings);
+    const BrightSurfaces* const surfaces = shading.blurred ? nullptr : shading.context.bright;
+    const int aimed = surfaces == nullptr ? 0 : std::max(1, rays / around_per_aimed);
+    std::optional<BrightSampler> bright;
+    const Receiver receiver{surface.point.ray_origin(), surface.point.normal};
+    if (aimed > 0) state.bright = &bright.emplace(*surfaces, receiver, rays, aimed);
     Rgb sum(0.0f);
+    const auto follow = [&](const glm::vec3& direction, float cosine) {
+        if (!(glm::dot(direction, surface.point.geometric) > 0.0f)) return;
+        ++task.counts.path;
+        sum += follow_ray(scene.lighting, task, {receiver.position, direction}, state, random) *
+               relative_transmission(surface.material, cosine);
+    };
     for (int i = 0; i < rays; ++i) {
         const glm::vec2 u = sequence.at_2d(SampleUse::indirect, surface.sample * rays + i);
-        const glm::vec3 local = sample_cosine_hemisphere(u), direction = basis.to_world(local);
-        if (!(glm::dot(direction, surface.point.geometric) > 0.0f)) continue;
-        ++task.counts.path;
-        sum += follow_ray(scene.lighting, task, {surface.point.ray_origin(), direction}, state, random) *
-               relative_transmission(surface.material, local.z);
+        const glm::vec3 local = sample_cosine_hemisphere(u);
+        follow(basis.to_world(local), local.z);
+    }
+    for (int i = 0; i < aimed; ++i) {
+        const int at = surface.sample * aimed + i;
+        const BrightSampler::Aim aim =
+            bright->aim({sequence.at_1d(SampleUse::bright_choice, at), sequence.at_2d(SampleUse::bright_point, at)});
+        state.patch = aim.patch;
+        if (aim.patch != no_index) follow(aim.direction, glm::dot(surface.point.normal, aim.direction));
     }
     return sum * (pi / static_cast<float>(rays));
 }

@@ -41,6 +41,7 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
     DirectGrid direct(scene_radius(lighting.shading));
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(first.width, first.height);
+    const BrightSurfaces bright = find_bright_surfaces(lighting, tally.counts.rays);
     std::vector<IndirectContext> contexts;
     std::vector<SampleHits> first_samples;
     std::vector<PixelSurface> seen;
@@ -52,6 +53,7 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
                             .max_radius = scene_radius(lighting.shading),
                             .progress = {},
                             .direct = &direct,
+                            .bright = bright.empty() ? nullptr : &bright,
                             .carried = input.carried,
                             .seen = view->frame == input.frame ? nullptr : &view->shading});
         first_samples.push_back(input.cast(*view, tally.counts.rays));

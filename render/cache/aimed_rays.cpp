@@ -1,0 +1,88 @@
+#include "render/cache/aimed_rays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/settings/numbers.h"
+
+namespace aleph {
+
+namespace {
+
+/// Adds the change of light from a point of a bright surface, without that of what is hidden.
+/// @param to      m, to that point
+/// @param bright  normal there
+void add_gradients(const Rgb& light, const glm::vec3& to, const glm::vec3& normal, const glm::vec3& bright,
+                   IrradianceGradients& gradients) {
+    const float along = glm::dot(normal, to);
+    // Of cosine at the point times cosine there over squared distance, relative; then in the tangent plane.
+    glm::vec3 moved = 4.0f * to / glm::dot(to, to) - bright / glm::dot(bright, to) - normal / along;
+    moved -= normal * glm::dot(normal, moved);
+    const glm::vec3 turned = glm::cross(normal, to) / along;
+    for (int c = 0; c < 3; ++c) {
+        gradients.translation[c] += light[c] * moved;
+        gradients.rotation[c] += light[c] * turned;
+    }
+}
+
+}  // namespace
+
+void aim_rays(const BrightSampler& sampler, const SurfacePlace& point, int count, RandomStream& random,
+              GatherScratch& scratch) {
+    scratch.aimed.clear();
+    for (int i = 0; i < count; ++i) {
+        const float choice = (static_cast<float>(i) + random.next()) / static_cast<float>(count);
+        const BrightSampler::Aim aim = sampler.aim({choice, random.next_2d()});
+        if (aim.patch == no_index || !(glm::dot(aim.direction, point.geometric) > 0.0f)) continue;
+        scratch.rays.push_back({point.ray_origin(), aim.direction});
+        scratch.places.push_back({0, i, 0});  // for its light numbers
+        scratch.aimed.push_back(aim.patch);
+    }
+    scratch.hits.resize(scratch.rays.size());
+    scratch.normals.resize(scratch.rays.size());
+}
+
+void weigh_rays(const BrightSampler& sampler, GatherScratch& scratch) {
+    const std::size_t around = scratch.rays.size() - scratch.aimed.size();
+    scratch.weights.resize(scratch.rays.size());
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        const int patch = i < around ? no_index : scratch.aimed[i - around];
+        scratch.weights[i] = sampler.weigh(scratch.hits[i], scratch.rays[i].direction, patch);
+        if (patch != no_index && scratch.weights[i] == 0.0f) scratch.hits[i].instance = no_index;
+    }
+}
+
+IrradianceSample add_up_with_aimed(const HemisphereStrata& strata, const glm::vec3& normal,
+                                   const BrightSurfaces& surfaces, int aimed, GatherScratch& scratch) {
+    const std::size_t around = scratch.rays.size() - scratch.aimed.size();
+    const float per_ray = pi / static_cast<float>(strata.count());
+    IrradianceSample towards;
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t i = around; i < scratch.rays.size(); ++i) {
+        const Rgb light = scratch.light[i] * (scratch.weights[i] * per_ray);
+        if (light == Rgb(0.0f)) continue;
+        const double brightness = luminance(light);
+        sum += brightness;
+        squares += brightness * brightness;
+        towards.irradiance += light;
+        const auto patch = static_cast<std::size_t>(scratch.aimed[i - around]);
+        add_gradients(light, scratch.rays[i].direction * scratch.hits[i].distance, normal,
+                      surfaces.patches.emitters[patch].triangles.front().normal, towards.gradients);
+    }
+    for (std::size_t i = 0; i < around; ++i) scratch.light[i] *= scratch.weights[i];
+    scratch.rays.resize(around);
+    IrradianceSample out = add_up_rays(strata, normal, scratch);
+    const double error = out.relative_error * luminance(out.irradiance);
+    out.rays += aimed;
+    out.irradiance += towards.irradiance;
+    for (int c = 0; c < 3; ++c) {
+        out.gradients.translation[c] += towards.gradients.translation[c];
+        out.gradients.rotation[c] += towards.gradients.rotation[c];
+    }
+    const double brightness = luminance(out.irradiance), variance = std::max(0.0, squares - sum * sum / aimed);
+    if (brightness > 0.0 && std::isfinite(out.relative_error))
+        out.relative_error = static_cast<float>(std::sqrt(error * error + variance) / brightness);
+    return out;
+}
+
+}  // namespace aleph

@@ -1,0 +1,213 @@
+#include "render/light/bright_surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "engine/base/sampling.h"
+#include "render/light/light_power.h"
+#include "render/settings/numbers.h"
+#include "render/surface/surface_material.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int fewest_rays = 4;  // that tell of a triangle
+
+/// Radiance of a bright triangle over the mean of all that light rays meet, and the share of the reflected light that
+/// such triangles must have.
+constexpr double bright_over_mean = 4.0, least_share = 0.05;
+
+constexpr std::uint32_t light_ray_key = 0x62726967u;  // no other random numbers have it
+
+constexpr float least_rise = 1e-6f;  // of a unit direction above the true surface: below it, rounding decides
+
+/// Light that a light ray brought to a triangle and that its Lambert layer reflects, lm.
+struct Arrival {
+    int instance = no_index;  ///< no_index: none
+    int primitive = 0;
+    bool behind = false;  ///< on the side that its normal points away from
+    double reflected = 0.0;
+};
+
+/// One side of a triangle.
+struct LitSide {
+    Arrival sum;
+    int rays = 0;
+    Emitter::Triangle triangle;  ///< its normal on this side
+    float area = 0.0f;           ///< m2
+    double radiance() const { return sum.reflected / (std::numbers::pi * area); }
+};
+
+double find_power(const Emitter& emitter) {
+    return std::numbers::pi * luminance(emitter.brightest) * emitter.area * (emitter.double_sided ? 2.0 : 1.0);
+}
+
+Emitter::Triangle place_triangle(const PosedInstance& instance, int primitive, float& area) {
+    const glm::uvec3 t = instance.mesh->triangles[primitive];
+    const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
+    const glm::vec3 edge1 = instance.linear * e1, edge2 = instance.linear * e2;
+    area = 0.5f * glm::length(glm::cross(edge1, edge2));
+    return {instance.linear * p0 + instance.translation, edge1, edge2,
+            glm::normalize(instance.normals * glm::cross(e1, e2)), primitive};
+}
+
+/// Casts one light ray of this power.
+Arrival cast_light_ray(const LightingContext& context, RayTask& task, const Emitter& emitter, float place, double power,
+                       RandomStream& random) {
+    const auto end = std::ranges::upper_bound(emitter.cumulative_area, place);
+    const auto i = std::min<std::ptrdiff_t>(end - emitter.cumulative_area.begin(), std::ssize(emitter.triangles) - 1);
+    const Emitter::Triangle& t = emitter.triangles[static_cast<std::size_t>(i)];
+    const glm::vec2 b = sample_triangle(random.next_2d());
+    const bool other_side = emitter.double_sided && random.next() < 0.5f;
+    const glm::vec3 normal = other_side ? -t.normal : t.normal;
+    const glm::vec3 direction = make_basis(normal).to_world(sample_cosine_hemisphere(random.next_2d()));
+    const SurfacePoint start =
+        make_surface_point(context.shading, {emitter.instance, t.primitive, b.x, b.y, 0.0f}, -direction);
+    ++task.counts.gather;
+    const Hit hit = task.tracer.intersect({start.ray_origin(), direction});
+    if (hit.instance == no_index) return {};
+    const SurfacePoint met = make_surface_point(context.shading, hit, direction);
+    float area = 0.0f;
+    const glm::vec3 side = place_triangle(context.shading.instances[hit.instance], hit.primitive, area).normal;
+    return {hit.instance, hit.primitive, glm::dot(side, direction) > 0.0f,
+            power * luminance(evaluate_material(context.shading, met, {}).diffuse)};
+}
+
+/// Light rays from all emitters, in proportion to their power.
+std::vector<Arrival> cast_light_rays(const LightingContext& context, RayCounts& counts) {
+    std::vector<double> ends;
+    double total = 0.0;
+    for (const Emitter& emitter : context.lights.emitters) ends.push_back(total += find_power(emitter));
+    if (!(total > 0.0) || !std::isfinite(total)) return {};
+    std::vector<Arrival> arrivals(BrightSurfaces::light_rays);
+    cast_parallel(BrightSurfaces::light_rays, 256, context.rays, counts, [&](int i, RayTask& task) {
+        RandomStream random({light_ray_key, 0, 0, static_cast<std::uint32_t>(i)});
+        const double number = total * (i + random.next()) / BrightSurfaces::light_rays;
+        const auto e =
+            std::min<std::ptrdiff_t>(std::ranges::upper_bound(ends, number) - ends.begin(), std::ssize(ends) - 1);
+        const double before = e == 0 ? 0.0 : ends[e - 1], place = (number - before) / (ends[e] - before);
+        arrivals[i] = cast_light_ray(context, task, context.lights.emitters[e], static_cast<float>(place),
+                                     total / BrightSurfaces::light_rays, random);
+    });
+    return arrivals;
+}
+
+/// The sides of triangles that light rays met, with the sums of their light.
+std::vector<LitSide> add_up(const ShadingScene& shading, std::vector<Arrival> arrivals) {
+    std::erase_if(arrivals, [](const Arrival& a) { return a.instance == no_index; });
+    const auto place = [](const Arrival& a) { return std::tuple(a.instance, a.primitive, a.behind); };
+    std::ranges::stable_sort(arrivals, {}, place);
+    std::vector<LitSide> sides;
+    for (const Arrival& arrival : arrivals) {
+        if (sides.empty() || place(sides.back().sum) != place(arrival)) {
+            LitSide& side = sides.emplace_back(arrival);
+            side.sum.reflected = 0.0;
+            side.triangle = place_triangle(shading.instances[arrival.instance], arrival.primitive, side.area);
+            if (arrival.behind) side.triangle.normal = -side.triangle.normal;
+        }
+        sides.back().sum.reflected += arrival.reflected;
+        ++sides.back().rays;
+    }
+    return sides;
+}
+
+Emitter make_patch(const LitSide& side) {
+    const Emitter::Triangle& t = side.triangle;
+    Emitter patch;
+    patch.instance = side.sum.instance;
+    patch.radiance = patch.brightest = Rgb(static_cast<float>(side.radiance()));
+    patch.area = side.area;
+    patch.center = t.corner + (t.edge1 + t.edge2) / 3.0f;
+    for (const glm::vec3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
+        patch.radius = std::max(patch.radius, glm::length(corner - patch.center));
+    }
+    patch.triangles = {t};
+    patch.cumulative_area = {1.0f};
+    return patch;
+}
+
+}  // namespace
+
+int BrightSurfaces::find(const Hit& hit, const glm::vec3& direction) const {
+    if (hit.instance == no_index || patch_of[hit.instance].empty()) return no_index;
+    const int patch = patch_of[hit.instance][hit.primitive];
+    if (patch == no_index) return no_index;
+    return glm::dot(patches.emitters[patch].triangles.front().normal, direction) < 0.0f ? patch : no_index;
+}
+
+BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& counts) {
+    const ShadingScene& shading = context.shading;
+    std::vector<LitSide> sides = add_up(shading, cast_light_rays(context, counts));
+    double reflected = 0.0, area = 0.0, bright = 0.0;
+    for (const LitSide& side : sides) {
+        reflected += side.sum.reflected;
+        area += side.area;
+    }
+    std::erase_if(sides, [&](const LitSide& side) {
+        return side.rays < fewest_rays || !(side.area > 0.0f) ||
+               !(side.radiance() * area > bright_over_mean * reflected / std::numbers::pi);
+    });
+    std::ranges::stable_sort(sides, std::ranges::greater{}, [](const LitSide& side) { return side.sum.reflected; });
+    sides.resize(std::min(sides.size(), BrightSurfaces::most));
+    for (const LitSide& side : sides) bright += side.sum.reflected;
+    BrightSurfaces found;
+    if (!(bright > least_share * reflected)) return found;
+    found.patch_of.resize(shading.instances.size());
+    for (const LitSide& side : sides) {
+        std::vector<int>& patch_of = found.patch_of[side.sum.instance];
+        if (patch_of.empty()) patch_of.resize(shading.instances[side.sum.instance].mesh->triangles.size(), no_index);
+        if (patch_of[side.sum.primitive] != no_index) continue;  // its other side is brighter
+        patch_of[side.sum.primitive] = static_cast<int>(found.patches.emitters.size());
+        found.patches.emitters.push_back(make_patch(side));
+    }
+    found.patches.bounds = make_light_bounds(shading, found.patches);
+    return found;
+}
+
+BrightSampler::BrightSampler(const BrightSurfaces& surfaces, const Receiver& receiver, int around, int towards)
+    : surfaces_(surfaces),
+      receiver_(receiver),
+      aimed_per_around_(static_cast<float>(towards) / static_cast<float>(around)) {
+    const LightBounds& bounds = surfaces.patches.bounds;
+    bound_illuminances(bounds, receiver.position, receiver.normal, 0.0f, {ends_.data(), bounds.strength.size()});
+    for (std::size_t i = 0; i < bounds.strength.size(); ++i) ends_[i] = total_ += ends_[i];
+    if (!std::isfinite(total_)) total_ = 0.0f;
+}
+
+BrightSampler::Aim BrightSampler::aim(const LightNumbers& numbers) const {
+    const std::vector<Emitter>& patches = surfaces_.patches.emitters;
+    if (!(total_ > 0.0f)) return {};
+    const std::span ends(ends_.data(), patches.size());
+    const auto found = std::ranges::upper_bound(ends, numbers.choice * total_) - ends.begin();
+    const int patch = static_cast<int>(std::min(found, std::ssize(ends) - 1));
+    // The triangle's sampling needs no surface, as a patch has no texture.
+    const Emitter::Triangle& t = patches[static_cast<std::size_t>(patch)].triangles.front();
+    const glm::vec2 b = sample_triangle(numbers.point);
+    const glm::vec3 to = t.corner + t.edge1 * b.x + t.edge2 * b.y - receiver_.position;
+    const float distance = glm::length(to);
+    if (!(distance > 0.0f) || !(glm::dot(to, t.normal) < 0.0f)) return {};
+    const glm::vec3 direction = to / distance;
+    return glm::dot(direction, receiver_.normal) > least_rise ? Aim{direction, patch} : Aim{};
+}
+
+float BrightSampler::density(int patch, const glm::vec3& direction, float distance) const {
+    const auto i = static_cast<std::size_t>(patch);
+    const Emitter& emitter = surfaces_.patches.emitters[i];
+    const float share = (ends_[i] - (i == 0 ? 0.0f : ends_[i - 1])) / total_;
+    const float cosine = -glm::dot(emitter.triangles.front().normal, direction);
+    return cosine > 0.0f ? share * distance * distance / (cosine * emitter.area) : 0.0f;
+}
+
+float BrightSampler::weigh(const Hit& hit, const glm::vec3& direction, int patch) const {
+    const int met = total_ > 0.0f ? surfaces_.find(hit, direction) : no_index;
+    if (patch != no_index && met != patch) return 0.0f;
+    if (met == no_index) return 1.0f;
+    const float cosine = glm::dot(receiver_.normal, direction);
+    const float weight = cosine / (cosine + aimed_per_around_ * pi * density(met, direction, hit.distance));
+    return std::isfinite(weight) ? weight : 0.0f;
+}
+
+}  // namespace aleph

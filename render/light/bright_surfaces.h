@@ -1,0 +1,65 @@
+#pragma once
+// Surfaces that reflect so much light that they are sampled like lights: the inside of a lamp's shade, bars of a window
+// beside the sky. Seen from elsewhere they are small, and few of the rays over a hemisphere meet them: these rays carry
+// much of the light, and nearly all of its noise.
+//
+// What each triangle reflects is found by light rays from the lamps. From a point, rays towards bright triangles join
+// those over the hemisphere. Both find their light, weighted by the balance heuristic (Veach and Guibas 1995,
+// "Optimally Combining Sampling Techniques for Monte Carlo Rendering"): without bias, whatever was taken for bright.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "render/light/light_choice.h"
+
+namespace aleph {
+
+struct BrightSurfaces {
+    static constexpr std::size_t most = 256;  ///< a multiple of LightBounds::step
+    /// From all lamps together, counted as RayCounts::gather.
+    static constexpr std::size_t light_rays = 32768;
+
+    LightSet patches;                        ///< one emitter of one triangle each, shining on its bright side
+    std::vector<std::vector<int>> patch_of;  ///< per instance: by triangle, or empty
+
+    bool empty() const { return patches.emitters.empty(); }
+    /// The patch that a ray met on its bright side, or no_index.
+    int find(const Hit& hit, const glm::vec3& direction) const;
+};
+
+/// Triangles that reflect far more than others, if they reflect a good part of what the lamps emit; else none. Light of
+/// point, spot and directional lights and of the environment is not looked for.
+/// @param counts  increased by the rays cast
+BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& counts);
+
+/// Rays from a point, most of them over its hemisphere by cosine, the others towards bright surfaces.
+class BrightSampler {
+  public:
+    /// Keeps a reference to the surfaces, of which there is at least one.
+    /// @param around, towards  numbers of rays over the hemisphere and towards bright surfaces
+    BrightSampler(const BrightSurfaces& surfaces, const Receiver& receiver, int around, int towards);
+
+    struct Aim {
+        glm::vec3 direction{0.0f};  ///< unit
+        int patch = no_index;       ///< no_index: none can be seen from here
+    };
+    /// A direction towards a bright surface, chosen by about what each brings without obstacles.
+    Aim aim(const LightNumbers& numbers) const;
+
+    /// Weight of the radiance that a ray found, at most 1: pi / around times the sum over all rays estimates the
+    /// irradiance.
+    /// @param patch  that the ray was aimed at; no_index: one over the hemisphere
+    float weigh(const Hit& hit, const glm::vec3& direction, int patch) const;
+
+  private:
+    float density(int patch, const glm::vec3& direction, float distance) const;
+
+    const BrightSurfaces& surfaces_;
+    const Receiver receiver_;
+    const float aimed_per_around_;
+    std::array<float, BrightSurfaces::most> ends_;  ///< sums of what the patches bring, up to and including each
+    float total_ = 0.0f;
+};
+
+}  // namespace aleph

@@ -1,0 +1,171 @@
+// Bright surfaces against closed forms, and gathers that aim at them against gathers that do not.
+
+#include "render/light/bright_surfaces.h"
+
+#include "tests/support/indirect_pictures.h"
+#include "tests/support/test.h"
+#include "tests/support/trial.h"
+
+namespace aleph {
+namespace {
+
+constexpr float side = 0.2f, height = 1.0f;  // m
+
+/// A lamp that closes the top of a square tube, as wide as it is high, above a grey floor. The tube is white, with its
+/// front side inside.
+Scene make_shaded_lamp() {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.8), glm::dvec3(0.0), true);
+    const int grey = add_lambert(scene, glm::dvec3(0.5));
+    add_mesh(scene, make_quad(6.0, 6.0, grey), glm::dvec3(0.0), z_to_up);
+    add_lamp(scene, side, glm::dvec3(100.0), {0.0, height + side, 0.0});
+    for (int i = 0; i < 4; ++i) {
+        const double angle = i * std::numbers::pi / 2;
+        add_mesh(scene, make_quad(side, side, white),
+                 {-0.5 * side * std::sin(angle), height + 0.5 * side, -0.5 * side * std::cos(angle)},
+                 turn_about_y(angle));
+    }
+    return scene;
+}
+
+struct ShadedLamp {
+    ShadedLamp() : gathering(make_shaded_lamp()) {
+        RayCounts counts;
+        surfaces = find_bright_surfaces(gathering.stage.lighting(), counts);
+        light_rays = counts.gather;
+    }
+    IrradianceSample gather(const glm::vec3& position, const glm::vec3& normal, int rays, std::uint32_t seed,
+                            bool aims = true) {
+        return gathering.gather(make_point(position, normal), {choose_strata(rays), {seed, 0, 0, 0}},
+                                {.bright = aims ? &surfaces : nullptr});
+    }
+
+    Gathering gathering;
+    BrightSurfaces surfaces;
+    std::uint64_t light_rays = 0;
+};
+
+/// Of a face of a cube, another one beside it sees .200044 of the light, and the opposite one .199825 (Howell 2010, "A
+/// Catalog of Radiation Heat Transfer Configuration Factors", C-11 and C-14).
+TEST(BrightSurfaces, AreTheInsideOfAShade) {
+    const ShadedLamp lamp;
+    EXPECT_EQ(lamp.light_rays, BrightSurfaces::light_rays);
+    ASSERT_EQ(lamp.surfaces.patches.emitters.size(), 8u);
+    double reflected = 0.0;
+    for (const Emitter& patch : lamp.surfaces.patches.emitters) {
+        const glm::vec3 to_axis = glm::vec3(0.0f, patch.center.y, 0.0f) - patch.center;
+        EXPECT_GT(glm::dot(patch.triangles.front().normal, to_axis), 0.09f);
+        reflected += pi * patch.area * luminance(patch.radiance);
+    }
+    EXPECT_NEAR(reflected, 0.8 * 4.0 * 0.200044 * 100.0 * pi * side * side, 0.01 * reflected);
+}
+
+TEST(BrightSurfaces, AreMetFromTheirBrightSideOnly) {
+    const ShadedLamp lamp;
+    const auto find = [&](const glm::vec3& from, const glm::vec3& direction) {
+        RayTask task(lamp.gathering.stage.rays);
+        return lamp.surfaces.find(task.tracer.intersect({from, direction}), direction);
+    };
+    const glm::vec3 inside(0.0f, height + 0.1f, 0.0f);
+    EXPECT_NE(find(inside, {1.0f, 0.0f, 0.0f}), no_index);
+    EXPECT_EQ(find(inside + glm::vec3(2.0f, 0.0f, 0.0f), {-1.0f, 0.0f, 0.0f}), no_index);
+    EXPECT_EQ(find(inside, {0.0f, -1.0f, 0.0f}), no_index);  // the floor
+    EXPECT_EQ(find(inside + glm::vec3(2.0f, 0.0f, 0.0f), {0.0f, 1.0f, 0.0f}), no_index);
+}
+
+TEST(BrightSurfaces, AreNotLookedForWhereNothingStandsOut) {
+    for (const bool dark : {false, true}) {
+        Scene scene;
+        add_small_room(scene, add_lambert(scene, glm::dvec3(0.5)), add_lambert(scene, glm::dvec3(0.5)),
+                       glm::dvec3(dark ? 0.0 : 10.0), 1.0);
+        const Stage stage(std::move(scene));
+        RayCounts counts;
+        EXPECT_TRUE(find_bright_surfaces(stage.lighting(), counts).empty());
+        EXPECT_EQ(counts.gather, dark ? 0u : BrightSurfaces::light_rays);
+    }
+}
+
+/// On the floor, where the tube's inside is small; under its opening; on its inside, with a bright surface an edge
+/// away.
+TEST(BrightSurfaces, AimedRaysKeepTheMeanAndLowerTheNoise) {
+    ShadedLamp lamp;
+    struct Place {
+        glm::vec3 position, normal;
+        double most;  ///< standard error over that without aimed rays
+    };
+    for (const Place& place : {Place{{0.7f, 0.0f, 0.3f}, up, 0.25}, Place{{0.02f, height - 0.3f, 0.0f}, up, 0.5},
+                               Place{{0.0f, height + 0.1f, -0.0999f}, {0.0f, 0.0f, 1.0f}, 1.25}}) {
+        SCOPED_TRACE(place.position.x);
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            Mean with, without;
+            for (std::uint32_t run = 0; run < trial.times(256u); ++run) {
+                with.add(lamp.gather(place.position, place.normal, 256, run + trial.seed).irradiance.x);
+                without.add(
+                    lamp.gather(place.position, place.normal, 384, run + trial.seed + 5000, false).irradiance.x);
+            }
+            trial.near(with, without);
+            EXPECT_LT(with.error(), place.most * without.error());
+        }));
+    }
+}
+
+TEST(BrightSurfaces, GathersTellTheErrorOfAimedRays) {
+    ShadedLamp lamp;
+    Mean value, told;
+    for (std::uint32_t run = 0; run < 256; ++run) {
+        const IrradianceSample sample = lamp.gather({0.7f, 0.0f, 0.3f}, up, 256, run);
+        value.add(sample.irradiance.x);
+        told.add(sample.relative_error);
+        EXPECT_EQ(sample.rays, choose_strata(256).count() * 3 / 2);
+    }
+    const double spread = value.error() * 16.0 / value.mean();
+    EXPECT_GT(told.mean(), 0.5 * spread);
+    EXPECT_LT(told.mean(), 2.0 * spread);
+}
+
+TEST(BrightSurfaces, GradientsHoldTheLightOfAimedRays) {
+    ShadedLamp lamp;
+    const auto mean_of = [&](const glm::vec3& position, const glm::vec3& normal, const auto& value) {
+        double sum = 0.0;
+        for (std::uint32_t run = 0; run < 64; ++run) sum += value(lamp.gather(position, normal, 4096, run));
+        return sum / 64.0;
+    };
+    const auto light = [](const IrradianceSample& sample) { return sample.irradiance.x; };
+    // Under the tube, where no edge of it hides its inside from one of the places and not from the other.
+    const glm::vec3 here(0.03f, height - 0.5f, 0.0f), step(0.02f, 0.0f, 0.0f);
+    const double slope = (mean_of(here + step, up, light) - mean_of(here - step, up, light)) / 0.04;
+    const double told =
+        mean_of(here, up, [](const IrradianceSample& sample) { return sample.gradients.translation[0].x; });
+    EXPECT_NEAR(told, slope, 0.15 * std::abs(slope));
+    const glm::vec3 aside(0.5f, 0.0f, 0.0f);
+    const auto tilted = [](float angle) { return glm::vec3(std::sin(angle), std::cos(angle), 0.0f); };
+    const double turn = (mean_of(aside, tilted(0.05f), light) - mean_of(aside, tilted(-0.05f), light)) / 0.1;
+    const glm::vec3 axis = glm::cross(up, tilted(0.05f)) / 0.05f;
+    const double told_turn = mean_of(
+        aside, up, [&](const IrradianceSample& sample) { return glm::dot(axis, sample.gradients.rotation[0]); });
+    EXPECT_NEAR(told_turn, turn, 0.05 * std::abs(turn));
+}
+
+/// Samples whose irradiance no record knows aim as well. The noise of single pictures is compared to that of paths,
+/// which do not.
+TEST(BrightSurfaces, SamplesThatAimAgreeWithThePathTracer) {
+    Scene scene = make_shaded_lamp();
+    add_camera(scene, {1.2, 0.8, 1.2}, {0.5, 0.0, 0.0}, 0.5);
+    const Stage stage(std::move(scene), 12, 9);
+    RenderSettings aiming = plain_settings(0.0, 0);
+    aiming.light.bounces = 1;
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        Mean samples, paths;
+        for (std::uint32_t run = 0; run < trial.times(48u); ++run) {
+            aiming.sampling.spp = 16;
+            aiming.seed = run + trial.seed;
+            samples.add(mean_of_pixels(shade(stage, aiming)).mean());
+            paths.add(mean_of_pixels(shade(stage, path_settings(1, 32, run + trial.seed))).mean());
+        }
+        trial.near(samples, paths);
+        EXPECT_LT(samples.error(), 0.5 * paths.error());
+    }));
+}
+
+}  // namespace
+}  // namespace aleph
