@@ -27,62 +27,55 @@ void add_gradients(const Rgb& light, const glm::vec3& to, const glm::vec3& norma
 
 }  // namespace
 
-void aim_rays(const BrightSampler& sampler, const SurfacePlace& point, int count, RandomStream& random,
-              GatherScratch& scratch) {
-    scratch.aimed.clear();
-    for (int i = 0; i < count; ++i) {
-        const float choice = (static_cast<float>(i) + random.next()) / static_cast<float>(count);
+void aim_rays(const BrightSampler& sampler, const SurfacePlace& point, RandomStream& random, GatherScratch& scratch) {
+    for (int i = 0; i < scratch.aims; ++i) {
+        const float choice = (static_cast<float>(i) + random.next()) / static_cast<float>(scratch.aims);
         const BrightSampler::Aim aim = sampler.aim({choice, random.next_2d()});
         if (aim.patch == no_index || !(glm::dot(aim.direction, point.geometric) > 0.0f)) continue;
         scratch.rays.push_back({point.ray_origin(), aim.direction});
         scratch.places.push_back({0, i, 0});  // for its light numbers
-        scratch.aimed.push_back(aim.patch);
+        scratch.aimed.push_back({aim.patch, aim.normal});
     }
     scratch.hits.resize(scratch.rays.size());
     scratch.normals.resize(scratch.rays.size());
 }
 
 void weigh_rays(const BrightSampler& sampler, GatherScratch& scratch) {
-    const std::size_t around = scratch.rays.size() - scratch.aimed.size();
+    const std::size_t around = scratch.rays_around();
     scratch.weights.resize(scratch.rays.size());
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
-        const int patch = i < around ? no_index : scratch.aimed[i - around];
+        const int patch = i < around ? no_index : scratch.aimed[i - around].patch;
         scratch.weights[i] = sampler.weigh(scratch.hits[i], scratch.rays[i].direction, patch);
         if (patch != no_index && scratch.weights[i] == 0.0f) scratch.hits[i].instance = no_index;
     }
 }
 
-IrradianceSample add_up_with_aimed(const HemisphereStrata& strata, const glm::vec3& normal,
-                                   const BrightSurfaces& surfaces, int aimed, GatherScratch& scratch) {
-    const std::size_t around = scratch.rays.size() - scratch.aimed.size();
-    const float per_ray = pi / static_cast<float>(strata.count());
-    IrradianceSample towards;
+void apply_weights(GatherScratch& scratch) {
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) scratch.light[i] *= scratch.weights[i];
+    for (FurtherLight& further : scratch.further) {
+        further.weight *= scratch.weights[static_cast<std::size_t>(further.ray)];
+    }
+}
+
+void add_aimed(const glm::vec3& normal, const GatherScratch& scratch, IrradianceSample& out) {
+    const std::size_t around = scratch.rays_around();
+    const float per_ray = pi / static_cast<float>(scratch.strata.count());
+    const double error = out.relative_error * luminance(out.irradiance);
     double sum = 0.0, squares = 0.0;
     for (std::size_t i = around; i < scratch.rays.size(); ++i) {
-        const Rgb light = scratch.light[i] * (scratch.weights[i] * per_ray);
+        const Rgb light = scratch.light[i] * per_ray;
         if (light == Rgb(0.0f)) continue;
         const double brightness = luminance(light);
         sum += brightness;
         squares += brightness * brightness;
-        towards.irradiance += light;
-        const auto patch = static_cast<std::size_t>(scratch.aimed[i - around]);
+        out.irradiance += light;
         add_gradients(light, scratch.rays[i].direction * scratch.hits[i].distance, normal,
-                      surfaces.patches.emitters[patch].triangles.front().normal, towards.gradients);
+                      scratch.aimed[i - around].normal, out.gradients);
     }
-    for (std::size_t i = 0; i < around; ++i) scratch.light[i] *= scratch.weights[i];
-    scratch.rays.resize(around);
-    IrradianceSample out = add_up_rays(strata, normal, scratch);
-    const double error = out.relative_error * luminance(out.irradiance);
-    out.rays += aimed;
-    out.irradiance += towards.irradiance;
-    for (int c = 0; c < 3; ++c) {
-        out.gradients.translation[c] += towards.gradients.translation[c];
-        out.gradients.rotation[c] += towards.gradients.rotation[c];
-    }
-    const double brightness = luminance(out.irradiance), variance = std::max(0.0, squares - sum * sum / aimed);
+    out.rays += scratch.aims;
+    const double brightness = luminance(out.irradiance), variance = std::max(0.0, squares - sum * sum / scratch.aims);
     if (brightness > 0.0 && std::isfinite(out.relative_error))
         out.relative_error = static_cast<float>(std::sqrt(error * error + variance) / brightness);
-    return out;
 }
 
 }  // namespace aleph

@@ -33,10 +33,11 @@ struct Lighting {
     std::uint32_t further_seed;
     GatherScratch& scratch;
 
-    /// sr, that a ray represents. Cells towards the horizon are 1 / cosine larger.
+    float weight(std::size_t ray) const { return scratch.aims > 0 ? scratch.weights[ray] : 1.0f; }
+    /// sr, that a ray represents: where rays are aimed, less. Cells towards the horizon are 1 / cosine larger.
     float solid_angle(std::size_t ray) const {
         const float cosine = std::max(glm::dot(normal, scratch.rays[ray].direction), min_ray_cosine);
-        return pi / (static_cast<float>(strata.count()) * cosine);
+        return weight(ray) * pi / (static_cast<float>(strata.count()) * cosine);
     }
     /// Numbers for a light at what this ray hit.
     LightNumbers light_numbers(std::size_t ray) const {
@@ -48,8 +49,11 @@ struct Lighting {
     std::uint64_t find_cell(std::size_t ray, const Hit& hit, const glm::vec3& position, const glm::vec3& geometric,
                             float widths = 1.0f) const {
         if (options.grid == nullptr) return 0;
-        return options.grid->key_of(hit.instance, position - context.shading.instances[hit.instance].translation,
-                                    geometric, widths * hit.distance * std::sqrt(solid_angle(ray)));
+        // Aimed rays meet nothing of a cell but what is bright: it must not hold for what lies beside that.
+        const int apart = weight(ray) < 1.0f ? static_cast<int>(context.shading.instances.size()) : 0;
+        return options.grid->key_of(hit.instance + apart,
+                                    position - context.shading.instances[hit.instance].translation, geometric,
+                                    widths * hit.distance * std::sqrt(solid_angle(ray)));
     }
     bool is_plain(const Hit& hit) const {
         return context.shading.materials[context.shading.instances[hit.instance].material].plain_lambert;
@@ -284,11 +288,12 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     const CellNumbers numbers(random);
     place_rays(strata, make_basis(point.normal), point, numbers, scratch);
     scratch.strata = strata;
-    const int aimed = options.bright == nullptr ? 0 : std::max(1, strata.count() / around_per_aimed);
+    scratch.aims = options.bright == nullptr ? 0 : std::max(1, strata.count() / around_per_aimed);
+    scratch.aimed.clear();
     std::optional<BrightSampler> sampler;
-    if (aimed > 0) {
-        sampler.emplace(*options.bright, Receiver{point.ray_origin(), point.normal}, strata.count(), aimed);
-        aim_rays(*sampler, point, aimed, random, scratch);
+    if (scratch.aims > 0) {
+        sampler.emplace(*options.bright, Receiver{point.ray_origin(), point.normal}, strata.count(), scratch.aims);
+        aim_rays(*sampler, point, random, scratch);
     }
     task.tracer.intersect(scratch.rays, scratch.hits, scratch.normals);
     task.counts.gather += scratch.rays.size();
@@ -297,7 +302,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
         {context, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});
     add_unshadowed(context, task, options, scratch);
     if (options.material != nullptr) weigh_by_transmission(*options.material, point.normal, scratch);
-    if (sampler) return add_up_with_aimed(strata, point.normal, *options.bright, aimed, scratch);
+    if (sampler) apply_weights(scratch);
     return add_up_rays(strata, point.normal, scratch);
 }
 

@@ -110,6 +110,12 @@ struct FurtherLight {
     RandomKey key;  ///< of the place
 };
 
+/// A ray that was aimed at a bright surface.
+struct AimedRay {
+    int patch = no_index;
+    glm::vec3 normal{0.0f};  ///< of the patch
+};
+
 /// Buffers that a thread reuses, so that only its first gathers allocate.
 struct GatherScratch {
     HemisphereStrata strata;
@@ -133,9 +139,12 @@ struct GatherScratch {
     std::vector<float> sorted;
     std::vector<float> inverse_distances;
     std::vector<StrataRow> rows;
-    // Of rays towards bright surfaces, which are the last ones (aimed_rays.h).
-    std::vector<int> aimed;      ///< patch of each
-    std::vector<float> weights;  ///< of all rays, by what they met
+    // Of rays towards bright surfaces (aimed_rays.h).
+    int aims = 0;                 ///< that were to be found
+    std::vector<AimedRay> aimed;  ///< those that were: the last rays
+    std::vector<float> weights;   ///< of all rays, by what they met
+
+    std::size_t rays_around() const { return rays.size() - aimed.size(); }
 };
 
 /// The part of a gather that add_up_rays needs, while its rays wait for light of further bounces.
@@ -150,6 +159,8 @@ struct KeptRays {
     std::vector<KeptRay> rays;
     std::vector<std::uint8_t> below;
     std::vector<FurtherLight> further;
+    int aims = 0;                 ///< GatherScratch::aims
+    std::vector<AimedRay> aimed;  ///< the last rays
 };
 
 struct GatherOptions {
@@ -162,7 +173,7 @@ struct GatherOptions {
     /// Weighs the light of each ray by its relative_transmission, which is what diffuse_radiance needs. Null: all
     /// alike.
     const SurfaceMaterial* material = nullptr;
-    /// Rays towards them join those over the hemisphere; null: none. Not with light that is only noted.
+    /// Rays towards them join those over the hemisphere; null: none.
     const BrightSurfaces* bright = nullptr;
 };
 
@@ -181,7 +192,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
                                    const GatherPattern& pattern, GatherScratch& scratch,
                                    const GatherOptions& options = {});
 
-/// The irradiance and its summary from what the rays found.
+/// The irradiance and its summary from what the rays found, each by its weight.
 IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch);
 
 /// Random numbers of a place on a surface: a cell of the triangle, so that the last bits of the hit hardly ever matter.

@@ -104,7 +104,7 @@ void place_rays(const HemisphereStrata& strata, const Basis& basis, const Surfac
 }
 
 KeptRays keep_rays(GatherScratch& scratch) {
-    KeptRays kept{scratch.strata, {}, scratch.below, std::exchange(scratch.further, {})};
+    KeptRays kept{scratch.strata, {}, scratch.below, std::exchange(scratch.further, {}), scratch.aims, scratch.aimed};
     kept.further.shrink_to_fit();
     kept.rays.reserve(scratch.rays.size());
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
@@ -118,6 +118,8 @@ KeptRays keep_rays(GatherScratch& scratch) {
 void restore_rays(const KeptRays& kept, GatherScratch& scratch) {
     scratch.strata = kept.strata;
     scratch.below = kept.below;
+    scratch.aims = kept.aims;
+    scratch.aimed = kept.aimed;
     scratch.rays.resize(kept.rays.size());
     scratch.hits.resize(kept.rays.size());
     scratch.places.resize(kept.rays.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/cache/aimed_rays.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {
@@ -107,7 +108,7 @@ void set_clearance(const HemisphereStrata& strata, const Basis& basis, const Gat
     const int sectors = static_cast<int>(out.space.sectors.size());
     const int rows = std::clamp((2 * sectors - 1 + strata.columns) / strata.columns, 1, strata.rows);
     const int first_low = (strata.rows - rows) * strata.columns;
-    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+    for (std::size_t i = 0; i < scratch.rays_around(); ++i) {
         const int cell = scratch.places[i].cell;
         const float distance = scratch.hits[i].instance == no_index ? infinite : scratch.hits[i].distance;
         if (distance < shortest) continue;
@@ -164,7 +165,7 @@ float estimate_relative_error(const HemisphereStrata& strata, GatherScratch& scr
 void sort_by_cell(const HemisphereStrata& strata, GatherScratch& scratch) {
     scratch.distances.assign(static_cast<std::size_t>(strata.count()), infinite);
     scratch.radiance.assign(static_cast<std::size_t>(strata.count()), Rgb(0.0f));
-    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+    for (std::size_t i = 0; i < scratch.rays_around(); ++i) {
         const int cell = scratch.places[i].cell;
         scratch.radiance[cell] = scratch.light[i];
         if (scratch.hits[i].instance != no_index) scratch.distances[cell] = scratch.hits[i].distance;
@@ -190,6 +191,7 @@ IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& no
     for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
     out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));
     summarize_hemisphere(strata, make_basis(normal), scratch, out);
+    if (scratch.aims > 0) add_aimed(normal, scratch, out);
     return out;
 }
 

@@ -67,6 +67,7 @@ inline IndirectContext make_places_context(const IndirectContext& frame, const I
             .progress = {},
             .checkpoint = frame.checkpoint,
             .direct = frame.direct,
+            .bright = frame.bright,
             .bounces = frame.bounces};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 
 #include "engine/base/sampling.h"
@@ -24,7 +25,7 @@ constexpr std::uint32_t light_ray_key = 0x62726967u;  // no other random numbers
 
 constexpr float least_rise = 1e-6f;  // of a unit direction above the true surface: below it, rounding decides
 
-/// Light that a light ray brought to a triangle and that its Lambert layer reflects, lm.
+/// Light that a light ray brought to a triangle and that it reflects, lm.
 struct Arrival {
     int instance = no_index;  ///< no_index: none
     int primitive = 0;
@@ -72,25 +73,31 @@ Arrival cast_light_ray(const LightingContext& context, RayTask& task, const Emit
     const SurfacePoint met = make_surface_point(context.shading, hit, direction);
     float area = 0.0f;
     const glm::vec3 side = place_triangle(context.shading.instances[hit.instance], hit.primitive, area).normal;
+    const SurfaceMaterial material = evaluate_material(context.shading, met, {});
     return {hit.instance, hit.primitive, glm::dot(side, direction) > 0.0f,
-            power * luminance(evaluate_material(context.shading, met, {}).diffuse)};
+            power * luminance(material.diffuse + material.gloss.f0)};
 }
 
-/// Light rays from all emitters, in proportion to their power.
-std::vector<Arrival> cast_light_rays(const LightingContext& context, RayCounts& counts) {
-    std::vector<double> ends;
-    double total = 0.0;
-    for (const Emitter& emitter : context.lights.emitters) ends.push_back(total += find_power(emitter));
+/// Light rays from all emitters: half of them in proportion to their power, half as many from each, for what stands
+/// beside a small one.
+std::vector<Arrival> cast_light_rays(const LightingContext& context, std::size_t count, RayCounts& counts) {
+    const std::vector<Emitter>& emitters = context.lights.emitters;
+    std::vector<double> shares;
+    for (const Emitter& emitter : emitters) shares.push_back(find_power(emitter));
+    const double total = std::reduce(shares.begin(), shares.end());
     if (!(total > 0.0) || !std::isfinite(total)) return {};
-    std::vector<Arrival> arrivals(BrightSurfaces::light_rays);
-    cast_parallel(BrightSurfaces::light_rays, 256, context.rays, counts, [&](int i, RayTask& task) {
+    for (double& share : shares) share = 0.5 * (share / total + 1.0 / static_cast<double>(shares.size()));
+    std::vector<double> ends(shares.size());
+    std::partial_sum(shares.begin(), shares.end(), ends.begin());
+    std::vector<Arrival> arrivals(count);
+    cast_parallel(count, 256, context.rays, counts, [&](int i, RayTask& task) {
         RandomStream random({light_ray_key, 0, 0, static_cast<std::uint32_t>(i)});
-        const double number = total * (i + random.next()) / BrightSurfaces::light_rays;
+        const double number = (i + random.next()) / static_cast<double>(count);
         const auto e =
             std::min<std::ptrdiff_t>(std::ranges::upper_bound(ends, number) - ends.begin(), std::ssize(ends) - 1);
-        const double before = e == 0 ? 0.0 : ends[e - 1], place = (number - before) / (ends[e] - before);
-        arrivals[i] = cast_light_ray(context, task, context.lights.emitters[e], static_cast<float>(place),
-                                     total / BrightSurfaces::light_rays, random);
+        const double place = (number - ends[e]) / shares[e] + 1.0;
+        const double power = find_power(emitters[e]) / (shares[e] * static_cast<double>(count));
+        arrivals[i] = cast_light_ray(context, task, emitters[e], static_cast<float>(place), power, random);
     });
     return arrivals;
 }
@@ -129,18 +136,9 @@ Emitter make_patch(const LitSide& side) {
     return patch;
 }
 
-}  // namespace
-
-int BrightSurfaces::find(const Hit& hit, const glm::vec3& direction) const {
-    if (hit.instance == no_index || patch_of[hit.instance].empty()) return no_index;
-    const int patch = patch_of[hit.instance][hit.primitive];
-    if (patch == no_index) return no_index;
-    return glm::dot(patches.emitters[patch].triangles.front().normal, direction) < 0.0f ? patch : no_index;
-}
-
-BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& counts) {
-    const ShadingScene& shading = context.shading;
-    std::vector<LitSide> sides = add_up(shading, cast_light_rays(context, counts));
+/// The bright sides, if they reflect a good part of the light; else none.
+std::vector<LitSide> find_bright_sides(const LightingContext& context, std::size_t light_rays, RayCounts& counts) {
+    std::vector<LitSide> sides = add_up(context.shading, cast_light_rays(context, light_rays, counts));
     double reflected = 0.0, area = 0.0, bright = 0.0;
     for (const LitSide& side : sides) {
         reflected += side.sum.reflected;
@@ -153,8 +151,12 @@ BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& c
     std::ranges::stable_sort(sides, std::ranges::greater{}, [](const LitSide& side) { return side.sum.reflected; });
     sides.resize(std::min(sides.size(), BrightSurfaces::most));
     for (const LitSide& side : sides) bright += side.sum.reflected;
+    if (!(bright > least_share * reflected)) sides.clear();
+    return sides;
+}
+
+BrightSurfaces make_bright_surfaces(const ShadingScene& shading, const std::vector<LitSide>& sides) {
     BrightSurfaces found;
-    if (!(bright > least_share * reflected)) return found;
     found.patch_of.resize(shading.instances.size());
     for (const LitSide& side : sides) {
         std::vector<int>& patch_of = found.patch_of[side.sum.instance];
@@ -165,6 +167,20 @@ BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& c
     }
     found.patches.bounds = make_light_bounds(shading, found.patches);
     return found;
+}
+
+}  // namespace
+
+int BrightSurfaces::find(const Hit& hit, const glm::vec3& direction) const {
+    if (hit.instance == no_index || patch_of[hit.instance].empty()) return no_index;
+    const int patch = patch_of[hit.instance][hit.primitive];
+    if (patch == no_index) return no_index;
+    return glm::dot(patches.emitters[patch].triangles.front().normal, direction) < 0.0f ? patch : no_index;
+}
+
+BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& counts) {
+    if (find_bright_sides(context, BrightSurfaces::light_rays, counts).empty()) return {};
+    return make_bright_surfaces(context.shading, find_bright_sides(context, BrightSurfaces::more_light_rays, counts));
 }
 
 BrightSampler::BrightSampler(const BrightSurfaces& surfaces, const Receiver& receiver, int around, int towards)
@@ -190,7 +206,7 @@ BrightSampler::Aim BrightSampler::aim(const LightNumbers& numbers) const {
     const float distance = glm::length(to);
     if (!(distance > 0.0f) || !(glm::dot(to, t.normal) < 0.0f)) return {};
     const glm::vec3 direction = to / distance;
-    return glm::dot(direction, receiver_.normal) > least_rise ? Aim{direction, patch} : Aim{};
+    return glm::dot(direction, receiver_.normal) > least_rise ? Aim{direction, patch, t.normal} : Aim{};
 }
 
 float BrightSampler::density(int patch, const glm::vec3& direction, float distance) const {

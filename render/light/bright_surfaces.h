@@ -16,9 +16,9 @@
 namespace aleph {
 
 struct BrightSurfaces {
-    static constexpr std::size_t most = 256;  ///< a multiple of LightBounds::step
-    /// From all lamps together, counted as RayCounts::gather.
-    static constexpr std::size_t light_rays = 32768;
+    static constexpr std::size_t most = 512;  ///< a multiple of LightBounds::step
+    /// From all lamps together, counted as RayCounts::gather: to see whether there are any, and then to find them all.
+    static constexpr std::size_t light_rays = 32768, more_light_rays = 131072;
 
     LightSet patches;                        ///< one emitter of one triangle each, shining on its bright side
     std::vector<std::vector<int>> patch_of;  ///< per instance: by triangle, or empty
@@ -43,6 +43,7 @@ class BrightSampler {
     struct Aim {
         glm::vec3 direction{0.0f};  ///< unit
         int patch = no_index;       ///< no_index: none can be seen from here
+        glm::vec3 normal{0.0f};     ///< of the patch
     };
     /// A direction towards a bright surface, chosen by about what each brings without obstacles.
     Aim aim(const LightNumbers& numbers) const;

@@ -36,9 +36,9 @@ class CacheIntegrator final : public LightIntegrator {
     void fill(const SampleHits& first) override {
         if (cached_ && input_.options.risk != nullptr)
             context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
-        solve_further(first);
         if (needs_bright()) bright_ = find_bright_surfaces(context_.lighting, input_.out.counts.rays);
         if (!bright_.empty()) context_.bright = &bright_;
+        solve_further(first);
         if (!cached_) return;
         if (checked_) checked_->check(cache_, context_, input_.out);
         fill_cache(cache_, context_, first, input_.out);

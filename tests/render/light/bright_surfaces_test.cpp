@@ -11,6 +11,8 @@ namespace {
 
 constexpr float side = 0.2f, height = 1.0f;  // m
 
+const glm::vec3 back(0.0f, 0.0f, -1.0f);
+
 /// A lamp that closes the top of a square tube, as wide as it is high, above a grey floor. The tube is white, with its
 /// front side inside.
 Scene make_shaded_lamp() {
@@ -49,7 +51,7 @@ struct ShadedLamp {
 /// Catalog of Radiation Heat Transfer Configuration Factors", C-11 and C-14).
 TEST(BrightSurfaces, AreTheInsideOfAShade) {
     const ShadedLamp lamp;
-    EXPECT_EQ(lamp.light_rays, BrightSurfaces::light_rays);
+    EXPECT_EQ(lamp.light_rays, BrightSurfaces::light_rays + BrightSurfaces::more_light_rays);
     ASSERT_EQ(lamp.surfaces.patches.emitters.size(), 8u);
     double reflected = 0.0;
     for (const Emitter& patch : lamp.surfaces.patches.emitters) {
@@ -144,6 +146,59 @@ TEST(BrightSurfaces, GradientsHoldTheLightOfAimedRays) {
     const double told_turn = mean_of(
         aside, up, [&](const IrradianceSample& sample) { return glm::dot(axis, sample.gradients.rotation[0]); });
     EXPECT_NEAR(told_turn, turn, 0.05 * std::abs(turn));
+}
+
+/// A wall of one mesh, in tiles as wide as the lamp that shines on its middle from close by.
+Scene make_lit_spot() {
+    constexpr int tiles = 15;
+    Scene scene;
+    Mesh wall;
+    wall.material = add_lambert(scene, glm::dvec3(0.8));
+    for (int y = 0; y <= tiles; ++y) {
+        for (int x = 0; x <= tiles; ++x) {
+            wall.positions.emplace_back(side * (static_cast<float>(x) - 0.5f * tiles),
+                                        side * (static_cast<float>(y) - 0.5f * tiles), 0.0f);
+        }
+    }
+    const auto corner = [](int x, int y) { return static_cast<unsigned>(y * (tiles + 1) + x); };
+    for (int y = 0; y < tiles; ++y) {
+        for (int x = 0; x < tiles; ++x) {
+            wall.triangles.emplace_back(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1));
+            wall.triangles.emplace_back(corner(x, y), corner(x + 1, y + 1), corner(x, y + 1));
+        }
+    }
+    add_mesh(scene, wall);
+    add_lamp(scene, side, glm::dvec3(100.0), {0.0, 0.0, 0.1}, glm::angleAxis(pi, glm::dvec3(0.0, 1.0, 0.0)));
+    return scene;
+}
+
+/// Rays that are aimed meet the middle of the wall far more often than the rest. Gathers that share its light must not
+/// take that for the light of the whole wall: they share it in cells as wide as what a ray represents.
+TEST(BrightSurfaces, SharedLightIsNotThatOfAimedRaysAlone) {
+    Gathering gathering(make_lit_spot());
+    RayCounts counts;
+    const BrightSurfaces surfaces = find_bright_surfaces(gathering.stage.lighting(), counts);
+    ASSERT_FALSE(surfaces.empty());
+    DirectGrid grid;
+    std::vector<DirectSample> found;
+    const auto gather = [&](std::uint32_t run, int rays, const DirectGrid* known) {
+        const SurfacePoint point = make_point({1.0f + 1e-3f * static_cast<float>(run % 64), 0.0f, 2.0f}, back);
+        return gathering.gather(point, {choose_strata(rays), {run, 0, 0, 0}},
+                                {.grid = known, .found = known != nullptr ? &found : nullptr, .bright = &surfaces});
+    };
+    for (std::uint32_t run = 0; run < 512; ++run) {
+        gather(run, 128, &grid);
+        grid.insert(found);
+        found.clear();
+    }
+    for (const int rays : {128, 2048, 8192}) {
+        Mean shared, own;
+        for (std::uint32_t run = 0; run < 65536u / static_cast<unsigned>(rays); ++run) {
+            shared.add(gather(1000 + run, rays, &grid).irradiance.x);
+            own.add(gather(5000 + run, rays, nullptr).irradiance.x);
+        }
+        EXPECT_NEAR(shared.mean(), own.mean(), 0.03 * own.mean() + 3.0 * own.error()) << rays;
+    }
 }
 
 /// Samples whose irradiance no record knows aim as well. The noise of single pictures is compared to that of paths,
