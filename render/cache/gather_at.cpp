@@ -45,7 +45,8 @@ int choose_rays_for_noise(double ray_variance, double noise, int fewest, int mos
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     const RandomKey key = choose_key(context, surface);
-    if (context.bright != nullptr) rays = std::max(1, rays * around_per_aimed / (around_per_aimed + 1));
+    if (context.bright != nullptr)
+        rays = std::max(std::min(rays, least_rays), rays * around_per_aimed / (around_per_aimed + 1));
     return gather_irradiance(context.lighting, task, surface.point, {choose_strata(rays), key}, scratch,
                              {.depth = std::max(0, context.settings.light.path_depth - 2 - context.bounces.before),
                               .grid = context.direct,

@@ -19,7 +19,7 @@ constexpr int fewest_rays = 4;  // that tell of a triangle
 
 /// Radiance of a bright triangle over the mean of all that light rays meet, and the share of the reflected light that
 /// such triangles must have.
-constexpr double bright_over_mean = 4.0, least_share = 0.05;
+constexpr double bright_over_mean = 4.0, least_share = 0.1;
 
 constexpr std::uint32_t light_ray_key = 0x62726967u;  // no other random numbers have it
 
@@ -78,13 +78,13 @@ Arrival cast_light_ray(const LightingContext& context, RayTask& task, const Emit
             power * luminance(material.diffuse + material.gloss.f0)};
 }
 
-/// Light rays from all emitters: half of them in proportion to their power, half as many from each, for what stands
-/// beside a small one.
+/// Light rays from all emitters: half of them in proportion to power; of the other half as many from each, for what
+/// stands beside a small one.
 std::vector<Arrival> cast_light_rays(const LightingContext& context, std::size_t count, RayCounts& counts) {
     const std::vector<Emitter>& emitters = context.lights.emitters;
     std::vector<double> shares;
     for (const Emitter& emitter : emitters) shares.push_back(find_power(emitter));
-    const double total = std::reduce(shares.begin(), shares.end());
+    const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
     if (!(total > 0.0) || !std::isfinite(total)) return {};
     for (double& share : shares) share = 0.5 * (share / total + 1.0 / static_cast<double>(shares.size()));
     std::vector<double> ends(shares.size());
@@ -199,7 +199,6 @@ BrightSampler::Aim BrightSampler::aim(const LightNumbers& numbers) const {
     const std::span ends(ends_.data(), patches.size());
     const auto found = std::ranges::upper_bound(ends, numbers.choice * total_) - ends.begin();
     const int patch = static_cast<int>(std::min(found, std::ssize(ends) - 1));
-    // The triangle's sampling needs no surface, as a patch has no texture.
     const Emitter::Triangle& t = patches[static_cast<std::size_t>(patch)].triangles.front();
     const glm::vec2 b = sample_triangle(numbers.point);
     const glm::vec3 to = t.corner + t.edge1 * b.x + t.edge2 * b.y - receiver_.position;
