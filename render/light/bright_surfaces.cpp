@@ -17,9 +17,12 @@ namespace {
 
 constexpr int fewest_rays = 4;  // that tell of a triangle
 
-/// Radiance of a bright triangle over the mean of all that light rays meet, and the share of the reflected light that
-/// such triangles must have.
-constexpr double bright_over_mean = 4.0, least_share = 0.1;
+/// Radiance of a bright triangle over the mean of all that light rays meet.
+constexpr double bright_over_mean = 4.0;
+
+/// Share that bright triangles must have of the mean square of radiance, which is the noise of rays over a hemisphere.
+/// A third of the rays are aimed at them: what the others tell has half as much more.
+constexpr double least_share = 0.5;
 
 constexpr std::uint32_t light_ray_key = 0x62726967u;  // no other random numbers have it
 
@@ -136,22 +139,28 @@ Emitter make_patch(const LitSide& side) {
     return patch;
 }
 
-/// The bright sides, if they reflect a good part of the light; else none.
+double add_squares(const std::vector<LitSide>& sides) {
+    double sum = 0.0;
+    for (const LitSide& side : sides) sum += side.sum.reflected * side.radiance();
+    return sum;
+}
+
+/// The bright sides, if they have enough of the light; else none.
 std::vector<LitSide> find_bright_sides(const LightingContext& context, std::size_t light_rays, RayCounts& counts) {
     std::vector<LitSide> sides = add_up(context.shading, cast_light_rays(context, light_rays, counts));
-    double reflected = 0.0, area = 0.0, bright = 0.0;
+    double reflected = 0.0, area = 0.0;
     for (const LitSide& side : sides) {
         reflected += side.sum.reflected;
         area += side.area;
     }
+    std::erase_if(sides, [](const LitSide& side) { return side.rays < fewest_rays || !(side.area > 0.0f); });
+    const double all = add_squares(sides);
     std::erase_if(sides, [&](const LitSide& side) {
-        return side.rays < fewest_rays || !(side.area > 0.0f) ||
-               !(side.radiance() * area > bright_over_mean * reflected / std::numbers::pi);
+        return !(side.radiance() * area > bright_over_mean * reflected / std::numbers::pi);
     });
     std::ranges::stable_sort(sides, std::ranges::greater{}, [](const LitSide& side) { return side.sum.reflected; });
     sides.resize(std::min(sides.size(), BrightSurfaces::most));
-    for (const LitSide& side : sides) bright += side.sum.reflected;
-    if (!(bright > least_share * reflected)) sides.clear();
+    if (!(add_squares(sides) > least_share * all)) sides.clear();
     return sides;
 }
 

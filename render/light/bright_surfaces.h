@@ -28,8 +28,8 @@ struct BrightSurfaces {
     int find(const Hit& hit, const glm::vec3& direction) const;
 };
 
-/// Triangles that reflect far more than others, if they reflect a good part of what the lamps emit; else none. Light of
-/// point, spot and directional lights and of the environment is not looked for.
+/// Triangles that reflect far more than others, if most of the noise of rays over a hemisphere is theirs; else none.
+/// Light of point, spot and directional lights and of the environment is not looked for.
 /// @param counts  increased by the rays cast
 BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& counts);
 
