@@ -15,7 +15,7 @@ namespace {
 void add_gradients(const Rgb& light, const glm::vec3& to, const glm::vec3& normal, const glm::vec3& bright,
                    IrradianceGradients& gradients) {
     const float along = glm::dot(normal, to);
-    // Of cosine at the point times cosine there over squared distance, relative; then in the tangent plane.
+    // The change of both cosines over the squared distance, relative, is taken in the tangent plane.
     glm::vec3 moved = 4.0f * to / glm::dot(to, to) - bright / glm::dot(bright, to) - normal / along;
     moved -= normal * glm::dot(normal, moved);
     const glm::vec3 turned = glm::cross(normal, to) / along;

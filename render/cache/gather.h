@@ -139,7 +139,7 @@ struct GatherScratch {
     std::vector<float> sorted;
     std::vector<float> inverse_distances;
     std::vector<StrataRow> rows;
-    // Of rays towards bright surfaces (aimed_rays.h).
+    // Rays towards bright surfaces (aimed_rays.h).
     int aims = 0;                 ///< that were to be found
     std::vector<AimedRay> aimed;  ///< those that were: the last rays
     std::vector<float> weights;   ///< of all rays, by what they met

@@ -47,7 +47,7 @@ struct ShadedLamp {
     std::uint64_t light_rays = 0;
 };
 
-/// Of a face of a cube, another one beside it sees .200044 of the light, and the opposite one .199825 (Howell 2010, "A
+/// A face of a cube beside one that shines gets .200044 of its light, the opposite one .199825 (Howell 2010, "A
 /// Catalog of Radiation Heat Transfer Configuration Factors", C-11 and C-14).
 TEST(BrightSurfaces, AreTheInsideOfAShade) {
     const ShadedLamp lamp;
