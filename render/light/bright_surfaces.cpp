@@ -49,15 +49,6 @@ double find_power(const Emitter& emitter) {
     return std::numbers::pi * luminance(emitter.brightest) * emitter.area * (emitter.double_sided ? 2.0 : 1.0);
 }
 
-Emitter::Triangle place_triangle(const PosedInstance& instance, int primitive, float& area) {
-    const glm::uvec3 t = instance.mesh->triangles[primitive];
-    const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
-    const glm::vec3 edge1 = instance.linear * e1, edge2 = instance.linear * e2;
-    area = 0.5f * glm::length(glm::cross(edge1, edge2));
-    return {instance.linear * p0 + instance.translation, edge1, edge2,
-            glm::normalize(instance.normals * glm::cross(e1, e2)), primitive};
-}
-
 /// Casts one light ray of this power.
 Arrival cast_light_ray(const LightingContext& context, RayTask& task, const Emitter& emitter, float place, double power,
                        RandomStream& random) {
@@ -74,8 +65,7 @@ Arrival cast_light_ray(const LightingContext& context, RayTask& task, const Emit
     const Hit hit = task.tracer.intersect({start.ray_origin(), direction});
     if (hit.instance == no_index) return {};
     const SurfacePoint met = make_surface_point(context.shading, hit, direction);
-    float area = 0.0f;
-    const glm::vec3 side = place_triangle(context.shading.instances[hit.instance], hit.primitive, area).normal;
+    const glm::vec3 side = place_triangle(context.shading.instances[hit.instance], hit.primitive).normal;
     const SurfaceMaterial material = evaluate_material(context.shading, met, {});
     return {hit.instance, hit.primitive, glm::dot(side, direction) > 0.0f,
             power * luminance(material.diffuse + material.gloss.f0)};
@@ -115,7 +105,8 @@ std::vector<LitSide> add_up(const ShadingScene& shading, std::vector<Arrival> ar
         if (sides.empty() || place(sides.back().sum) != place(arrival)) {
             LitSide& side = sides.emplace_back(arrival);
             side.sum.reflected = 0.0;
-            side.triangle = place_triangle(shading.instances[arrival.instance], arrival.primitive, side.area);
+            side.triangle = place_triangle(shading.instances[arrival.instance], arrival.primitive);
+            side.area = 0.5f * glm::length(glm::cross(side.triangle.edge1, side.triangle.edge2));
             if (arrival.behind) side.triangle.normal = -side.triangle.normal;
         }
         sides.back().sum.reflected += arrival.reflected;
@@ -125,17 +116,12 @@ std::vector<LitSide> add_up(const ShadingScene& shading, std::vector<Arrival> ar
 }
 
 Emitter make_patch(const LitSide& side) {
-    const Emitter::Triangle& t = side.triangle;
     Emitter patch;
     patch.instance = side.sum.instance;
     patch.radiance = patch.brightest = Rgb(static_cast<float>(side.radiance()));
     patch.area = side.area;
-    patch.center = t.corner + (t.edge1 + t.edge2) / 3.0f;
-    for (const glm::vec3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
-        patch.radius = std::max(patch.radius, glm::length(corner - patch.center));
-    }
-    patch.triangles = {t};
-    patch.cumulative_area = {1.0f};
+    patch.triangles = {side.triangle};
+    set_sphere(patch);
     return patch;
 }
 

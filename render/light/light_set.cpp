@@ -35,27 +35,15 @@ Emitter make_emitter(const ShadingScene& shading, int index) {
     std::vector<double> cumulative;
     double area = 0.0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const glm::uvec3 t = mesh.triangles[i];
-        const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
-        const glm::vec3 edge1 = instance.linear * e1, edge2 = instance.linear * e2;
-        const glm::vec3 normal = instance.normals * glm::cross(e1, e2);
-        const double twice_area = glm::length(glm::dvec3(glm::cross(edge1, edge2)));
-        const float length = glm::length(normal);
-        if (!(twice_area > 0.0) || !(length > 0.0f)) continue;
+        const Emitter::Triangle triangle = place_triangle(instance, static_cast<int>(i));
+        const double twice_area = glm::length(glm::dvec3(glm::cross(triangle.edge1, triangle.edge2)));
+        if (!(twice_area > 0.0) || !std::isfinite(triangle.normal.x)) continue;
         area += 0.5 * twice_area;
         cumulative.push_back(area);
-        emitter.triangles.push_back(
-            {instance.linear * p0 + instance.translation, edge1, edge2, normal / length, static_cast<int>(i)});
+        emitter.triangles.push_back(triangle);
     }
     emitter.area = static_cast<float>(area);
-    for (const Emitter::Triangle& t : emitter.triangles) {
-        emitter.center += (t.corner + (t.edge1 + t.edge2) / 3.0f) / static_cast<float>(emitter.triangles.size());
-    }
-    for (const Emitter::Triangle& t : emitter.triangles) {
-        for (const glm::vec3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
-            emitter.radius = std::max(emitter.radius, glm::length(corner - emitter.center));
-        }
-    }
+    set_sphere(emitter);
     for (const double a : cumulative) emitter.cumulative_area.push_back(static_cast<float>(a / area));
     return emitter;
 }
@@ -76,6 +64,25 @@ void finish(const ShadingScene& shading, LightSet& lights) {
 }
 
 }  // namespace
+
+Emitter::Triangle place_triangle(const PosedInstance& instance, int primitive) {
+    const glm::uvec3 t = instance.mesh->triangles[static_cast<std::size_t>(primitive)];
+    const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
+    const glm::vec3 normal = instance.normals * glm::cross(e1, e2);
+    return {instance.linear * p0 + instance.translation, instance.linear * e1, instance.linear * e2,
+            normal / glm::length(normal), primitive};
+}
+
+void set_sphere(Emitter& emitter) {
+    for (const Emitter::Triangle& t : emitter.triangles) {
+        emitter.center += (t.corner + (t.edge1 + t.edge2) / 3.0f) / static_cast<float>(emitter.triangles.size());
+    }
+    for (const Emitter::Triangle& t : emitter.triangles) {
+        for (const glm::vec3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
+            emitter.radius = std::max(emitter.radius, glm::length(corner - emitter.center));
+        }
+    }
+}
 
 LightSet make_light_set(const ShadingScene& shading) {
     LightSet lights;

@@ -30,6 +30,11 @@ struct Emitter {
     std::vector<float> cumulative_area;  ///< share of the area up to and including each triangle
 };
 
+/// A triangle of an instance on the side of its winding. The normal is not finite if the triangle has no area.
+Emitter::Triangle place_triangle(const PosedInstance& instance, int primitive);
+/// Sets centre and radius of the sphere around all triangles.
+void set_sphere(Emitter& emitter);
+
 struct PunctualLight {
     Light::Kind kind = Light::Kind::point;
     glm::vec3 position{0.0f};   ///< m, relative to the anchor

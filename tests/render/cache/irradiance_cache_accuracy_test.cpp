@@ -112,7 +112,7 @@ void expect_steps(const std::string& name, double seconds) {
         return sum / count;
     };
     double looser = 1.0, before = infinity;
-    for (const double accuracy : {0.5, 0.3, 0.15, 0.1, 0.05}) {
+    for (const double accuracy : {0.5, 0.3, 0.2, 0.15, 0.1, 0.05}) {
         const double error = error_at(accuracy, 0, 1);
         if (error >= before) {
             EXPECT_LT(error_at(accuracy, 1, 8), error_at(looser, 1, 8)) << "at accuracy " << accuracy;

@@ -75,7 +75,7 @@ TEST(BrightSurfaces, AreMetFromTheirBrightSideOnly) {
     EXPECT_EQ(find(inside + glm::vec3(2.0f, 0.0f, 0.0f), {0.0f, 1.0f, 0.0f}), no_index);
 }
 
-TEST(BrightSurfaces, AreNotLookedForWhereNothingStandsOut) {
+TEST(BrightSurfaces, AreNoneWhereNothingStandsOut) {
     for (const bool dark : {false, true}) {
         Scene scene;
         add_small_room(scene, add_lambert(scene, glm::dvec3(0.5)), add_lambert(scene, glm::dvec3(0.5)),

@@ -34,7 +34,7 @@ Scene make_everything(bool mirrored = false) {
 TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
     const Scene scene = make_everything();
     RayCounts light_rays;
-    find_bright_surfaces(Stage(scene, 40, 30).lighting(), light_rays);
+    ASSERT_TRUE(find_bright_surfaces(Stage(scene, 40, 30).lighting(), light_rays).empty());
     for (const int spp : {1, 3}) {
         for (const double accuracy : {0.0, 0.3}) {
             for (const Guide guide : {Guide::none, Guide::saliency}) {
@@ -50,9 +50,7 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
                 EXPECT_GT(s.counts.rays.shadow, 0u);
                 EXPECT_GT(s.counts.rays.glossy, 0u);
                 const std::uint64_t gather = s.counts.rays.gather - light_rays.gather;
-                // Of 16 rays 10 go over the hemisphere, a few of them below smooth-shaded facets. Others are cast where
-                // a bright surface is in front.
-                EXPECT_GE(gather, 9 * s.counts.records);
+                EXPECT_GE(gather, 15 * s.counts.records);  // a few are below smooth-shaded facets
                 EXPECT_EQ(s.counts.records > 0, accuracy > 0.0);
                 if (guide == Guide::none) {
                     EXPECT_LE(gather, 16 * s.counts.records);
