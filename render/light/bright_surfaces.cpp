@@ -28,22 +28,55 @@ constexpr std::uint32_t light_ray_key = 0x62726967u;  // no other random numbers
 
 constexpr float least_rise = 1e-6f;  // of a unit direction above the true surface: below it, rounding decides
 
+/// A triangle is divided where more rays than this met it, in four, and these again, so many times.
+constexpr std::size_t most_rays_undivided = 64;
+constexpr int most_divisions = 6;
+/// A quarter brighter than its triangle by this factor stays apart from the others.
+constexpr double uneven = 2.0;
+
 /// Light that a light ray brought to a triangle and that it reflects, lm.
 struct Arrival {
     int instance = no_index;  ///< no_index: none
     int primitive = 0;
-    bool behind = false;  ///< on the side that its normal points away from
+    bool behind = false;    ///< on the side that its normal points away from
+    glm::vec2 place{0.0f};  ///< barycentric coordinates, of the triangle or of the part of it that is looked at
     double reflected = 0.0;
 };
 
-/// One side of a triangle.
+/// One side of a triangle, or of a part of it.
 struct LitSide {
     Arrival sum;
     int rays = 0;
-    Emitter::Triangle triangle;  ///< its normal on this side
-    float area = 0.0f;           ///< m2
+    Emitter::Triangle triangle;   ///< its normal on this side
+    float area = 0.0f;            ///< m2
+    std::vector<int> quarters{};  ///< from the whole triangle to this part
     double radiance() const { return sum.reflected / (std::numbers::pi * area); }
 };
+
+/// Takes barycentric coordinates of a triangle to those of the quarter that they lie in: at one of its corners (0 to
+/// 2), or in the middle, turned about (3).
+int enter_quarter(glm::vec2& place) {
+    if (place.x >= 0.5f) {
+        place = {2.0f * place.x - 1.0f, 2.0f * place.y};
+        return 1;
+    }
+    if (place.y >= 0.5f) {
+        place = {2.0f * place.x, 2.0f * place.y - 1.0f};
+        return 2;
+    }
+    if (place.x + place.y < 0.5f) {
+        place *= 2.0f;
+        return 0;
+    }
+    place = 1.0f - 2.0f * place;
+    return 3;
+}
+
+Emitter::Triangle find_quarter(const Emitter::Triangle& t, int quarter) {
+    const glm::vec3 to_corner[4] = {glm::vec3(0.0f), t.edge1, t.edge2, t.edge1 + t.edge2};
+    const float half = quarter == 3 ? -0.5f : 0.5f;
+    return {t.corner + 0.5f * to_corner[quarter], half * t.edge1, half * t.edge2, t.normal, t.primitive};
+}
 
 double find_power(const Emitter& emitter) {
     return std::numbers::pi * luminance(emitter.brightest) * emitter.area * (emitter.double_sided ? 2.0 : 1.0);
@@ -67,7 +100,10 @@ Arrival cast_light_ray(const LightingContext& context, RayTask& task, const Emit
     const SurfacePoint met = make_surface_point(context.shading, hit, direction);
     const glm::vec3 side = place_triangle(context.shading.instances[hit.instance], hit.primitive).normal;
     const SurfaceMaterial material = evaluate_material(context.shading, met, {});
-    return {hit.instance, hit.primitive, glm::dot(side, direction) > 0.0f,
+    return {hit.instance,
+            hit.primitive,
+            glm::dot(side, direction) > 0.0f,
+            {hit.u, hit.v},
             power * luminance(material.diffuse + material.gloss.f0)};
 }
 
@@ -95,22 +131,57 @@ std::vector<Arrival> cast_light_rays(const LightingContext& context, std::size_t
     return arrivals;
 }
 
+/// Adds up the light of rays that met one triangle, or its parts where that is uneven.
+/// @param whole  the triangle, without light
+void add_parts(std::span<Arrival> arrivals, const LitSide& whole, std::vector<LitSide>& sides) {
+    LitSide all = whole;
+    for (const Arrival& arrival : arrivals) all.sum.reflected += arrival.reflected;
+    all.rays = static_cast<int>(arrivals.size());
+    if (arrivals.size() <= most_rays_undivided || std::ssize(whole.quarters) == most_divisions) {
+        sides.push_back(std::move(all));
+        return;
+    }
+    std::vector<std::pair<int, Arrival>> divided;
+    for (Arrival arrival : arrivals) {
+        const int quarter = enter_quarter(arrival.place);
+        divided.emplace_back(quarter, arrival);
+    }
+    std::ranges::stable_sort(divided, {}, &std::pair<int, Arrival>::first);
+    std::ranges::transform(divided, arrivals.begin(), &std::pair<int, Arrival>::second);
+    const std::size_t before = sides.size();
+    auto begin = divided.begin();
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        LitSide part = whole;
+        part.triangle = find_quarter(whole.triangle, quarter);
+        part.area = 0.25f * whole.area;
+        part.quarters.push_back(quarter);
+        const auto end = std::ranges::find_if(begin, divided.end(), [&](const auto& a) { return a.first != quarter; });
+        add_parts(arrivals.subspan(begin - divided.begin(), end - begin), part, sides);
+        begin = end;
+    }
+    const auto stands_out = [&](const LitSide& part) {
+        return part.quarters.size() > whole.quarters.size() + 1 || part.radiance() > uneven * all.radiance();
+    };
+    if (std::ranges::any_of(sides.begin() + static_cast<std::ptrdiff_t>(before), sides.end(), stands_out)) return;
+    sides.resize(before);
+    sides.push_back(std::move(all));
+}
+
 /// The sides of triangles that light rays met, with the sums of their light.
 std::vector<LitSide> add_up(const ShadingScene& shading, std::vector<Arrival> arrivals) {
     std::erase_if(arrivals, [](const Arrival& a) { return a.instance == no_index; });
-    const auto place = [](const Arrival& a) { return std::tuple(a.instance, a.primitive, a.behind); };
-    std::ranges::stable_sort(arrivals, {}, place);
+    const auto side_of = [](const Arrival& a) { return std::tuple(a.instance, a.primitive, a.behind); };
+    std::ranges::stable_sort(arrivals, {}, side_of);
     std::vector<LitSide> sides;
-    for (const Arrival& arrival : arrivals) {
-        if (sides.empty() || place(sides.back().sum) != place(arrival)) {
-            LitSide& side = sides.emplace_back(arrival);
-            side.sum.reflected = 0.0;
-            side.triangle = place_triangle(shading.instances[arrival.instance], arrival.primitive);
-            side.area = 0.5f * glm::length(glm::cross(side.triangle.edge1, side.triangle.edge2));
-            if (arrival.behind) side.triangle.normal = -side.triangle.normal;
-        }
-        sides.back().sum.reflected += arrival.reflected;
-        ++sides.back().rays;
+    for (auto begin = arrivals.begin(); begin != arrivals.end();) {
+        const auto end =
+            std::find_if(begin, arrivals.end(), [&](const Arrival& a) { return side_of(a) != side_of(*begin); });
+        LitSide side{.sum = *begin, .triangle = place_triangle(shading.instances[begin->instance], begin->primitive)};
+        side.sum.reflected = 0.0;
+        side.area = 0.5f * glm::length(glm::cross(side.triangle.edge1, side.triangle.edge2));
+        if (begin->behind) side.triangle.normal = -side.triangle.normal;
+        add_parts({begin, end}, side, sides);
+        begin = end;
     }
     return sides;
 }
@@ -152,12 +223,25 @@ std::vector<LitSide> find_bright_sides(const LightingContext& context, std::size
 
 BrightSurfaces make_bright_surfaces(const ShadingScene& shading, const std::vector<LitSide>& sides) {
     BrightSurfaces found;
-    found.patch_of.resize(shading.instances.size());
+    found.part_of.resize(shading.instances.size());
     for (const LitSide& side : sides) {
-        std::vector<int>& patch_of = found.patch_of[side.sum.instance];
-        if (patch_of.empty()) patch_of.resize(shading.instances[side.sum.instance].mesh->triangles.size(), no_index);
-        if (patch_of[side.sum.primitive] != no_index) continue;  // its other side is brighter
-        patch_of[side.sum.primitive] = static_cast<int>(found.patches.emitters.size());
+        std::vector<int>& part_of = found.part_of[side.sum.instance];
+        if (part_of.empty()) part_of.resize(shading.instances[side.sum.instance].mesh->triangles.size(), no_index);
+        int& whole = part_of[side.sum.primitive];
+        if (whole == no_index) {
+            whole = static_cast<int>(found.parts.size());
+            found.parts.push_back({.behind = side.sum.behind});
+        }
+        int part = whole;
+        if (found.parts[part].behind != side.sum.behind) continue;  // its other side is brighter
+        for (const int quarter : side.quarters) {
+            if (found.parts[part].quarters == no_index) {
+                found.parts[part].quarters = static_cast<int>(found.parts.size());
+                found.parts.resize(found.parts.size() + 4, {.behind = side.sum.behind});
+            }
+            part = found.parts[part].quarters + quarter;
+        }
+        found.parts[part].patch = static_cast<int>(found.patches.emitters.size());
         found.patches.emitters.push_back(make_patch(side));
     }
     found.patches.bounds = make_light_bounds(shading, found.patches);
@@ -167,8 +251,12 @@ BrightSurfaces make_bright_surfaces(const ShadingScene& shading, const std::vect
 }  // namespace
 
 int BrightSurfaces::find(const Hit& hit, const glm::vec3& direction) const {
-    if (hit.instance == no_index || patch_of[hit.instance].empty()) return no_index;
-    const int patch = patch_of[hit.instance][hit.primitive];
+    if (hit.instance == no_index || part_of[hit.instance].empty()) return no_index;
+    int part = part_of[hit.instance][hit.primitive];
+    if (part == no_index) return no_index;
+    for (glm::vec2 place(hit.u, hit.v); parts[part].quarters != no_index;)
+        part = parts[part].quarters + enter_quarter(place);
+    const int patch = parts[part].patch;
     if (patch == no_index) return no_index;
     return glm::dot(patches.emitters[patch].triangles.front().normal, direction) < 0.0f ? patch : no_index;
 }

@@ -20,8 +20,16 @@ struct BrightSurfaces {
     /// From all lamps together, counted as RayCounts::gather: to see whether there are any, and then to find them all.
     static constexpr std::size_t light_rays = 32768, more_light_rays = 131072;
 
-    LightSet patches;                        ///< one emitter of one triangle each, shining on its bright side
-    std::vector<std::vector<int>> patch_of;  ///< per instance: by triangle, or empty
+    /// A triangle, or one of four parts of a part (barycentric coordinates halved).
+    struct Part {
+        int patch = no_index;
+        int quarters = no_index;  ///< the first of its four parts
+        bool behind = false;      ///< bright is the side that the triangle's normal points away from
+    };
+
+    LightSet patches;                       ///< one emitter of one triangle each, shining on its bright side
+    std::vector<std::vector<int>> part_of;  ///< per instance: by triangle, or empty
+    std::vector<Part> parts;
 
     bool empty() const { return patches.emitters.empty(); }
     /// The patch that a ray met on its bright side, or no_index.

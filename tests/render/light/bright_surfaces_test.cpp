@@ -52,14 +52,71 @@ struct ShadedLamp {
 TEST(BrightSurfaces, AreTheInsideOfAShade) {
     const ShadedLamp lamp;
     EXPECT_EQ(lamp.light_rays, BrightSurfaces::light_rays + BrightSurfaces::more_light_rays);
-    ASSERT_EQ(lamp.surfaces.patches.emitters.size(), 8u);
     double reflected = 0.0;
+    int patches = 0;
     for (const Emitter& patch : lamp.surfaces.patches.emitters) {
+        if (patch.center.y < 0.5f * height) continue;  // of the floor under the opening
+        ++patches;
         const glm::vec3 to_axis = glm::vec3(0.0f, patch.center.y, 0.0f) - patch.center;
         EXPECT_GT(glm::dot(patch.triangles.front().normal, to_axis), 0.09f);
         reflected += pi * patch.area * luminance(patch.radiance);
     }
+    EXPECT_EQ(patches, 8);
     EXPECT_NEAR(reflected, 0.8 * 4.0 * 0.200044 * 100.0 * pi * side * side, 0.01 * reflected);
+}
+
+/// Share of what leaves a point of a plane in all directions that meets a rectangle parallel to it at distance 1, of
+/// which a corner faces the point (Howell 2010, B-3).
+double find_factor(double width, double depth) {
+    const double a = std::sqrt(1.0 + width * width), b = std::sqrt(1.0 + depth * depth);
+    return (width / a * std::atan(depth / a) + depth / b * std::atan(width / b)) / (2.0 * std::numbers::pi);
+}
+
+/// A lamp close above a wide floor of two triangles.
+TEST(BrightSurfaces, ArePartsOfLargeTriangles) {
+    constexpr double above = 0.25, radiance = 50.0, albedo = 0.5;  // m, cd/m2
+    Scene scene;
+    add_mesh(scene, make_quad(6.0, 6.0, add_lambert(scene, glm::dvec3(albedo))), glm::dvec3(0.0), z_to_up);
+    add_lamp(scene, side, glm::dvec3(radiance), {0.0, above, 0.0});
+    const Stage stage(std::move(scene));
+    RayCounts counts;
+    const BrightSurfaces surfaces = find_bright_surfaces(stage.lighting(), counts);
+    const auto find = [&](double x, double z) {
+        RayTask task(stage.rays);
+        const glm::vec3 down(0.0f, -1.0f, 0.0f);
+        return surfaces.find(task.tracer.intersect({{x, 0.5 * above, z}, down}), down);
+    };
+    EXPECT_NE(find(0.01, 0.003), no_index);
+    EXPECT_EQ(find(2.0, 1.0), no_index);
+    EXPECT_EQ(find(-1.0, 2.0), no_index);
+    const auto reflect = [&](const glm::vec3& place) {
+        double factor = 0.0;
+        for (const double x : {-1.0, 1.0}) {
+            for (const double z : {-1.0, 1.0}) {
+                factor += find_factor((0.5 * side + x * place.x) / above, (0.5 * side + z * place.z) / above);
+            }
+        }
+        return albedo * radiance * factor;
+    };
+    double area = 0.0, found = 0.0, expected = 0.0;
+    for (const Emitter& patch : surfaces.patches.emitters) {
+        const Emitter::Triangle& t = patch.triangles.front();
+        constexpr int rows = 16;
+        double mean = 0.0;
+        for (int i = 0; i < rows * rows; ++i) {
+            const glm::vec2 b = sample_triangle({(i / rows + 0.5f) / rows, (i % rows + 0.5f) / rows});
+            const glm::vec3 place = t.corner + b.x * t.edge1 + b.y * t.edge2;
+            mean += reflect(place) / (rows * rows);
+            EXPECT_EQ(find(place.x, place.z), &patch - surfaces.patches.emitters.data());
+        }
+        EXPECT_NEAR(luminance(patch.radiance), mean, 0.25 * mean);
+        area += patch.area;
+        found += patch.area * luminance(patch.radiance);
+        expected += patch.area * mean;
+    }
+    EXPECT_NEAR(found, expected, 0.01 * expected);
+    EXPECT_GT(found, 0.7 * albedo * radiance * side * side);
+    EXPECT_LT(area, 1.5);
 }
 
 TEST(BrightSurfaces, AreMetFromTheirBrightSideOnly) {
