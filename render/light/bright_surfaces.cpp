@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 
 #include "engine/base/sampling.h"
 #include "render/light/light_power.h"
+#include "render/light/light_rays.h"
 #include "render/settings/numbers.h"
-#include "render/surface/surface_material.h"
 
 namespace aleph {
 
@@ -24,8 +23,6 @@ constexpr double bright_over_mean = 4.0;
 /// A third of the rays are aimed at them: what the others tell has half as much more.
 constexpr double least_share = 0.5;
 
-constexpr std::uint32_t light_ray_key = 0x62726967u;  // no other random numbers have it
-
 constexpr float least_rise = 1e-6f;  // of a unit direction above the true surface: below it, rounding decides
 
 /// A triangle is divided where more rays than this met it, in four, and these again, so many times.
@@ -34,18 +31,9 @@ constexpr int most_divisions = 6;
 /// A quarter brighter than its triangle by this factor stays apart from the others.
 constexpr double uneven = 2.0;
 
-/// Light that a light ray brought to a triangle and that it reflects, lm.
-struct Arrival {
-    int instance = no_index;  ///< no_index: none
-    int primitive = 0;
-    bool behind = false;    ///< on the side that its normal points away from
-    glm::vec2 place{0.0f};  ///< barycentric coordinates, of the triangle or of the part of it that is looked at
-    double reflected = 0.0;
-};
-
 /// One side of a triangle, or of a part of it.
 struct LitSide {
-    Arrival sum;
+    LitPlace sum;
     int rays = 0;
     Emitter::Triangle triangle;   ///< its normal on this side
     float area = 0.0f;            ///< m2
@@ -78,76 +66,23 @@ Emitter::Triangle find_quarter(const Emitter::Triangle& t, int quarter) {
     return {t.corner + 0.5f * to_corner[quarter], half * t.edge1, half * t.edge2, t.normal, t.primitive};
 }
 
-double find_power(const Emitter& emitter) {
-    return std::numbers::pi * luminance(emitter.brightest) * emitter.area * (emitter.double_sided ? 2.0 : 1.0);
-}
-
-/// Casts one light ray of this power.
-Arrival cast_light_ray(const LightingContext& context, RayTask& task, const Emitter& emitter, float place, double power,
-                       RandomStream& random) {
-    const auto end = std::ranges::upper_bound(emitter.cumulative_area, place);
-    const auto i = std::min<std::ptrdiff_t>(end - emitter.cumulative_area.begin(), std::ssize(emitter.triangles) - 1);
-    const Emitter::Triangle& t = emitter.triangles[static_cast<std::size_t>(i)];
-    const glm::vec2 b = sample_triangle(random.next_2d());
-    const bool other_side = emitter.double_sided && random.next() < 0.5f;
-    const glm::vec3 normal = other_side ? -t.normal : t.normal;
-    const glm::vec3 direction = make_basis(normal).to_world(sample_cosine_hemisphere(random.next_2d()));
-    const SurfacePoint start =
-        make_surface_point(context.shading, {emitter.instance, t.primitive, b.x, b.y, 0.0f}, -direction);
-    ++task.counts.gather;
-    const Hit hit = task.tracer.intersect({start.ray_origin(), direction});
-    if (hit.instance == no_index) return {};
-    const SurfacePoint met = make_surface_point(context.shading, hit, direction);
-    const glm::vec3 side = place_triangle(context.shading.instances[hit.instance], hit.primitive).normal;
-    const SurfaceMaterial material = evaluate_material(context.shading, met, {});
-    return {hit.instance,
-            hit.primitive,
-            glm::dot(side, direction) > 0.0f,
-            {hit.u, hit.v},
-            power * luminance(material.diffuse + material.gloss.f0)};
-}
-
-/// Light rays from all emitters: half of them in proportion to power; of the other half as many from each, for what
-/// stands beside a small one.
-std::vector<Arrival> cast_light_rays(const LightingContext& context, std::size_t count, RayCounts& counts) {
-    const std::vector<Emitter>& emitters = context.lights.emitters;
-    std::vector<double> shares;
-    for (const Emitter& emitter : emitters) shares.push_back(find_power(emitter));
-    const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
-    if (!(total > 0.0) || !std::isfinite(total)) return {};
-    for (double& share : shares) share = 0.5 * (share / total + 1.0 / static_cast<double>(shares.size()));
-    std::vector<double> ends(shares.size());
-    std::partial_sum(shares.begin(), shares.end(), ends.begin());
-    std::vector<Arrival> arrivals(count);
-    cast_parallel(count, 256, context.rays, counts, [&](int i, RayTask& task) {
-        RandomStream random({light_ray_key, 0, 0, static_cast<std::uint32_t>(i)});
-        const double number = (i + random.next()) / static_cast<double>(count);
-        const auto e =
-            std::min<std::ptrdiff_t>(std::ranges::upper_bound(ends, number) - ends.begin(), std::ssize(ends) - 1);
-        const double place = (number - ends[e]) / shares[e] + 1.0;
-        const double power = find_power(emitters[e]) / (shares[e] * static_cast<double>(count));
-        arrivals[i] = cast_light_ray(context, task, emitters[e], static_cast<float>(place), power, random);
-    });
-    return arrivals;
-}
-
 /// Adds up the light of rays that met one triangle, or its parts where that is uneven.
 /// @param whole  the triangle, without light
-void add_parts(std::span<Arrival> arrivals, const LitSide& whole, std::vector<LitSide>& sides) {
+void add_parts(std::span<LitPlace> places, const LitSide& whole, std::vector<LitSide>& sides) {
     LitSide all = whole;
-    for (const Arrival& arrival : arrivals) all.sum.reflected += arrival.reflected;
-    all.rays = static_cast<int>(arrivals.size());
-    if (arrivals.size() <= most_rays_undivided || std::ssize(whole.quarters) == most_divisions) {
+    for (const LitPlace& lit : places) all.sum.reflected += lit.reflected;
+    all.rays = static_cast<int>(places.size());
+    if (places.size() <= most_rays_undivided || std::ssize(whole.quarters) == most_divisions) {
         sides.push_back(std::move(all));
         return;
     }
-    std::vector<std::pair<int, Arrival>> divided;
-    for (Arrival arrival : arrivals) {
-        const int quarter = enter_quarter(arrival.place);
-        divided.emplace_back(quarter, arrival);
+    std::vector<std::pair<int, LitPlace>> divided;
+    for (LitPlace lit : places) {
+        const int quarter = enter_quarter(lit.barycentric);
+        divided.emplace_back(quarter, lit);
     }
-    std::ranges::stable_sort(divided, {}, &std::pair<int, Arrival>::first);
-    std::ranges::transform(divided, arrivals.begin(), &std::pair<int, Arrival>::second);
+    std::ranges::stable_sort(divided, {}, &std::pair<int, LitPlace>::first);
+    std::ranges::transform(divided, places.begin(), &std::pair<int, LitPlace>::second);
     const std::size_t before = sides.size();
     auto begin = divided.begin();
     for (int quarter = 0; quarter < 4; ++quarter) {
@@ -156,7 +91,7 @@ void add_parts(std::span<Arrival> arrivals, const LitSide& whole, std::vector<Li
         part.area = 0.25f * whole.area;
         part.quarters.push_back(quarter);
         const auto end = std::ranges::find_if(begin, divided.end(), [&](const auto& a) { return a.first != quarter; });
-        add_parts(arrivals.subspan(begin - divided.begin(), end - begin), part, sides);
+        add_parts(places.subspan(begin - divided.begin(), end - begin), part, sides);
         begin = end;
     }
     const auto stands_out = [&](const LitSide& part) {
@@ -168,14 +103,14 @@ void add_parts(std::span<Arrival> arrivals, const LitSide& whole, std::vector<Li
 }
 
 /// The sides of triangles that light rays met, with the sums of their light.
-std::vector<LitSide> add_up(const ShadingScene& shading, std::vector<Arrival> arrivals) {
-    std::erase_if(arrivals, [](const Arrival& a) { return a.instance == no_index; });
-    const auto side_of = [](const Arrival& a) { return std::tuple(a.instance, a.primitive, a.behind); };
-    std::ranges::stable_sort(arrivals, {}, side_of);
+std::vector<LitSide> add_up(const ShadingScene& shading, std::vector<LitPlace> places) {
+    std::erase_if(places, [](const LitPlace& a) { return a.instance == no_index; });
+    const auto side_of = [](const LitPlace& a) { return std::tuple(a.instance, a.primitive, a.behind); };
+    std::ranges::stable_sort(places, {}, side_of);
     std::vector<LitSide> sides;
-    for (auto begin = arrivals.begin(); begin != arrivals.end();) {
+    for (auto begin = places.begin(); begin != places.end();) {
         const auto end =
-            std::find_if(begin, arrivals.end(), [&](const Arrival& a) { return side_of(a) != side_of(*begin); });
+            std::find_if(begin, places.end(), [&](const LitPlace& a) { return side_of(a) != side_of(*begin); });
         LitSide side{.sum = *begin, .triangle = place_triangle(shading.instances[begin->instance], begin->primitive)};
         side.sum.reflected = 0.0;
         side.area = 0.5f * glm::length(glm::cross(side.triangle.edge1, side.triangle.edge2));

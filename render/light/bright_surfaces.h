@@ -37,7 +37,7 @@ struct BrightSurfaces {
 };
 
 /// Triangles that reflect far more than others, if most of the noise of rays over a hemisphere is theirs; else none.
-/// Light of point, spot and directional lights and of the environment is not looked for.
+/// Directional light and the environment are not looked for.
 /// @param counts  increased by the rays cast
 BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& counts);
 

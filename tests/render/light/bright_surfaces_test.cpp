@@ -168,6 +168,32 @@ TEST(BrightSurfaces, AimedRaysKeepTheMeanAndLowerTheNoise) {
     }
 }
 
+/// A spot light on a wall.
+TEST(BrightSurfaces, ArePlacesInSpotLight) {
+    Scene scene;
+    add_small_room(scene, add_lambert(scene, glm::dvec3(0.5)), add_lambert(scene, glm::dvec3(0.5)), glm::dvec3(0.0),
+                   0.1);
+    add_light(scene, Light::Kind::spot, glm::dvec3(10.0), {0.5, 0.5, 0.0});  // along -z
+    scene.lights.back().inner_cone = scene.lights.back().outer_cone = Track<double>(0.15);
+    Gathering gathering(std::move(scene));
+    RayCounts counts;
+    const BrightSurfaces surfaces = find_bright_surfaces(gathering.stage.lighting(), counts);
+    ASSERT_FALSE(surfaces.empty());
+    const auto gather = [&](int rays, std::uint32_t seed, const BrightSurfaces* bright) {
+        const GatherPattern pattern{choose_strata(rays), {seed, 0, 0, 0}};
+        return gathering.gather(make_point({-0.5f, -0.9999f, 0.2f}, up), pattern, {.bright = bright}).irradiance.x;
+    };
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        Mean with, without;
+        for (std::uint32_t run = 0; run < trial.times(256u); ++run) {
+            with.add(gather(256, run + trial.seed, &surfaces));
+            without.add(gather(384, run + trial.seed + 5000, nullptr));
+        }
+        trial.near(with, without);
+        EXPECT_LT(with.error(), 0.25 * without.error());
+    }));
+}
+
 TEST(BrightSurfaces, GathersTellTheErrorOfAimedRays) {
     ShadedLamp lamp;
     Mean value, told;
