@@ -27,6 +27,14 @@ void add_gradients(const Rgb& light, const glm::vec3& to, const glm::vec3& norma
 
 }  // namespace
 
+BrightSurfaces find_bright_surfaces(const LightingContext& lighting, const std::vector<PixelSurface>& seen,
+                                    RayCounts& counts) {
+    std::vector<Receiver> places;
+    places.reserve(seen.size());
+    for (const PixelSurface& surface : seen) places.push_back({surface.point.position, surface.point.normal});
+    return find_bright_surfaces(lighting, std::span<const Receiver>(places), counts);
+}
+
 void aim_rays(const BrightSampler& sampler, const SurfacePlace& point, RandomStream& random, GatherScratch& scratch) {
     for (int i = 0; i < scratch.aims; ++i) {
         const float choice = (static_cast<float>(i) + random.next()) / static_cast<float>(scratch.aims);

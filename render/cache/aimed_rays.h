@@ -5,11 +5,17 @@
 #include "engine/base/sampling.h"
 #include "render/cache/gather.h"
 #include "render/light/bright_surfaces.h"
+#include "render/pixels/pixel_surfaces.h"
 
 namespace aleph {
 
 /// Rays over the hemisphere for each one towards bright surfaces.
 inline constexpr int around_per_aimed = 2;
+
+/// Bright surfaces for light that is wanted at these surfaces.
+/// @param counts  increased by the rays cast
+BrightSurfaces find_bright_surfaces(const LightingContext& lighting, const std::vector<PixelSurface>& seen,
+                                    RayCounts& counts);
 
 /// Adds GatherScratch::aims rays, but those that find no bright surface above the point.
 void aim_rays(const BrightSampler& sampler, const SurfacePlace& point, RandomStream& random, GatherScratch& scratch);

@@ -16,12 +16,15 @@ namespace {
 
 constexpr int fewest_rays = 4;  // that tell of a triangle
 
-/// Radiance of a bright triangle over the mean of all that light rays meet.
+/// Radiance of a bright triangle over the mean, of all that light rays meet or of a room as large as what is seen.
 constexpr double bright_over_mean = 4.0;
 
 /// Share that bright triangles must have of the mean square of radiance, which is the noise of rays over a hemisphere.
 /// A third of the rays are aimed at them: what the others tell has half as much more.
 constexpr double least_share = 0.5;
+
+constexpr std::size_t most_places = 128;  // that decide which sides count, about
+constexpr float room_behind = 1.5f;       // of light from afar, over the size of what is seen
 
 constexpr float least_rise = 1e-6f;  // of a unit direction above the true surface: below it, rounding decides
 
@@ -137,14 +140,47 @@ double add_squares(const std::vector<LitSide>& sides) {
     return sum;
 }
 
+struct Box {
+    glm::vec3 center{0.0f}, size{0.0f};
+    /// m2, of its faces
+    float area() const { return 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x); }
+};
+
+Box find_box(std::span<const Receiver> places) {
+    glm::vec3 low = places.front().position, high = low;
+    for (const Receiver& place : places) {
+        low = glm::min(low, place.position);
+        high = glm::max(high, place.position);
+    }
+    return {0.5f * (low + high), high - low};
+}
+
+/// Returns whether some of the side is above the place's horizon, and the place in front of it.
+bool faces(const LitSide& side, const Receiver& place) {
+    const Emitter::Triangle& t = side.triangle;
+    const glm::vec3 to = t.corner - place.position;
+    const float rounding = 1e-4f * (glm::length(to) + glm::length(t.edge1) + glm::length(t.edge2));
+    const float corner = glm::dot(to, place.normal);
+    const float highest =
+        std::max({corner, corner + glm::dot(t.edge1, place.normal), corner + glm::dot(t.edge2, place.normal)});
+    return glm::dot(to, t.normal) < -rounding && highest > rounding;
+}
+
 /// The bright sides, if they have enough of the light; else none.
-std::vector<LitSide> find_bright_sides(const LightingContext& context, std::size_t light_rays, RayCounts& counts) {
-    std::vector<LitSide> sides = add_up(context.shading, cast_light_rays(context, light_rays, counts));
+std::vector<LitSide> find_bright_sides(const LightingContext& context, std::span<const Receiver> places,
+                                       std::size_t light_rays, RayCounts& counts) {
+    const Box box = find_box(places);
+    const LightTarget target{box.center, 0.5f * room_behind * glm::length(box.size)};
+    std::vector<LitSide> sides = add_up(context.shading, cast_light_rays(context, target, light_rays, counts));
+    std::erase_if(sides, [&](const LitSide& side) {
+        return std::ranges::none_of(places, [&](const Receiver& place) { return faces(side, place); });
+    });
     double reflected = 0.0, area = 0.0;
     for (const LitSide& side : sides) {
         reflected += side.sum.reflected;
         area += side.area;
     }
+    area = std::max(area, static_cast<double>(box.area()));  // light may leave most of a room dark
     std::erase_if(sides, [](const LitSide& side) { return side.rays < fewest_rays || !(side.area > 0.0f); });
     const double all = add_squares(sides);
     std::erase_if(sides, [&](const LitSide& side) {
@@ -196,9 +232,14 @@ int BrightSurfaces::find(const Hit& hit, const glm::vec3& direction) const {
     return glm::dot(patches.emitters[patch].triangles.front().normal, direction) < 0.0f ? patch : no_index;
 }
 
-BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& counts) {
-    if (find_bright_sides(context, BrightSurfaces::light_rays, counts).empty()) return {};
-    return make_bright_surfaces(context.shading, find_bright_sides(context, BrightSurfaces::more_light_rays, counts));
+BrightSurfaces find_bright_surfaces(const LightingContext& context, std::span<const Receiver> places,
+                                    RayCounts& counts) {
+    std::vector<Receiver> some;
+    const std::size_t step = std::max<std::size_t>(1, places.size() / most_places);
+    for (std::size_t i = 0; i < places.size(); i += step) some.push_back(places[i]);
+    if (some.empty() || find_bright_sides(context, some, BrightSurfaces::light_rays, counts).empty()) return {};
+    return make_bright_surfaces(context.shading,
+                                find_bright_sides(context, some, BrightSurfaces::more_light_rays, counts));
 }
 
 BrightSampler::BrightSampler(const BrightSurfaces& surfaces, const Receiver& receiver, int around, int towards)

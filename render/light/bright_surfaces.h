@@ -36,10 +36,12 @@ struct BrightSurfaces {
     int find(const Hit& hit, const glm::vec3& direction) const;
 };
 
-/// Triangles that reflect far more than others, if most of the noise of rays over a hemisphere is theirs; else none.
-/// Directional light and the environment are not looked for.
+/// Triangles and parts of them that reflect far more than others, if most of the noise of rays over a hemisphere is
+/// theirs; else none.
+/// @param places  where light is wanted: what faces none of them does not count. None: nothing is bright
 /// @param counts  increased by the rays cast
-BrightSurfaces find_bright_surfaces(const LightingContext& context, RayCounts& counts);
+BrightSurfaces find_bright_surfaces(const LightingContext& context, std::span<const Receiver> places,
+                                    RayCounts& counts);
 
 /// Rays from a point, most of them over its hemisphere by cosine, the others towards bright surfaces.
 class BrightSampler {

@@ -10,8 +10,6 @@ namespace aleph {
 
 namespace {
 
-constexpr int max_sheets = 64;  // that a shadow ray passes
-
 /// From another origin to the end of the ray.
 Ray move_origin(const Ray& ray, const glm::vec3& origin) {
     Ray moved{origin, ray.direction, 0.0f, ray.far};

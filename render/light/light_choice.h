@@ -40,6 +40,9 @@ ScatteredLight choose_lambert_light(const LightingContext& context, const Surfac
 /// elsewhere, and still ends at the sampled point: it must not reach the light.
 Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample);
 
+/// Smooth sheets of glass that a straight ray passes at most.
+inline constexpr int max_sheets = 64;
+
 /// Share of light that passes along a shadow ray: smooth sheets of glass pass some, everything else stops it.
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray);
 

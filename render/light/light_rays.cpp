@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/base/sampling.h"
+#include "render/surface/environment_map.h"
 #include "render/surface/surface_material.h"
 
 namespace aleph {
@@ -20,25 +21,29 @@ float find_cone(const PunctualLight& light) {
     return light.kind == Light::Kind::spot ? light.outer_versine : whole_sphere;
 }
 
-/// A light that casts rays.
-struct Source {
-    int light = 0;
-    double power = 0.0;  ///< lm
-};
+double find_solid_angle(const PunctualLight& light) {
+    return 2.0 * std::numbers::pi * find_cone(light);
+}
 
-std::vector<Source> list_sources(const LightSet& lights) {
-    std::vector<Source> sources;
-    int index = 0;
+/// lm, of each light; of light from afar, what crosses the target.
+std::vector<double> find_powers(const LightingContext& context, const LightTarget& target) {
+    const LightSet& lights = context.lights;
+    const double disc = std::numbers::pi * target.radius * target.radius;
+    std::vector<double> powers;
     for (const Emitter& emitter : lights.emitters) {
         const double sides = emitter.double_sided ? 2.0 : 1.0;
-        sources.push_back({index++, std::numbers::pi * luminance(emitter.brightest) * emitter.area * sides});
+        powers.push_back(std::numbers::pi * luminance(emitter.brightest) * emitter.area * sides);
     }
     for (const PunctualLight& light : lights.punctual) {
-        const double power = 2.0 * std::numbers::pi * find_cone(light) * luminance(light.intensity);
-        if (light.kind != Light::Kind::directional) sources.push_back({index, power});
-        ++index;
+        const bool is_far = light.kind == Light::Kind::directional;
+        powers.push_back((is_far ? disc : find_solid_angle(light)) * luminance(light.intensity));
     }
-    return sources;
+    if (lights.has_environment) {
+        const EnvironmentMap* map = context.shading.environment.map;
+        const double mean = map != nullptr ? map->mean_luminance : 1.0;
+        powers.push_back(4.0 * std::numbers::pi * disc * mean * luminance(context.shading.environment.radiance));
+    }
+    return powers;
 }
 
 Ray leave_emitter(const ShadingScene& shading, const Emitter& emitter, float place, RandomStream& random) {
@@ -63,58 +68,107 @@ Ray leave_punctual(const PunctualLight& light, RandomStream& random) {
     return {light.position, make_basis(axis).to_world({sine * std::cos(turn), sine * std::sin(turn), cosine})};
 }
 
-/// Casts one light ray.
-/// @param place  of the ray among those of its source, in [0, 1)
-/// @param count  of rays that the source has
-LitPlace cast_light_ray(const LightingContext& context, RayTask& task, const Source& source, float place, double count,
-                        RandomStream& random) {
+/// A ray that crosses the target.
+/// @param direction  unit, of light
+Ray enter_target(const ShadingScene& shading, const LightTarget& target, const glm::vec3& direction,
+                 RandomStream& random) {
+    const glm::vec2 u = random.next_2d();
+    const float radius = target.radius * std::sqrt(u.x), turn = 2.0f * std::numbers::pi_v<float> * u.y;
+    const glm::vec3 across = make_basis(direction).to_world({radius * std::cos(turn), radius * std::sin(turn), 0.0f});
+    const SceneBounds& bounds = shading.bounds.all;
+    const float back = glm::length(bounds.high - bounds.low) + glm::length(target.center) + target.radius;
+    return {target.center + across - direction * back, direction};
+}
+
+/// Light of the environment that reaches a target of 1 m2.
+LightSample sample_sky(const LightingContext& context, RandomStream& random) {
+    const int light = context.lights.count() - 1;
+    const bool even = context.shading.environment.map == nullptr;
+    const glm::vec3 half(0.0f, even && random.next() < 0.5f ? -1.0f : 1.0f, 0.0f);
+    LightSample sample = sample_light(context.shading, context.lights, light, {{}, half}, random.next_2d());
+    if (even) sample.incoming *= 2.0f;  // each half of it is sampled in turn
+    return sample;
+}
+
+/// Follows a ray through sheets of glass.
+/// @param passed  multiplied by what they let pass
+Hit pass_sheets(const LightingContext& context, RayTask& task, Ray& ray, Rgb& passed) {
+    for (int sheet = 0;; ++sheet) {
+        ++task.counts.gather;
+        const Hit hit = task.tracer.intersect(ray);
+        if (hit.instance == no_index || !context.shading.has_thin_glass || sheet == max_sheets) return hit;
+        const SurfacePoint point = make_surface_point(context.shading, hit, ray.direction);
+        const ViewedSurface surface = view_surface(context.shading, point, -ray.direction, {});
+        if (!surface.material.passes_straight()) return hit;
+        const LitSurface lit(surface);
+        passed *= sheet_transmittance(lit);
+        ray = {lit.ray_origin(ray.direction), ray.direction};
+    }
+}
+
+/// Casts one ray of a light.
+/// @param place  of the ray among those of the light, in [0, 1)
+/// @param power  lm, of the light
+/// @param count  of rays that the light has
+LitPlace cast_light_ray(const LightingContext& context, const LightTarget& target, RayTask& task, int light,
+                        float place, double power, double count, RandomStream& random) {
     const LightSet& lights = context.lights;
-    const int punctual = source.light - static_cast<int>(lights.emitters.size());
-    const Ray ray = punctual < 0 ? leave_emitter(context.shading, lights.emitters[source.light], place, random)
-                                 : leave_punctual(lights.punctual[punctual], random);
-    ++task.counts.gather;
-    const Hit hit = task.tracer.intersect(ray);
-    if (hit.instance == no_index) return {};
+    const int after = light - static_cast<int>(lights.emitters.size());
+    const PunctualLight* punctual =
+        after >= 0 && after < std::ssize(lights.punctual) ? &lights.punctual[after] : nullptr;
+    const bool spreads = punctual != nullptr && punctual->kind != Light::Kind::directional;
+    Ray ray;
+    if (after < 0) {
+        ray = leave_emitter(context.shading, lights.emitters[light], place, random);
+    } else if (spreads) {
+        ray = leave_punctual(*punctual, random);
+    } else if (punctual != nullptr) {
+        ray = enter_target(context.shading, target, punctual->direction, random);
+    } else {
+        const LightSample sky = sample_sky(context, random);
+        power = std::numbers::pi * target.radius * target.radius * luminance(sky.incoming);
+        ray = enter_target(context.shading, target, -sky.direction, random);
+    }
+    Rgb passed(1.0f);
+    const glm::vec3 origin = ray.origin;
+    const Hit hit = pass_sheets(context, task, ray, passed);
+    if (hit.instance == no_index || !std::isfinite(power)) return {};
     const SurfacePoint met = make_surface_point(context.shading, hit, ray.direction);
     const glm::vec3 side = place_triangle(context.shading.instances[hit.instance], hit.primitive).normal;
     const SurfaceMaterial material = evaluate_material(context.shading, met, {});
-    double brought = source.power / count;
-    if (punctual >= 0) {
-        // The light of a spot fades towards its edge, and that of any towards its range.
-        const LightSample sample = sample_light(context.shading, lights, source.light, {met.position, met.normal}, {});
-        const double solid_angle = 2.0 * std::numbers::pi * find_cone(lights.punctual[punctual]);
-        const double distance = hit.distance;
-        brought = luminance(sample.incoming) * distance * distance * solid_angle / count;
+    if (spreads) {
+        // A spot's light fades towards its edge, and all of it towards its range.
+        const LightSample sample = sample_light(context.shading, lights, light, {met.position, met.normal}, {});
+        const glm::dvec3 to = glm::dvec3(met.position) - glm::dvec3(origin);
+        power = luminance(sample.incoming) * glm::dot(to, to) * find_solid_angle(*punctual);
     }
     return {hit.instance,
             hit.primitive,
             glm::dot(side, ray.direction) > 0.0f,
             {hit.u, hit.v},
-            brought * luminance(material.diffuse + material.gloss.f0)};
+            power / count * luminance(passed * (material.diffuse + material.gloss.f0))};
 }
 
 }  // namespace
 
-std::vector<LitPlace> cast_light_rays(const LightingContext& context, std::size_t count, RayCounts& counts) {
-    const std::vector<Source> sources = list_sources(context.lights);
-    double total = 0.0;
-    for (const Source& source : sources) total += source.power;
+std::vector<LitPlace> cast_light_rays(const LightingContext& context, const LightTarget& target, std::size_t count,
+                                      RayCounts& counts) {
+    const std::vector<double> powers = find_powers(context, target);
+    const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
     if (!(total > 0.0) || !std::isfinite(total)) return {};
-    std::vector<double> shares, ends;
-    for (const Source& source : sources) {
-        shares.push_back(0.5 * (source.power / total + 1.0 / static_cast<double>(sources.size())));
-    }
-    ends.resize(shares.size());
+    std::vector<double> shares, ends(powers.size());
+    for (const double power : powers)
+        shares.push_back(0.5 * (power / total + 1.0 / static_cast<double>(powers.size())));
     std::partial_sum(shares.begin(), shares.end(), ends.begin());
     std::vector<LitPlace> places(count);
     cast_parallel(count, 256, context.rays, counts, [&](int i, RayTask& task) {
         RandomStream random({light_ray_key, 0, 0, static_cast<std::uint32_t>(i)});
         const double number = (i + random.next()) / static_cast<double>(count);
-        const auto s =
+        const auto light =
             std::min<std::ptrdiff_t>(std::ranges::upper_bound(ends, number) - ends.begin(), std::ssize(ends) - 1);
-        const double place = (number - ends[s]) / shares[s] + 1.0;
-        places[i] = cast_light_ray(context, task, sources[s], static_cast<float>(place),
-                                   shares[s] * static_cast<double>(count), random);
+        const double place = (number - ends[light]) / shares[light] + 1.0;
+        places[i] = cast_light_ray(context, target, task, static_cast<int>(light), static_cast<float>(place),
+                                   powers[light], shares[light] * static_cast<double>(count), random);
     });
     return places;
 }

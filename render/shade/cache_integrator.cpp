@@ -1,6 +1,7 @@
 // Direct light and gloss by samples; indirect light from the irradiance cache, or by samples as well. Light of the
 // second and further bounces comes from a coarse cache either way.
 
+#include "render/cache/aimed_rays.h"
 #include "render/cache/bounce_places.h"
 #include "render/cache/cache_fill.h"
 #include "render/cache/further_bounces.h"
@@ -36,9 +37,10 @@ class CacheIntegrator final : public LightIntegrator {
     void fill(const SampleHits& first) override {
         if (cached_ && input_.options.risk != nullptr)
             context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
-        if (needs_bright()) bright_ = find_bright_surfaces(context_.lighting, input_.out.counts.rays);
+        const std::vector<PixelSurface> seen = find_seen(first);
+        if (needs_bright()) bright_ = find_bright_surfaces(context_.lighting, seen, input_.out.counts.rays);
         if (!bright_.empty()) context_.bright = &bright_;
-        solve_further(first);
+        solve_further(seen);
         if (!cached_) return;
         if (checked_) checked_->check(cache_, context_, input_.out);
         fill_cache(cache_, context_, first, input_.out);
@@ -84,13 +86,18 @@ class CacheIntegrator final : public LightIntegrator {
     /// Neither do they use bright surfaces.
     bool needs_bright() const { return indirect_ && (cached_ || !blurred_); }
 
-    /// Finds light of further bounces, for gathers and for paths of samples.
-    void solve_further(const SampleHits& first) {
-        if (!needs_further()) return;
+    /// Some of the surfaces in the picture, also where lighting keyframes know their light.
+    std::vector<PixelSurface> find_seen(const SampleHits& first) const {
+        std::vector<PixelSurface> seen;
         IndirectContext all = context_;
         all.carried = nullptr;
-        std::vector<PixelSurface> seen;
-        add_seen_surfaces(all, first, seen, input_.out.counts.rays);
+        if (needs_bright() || needs_further()) add_seen_surfaces(all, first, seen, input_.out.counts.rays);
+        return seen;
+    }
+
+    /// Finds light of further bounces, for gathers and for paths of samples.
+    void solve_further(const std::vector<PixelSurface>& seen) {
+        if (!needs_further()) return;
         further_bounces_ = solve_further_bounces(context_, seen, input_.out.counts);
         if (!further_bounces_) return;
         context_.bounces.further = make_multi_bounce_light(context_.settings, &*further_bounces_);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "render/cache/aimed_rays.h"
 #include "render/cache/bounce_places.h"
 #include "render/cache/further_bounces.h"
 #include "render/cache/mirror_places.h"
@@ -41,7 +42,6 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
     DirectGrid direct(scene_radius(lighting.shading));
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(first.width, first.height);
-    const BrightSurfaces bright = find_bright_surfaces(lighting, tally.counts.rays);
     std::vector<IndirectContext> contexts;
     std::vector<SampleHits> first_samples;
     std::vector<PixelSurface> seen;
@@ -53,13 +53,13 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
                             .max_radius = scene_radius(lighting.shading),
                             .progress = {},
                             .direct = &direct,
-                            .bright = bright.empty() ? nullptr : &bright,
                             .carried = input.carried,
                             .seen = view->frame == input.frame ? nullptr : &view->shading});
         first_samples.push_back(input.cast(*view, tally.counts.rays));
-        if (count_bounces(input.settings) == 1) continue;
         add_seen_surfaces(contexts.back(), first_samples.back(), seen, tally.counts.rays);
     }
+    const BrightSurfaces bright = find_bright_surfaces(lighting, seen, tally.counts.rays);
+    for (IndirectContext& context : contexts) context.bright = bright.empty() ? nullptr : &bright;
     const std::optional<FurtherBounces> further_bounces = solve_further_bounces(contexts.front(), seen, tally.counts);
     for (std::size_t v = 0; v < contexts.size(); ++v) {
         contexts[v].bounces.further =

@@ -13,6 +13,19 @@ constexpr float side = 0.2f, height = 1.0f;  // m
 
 const glm::vec3 back(0.0f, 0.0f, -1.0f);
 
+/// Places of a floor.
+std::vector<Receiver> make_floor_places(float y) {
+    std::vector<Receiver> places;
+    for (const float x : {-0.9f, 0.0f, 0.9f}) {
+        for (const float z : {-0.9f, 0.0f, 0.9f}) places.push_back({{x, y, z}, up});
+    }
+    return places;
+}
+
+BrightSurfaces find_bright(const Stage& stage, const std::vector<Receiver>& places, RayCounts& counts) {
+    return find_bright_surfaces(stage.lighting(), places, counts);
+}
+
 /// A lamp that closes the top of a square tube, as wide as it is high, above a grey floor. The tube is white, with its
 /// front side inside.
 Scene make_shaded_lamp() {
@@ -33,7 +46,7 @@ Scene make_shaded_lamp() {
 struct ShadedLamp {
     ShadedLamp() : gathering(make_shaded_lamp()) {
         RayCounts counts;
-        surfaces = find_bright_surfaces(gathering.stage.lighting(), counts);
+        surfaces = find_bright(gathering.stage, make_floor_places(0.0f), counts);
         light_rays = counts.gather;
     }
     IrradianceSample gather(const glm::vec3& position, const glm::vec3& normal, int rays, std::uint32_t seed,
@@ -80,7 +93,7 @@ TEST(BrightSurfaces, ArePartsOfLargeTriangles) {
     add_lamp(scene, side, glm::dvec3(radiance), {0.0, above, 0.0});
     const Stage stage(std::move(scene));
     RayCounts counts;
-    const BrightSurfaces surfaces = find_bright_surfaces(stage.lighting(), counts);
+    const BrightSurfaces surfaces = find_bright(stage, {{{0.0f, 1.0f, 1.0f}, back}}, counts);
     const auto find = [&](double x, double z) {
         RayTask task(stage.rays);
         const glm::vec3 down(0.0f, -1.0f, 0.0f);
@@ -139,8 +152,9 @@ TEST(BrightSurfaces, AreNoneWhereNothingStandsOut) {
                        glm::dvec3(dark ? 0.0 : 10.0), 1.0);
         const Stage stage(std::move(scene));
         RayCounts counts;
-        EXPECT_TRUE(find_bright_surfaces(stage.lighting(), counts).empty());
+        EXPECT_TRUE(find_bright(stage, make_floor_places(-1.0f), counts).empty());
         EXPECT_EQ(counts.gather, dark ? 0u : BrightSurfaces::light_rays);
+        EXPECT_TRUE(find_bright(stage, {}, counts).empty());
     }
 }
 
@@ -177,7 +191,7 @@ TEST(BrightSurfaces, ArePlacesInSpotLight) {
     scene.lights.back().inner_cone = scene.lights.back().outer_cone = Track<double>(0.15);
     Gathering gathering(std::move(scene));
     RayCounts counts;
-    const BrightSurfaces surfaces = find_bright_surfaces(gathering.stage.lighting(), counts);
+    const BrightSurfaces surfaces = find_bright(gathering.stage, make_floor_places(-1.0f), counts);
     ASSERT_FALSE(surfaces.empty());
     const auto gather = [&](int rays, std::uint32_t seed, const BrightSurfaces* bright) {
         const GatherPattern pattern{choose_strata(rays), {seed, 0, 0, 0}};
@@ -192,6 +206,35 @@ TEST(BrightSurfaces, ArePlacesInSpotLight) {
         trial.near(with, without);
         EXPECT_LT(with.error(), 0.25 * without.error());
     }));
+}
+
+/// Sunlight through a window, on the floor of a room whose roof it lights as well.
+TEST(BrightSurfaces, ArePlacesInSunlightThatFaceTheRoom) {
+    Scene scene;
+    add_small_room(scene, add_lambert(scene, glm::dvec3(0.5)), add_lambert(scene, glm::dvec3(0.5)), glm::dvec3(0.0),
+                   0.1);
+    add_mesh(scene, make_quad(2.0, 1.6, add_lambert(scene, glm::dvec3(0.5))), {0.0, 0.2, 1.0},
+             turn_about_y(std::numbers::pi));
+    add_light(scene, Light::Kind::directional, glm::dvec3(10.0), {}, glm::angleAxis(-0.6, glm::dvec3(1.0, 0.0, 0.0)));
+    const Stage stage(std::move(scene));
+    RayCounts counts;
+    const glm::vec3 forth(0.0f, 0.0f, 1.0f);  // from the back wall
+    const std::vector<Receiver> places{
+        {{-0.9f, -0.9f, -1.0f}, forth}, {{0.9f, 0.9f, -1.0f}, forth}, {{0.0f, -1.0f, 0.9f}, up}};
+    const BrightSurfaces surfaces = find_bright(stage, places, counts);
+    // Light enters under the window's upper edge, which is .4 m above the floor.
+    const double reach = 0.4 / std::tan(0.6);
+    double area = 0.0, reflected = 0.0;
+    for (const Emitter& patch : surfaces.patches.emitters) {
+        const Emitter::Triangle& t = patch.triangles.front();
+        EXPECT_GT(t.normal.y, 0.99f);
+        EXPECT_NEAR(patch.center.y, -1.0, 1e-5);
+        reflected += std::numbers::pi * patch.area * luminance(patch.radiance);
+        EXPECT_GT(std::max({t.corner.z, t.corner.z + t.edge1.z, t.corner.z + t.edge2.z}), 1.0 - reach);
+        area += patch.area;
+    }
+    EXPECT_LT(area, 1.5 * 2.0 * reach);  // some are lit in part
+    EXPECT_NEAR(reflected, 0.5 * 10.0 * std::sin(0.6) * 2.0 * reach, 0.1 * reflected);
 }
 
 TEST(BrightSurfaces, GathersTellTheErrorOfAimedRays) {
@@ -260,7 +303,7 @@ Scene make_lit_spot() {
 TEST(BrightSurfaces, SharedLightIsNotThatOfAimedRaysAlone) {
     Gathering gathering(make_lit_spot());
     RayCounts counts;
-    const BrightSurfaces surfaces = find_bright_surfaces(gathering.stage.lighting(), counts);
+    const BrightSurfaces surfaces = find_bright(gathering.stage, make_floor_places(-1.0f), counts);
     ASSERT_FALSE(surfaces.empty());
     DirectGrid grid;
     std::vector<DirectSample> found;
