@@ -1,11 +1,12 @@
 #pragma once
 // Surfaces that reflect so much light that they are sampled like lights: the inside of a lamp's shade, bars of a window
-// beside the sky. Seen from elsewhere they are small, and few of the rays over a hemisphere meet them: these rays carry
-// much of the light, and nearly all of its noise.
+// beside the sky, a floor in sunlight. Seen from elsewhere they are small, and few of the rays over a hemisphere meet
+// them: these rays carry much of the light, and nearly all of its noise.
 //
-// What each triangle reflects is found by light rays from the lamps. From a point, rays towards bright triangles join
-// those over the hemisphere. Both find their light, weighted by the balance heuristic (Veach and Guibas 1995,
-// "Optimally Combining Sampling Techniques for Monte Carlo Rendering"): without bias, whatever was taken for bright.
+// What each triangle reflects, and each part of a large one, is found by light rays (light_rays.h). From a point, rays
+// towards bright triangles join those over the hemisphere. Both find their light, weighted by the balance heuristic
+// (Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering"): without bias, whatever
+// was taken for bright.
 
 #include <array>
 #include <span>
@@ -17,7 +18,7 @@ namespace aleph {
 
 struct BrightSurfaces {
     static constexpr std::size_t most = 512;  ///< a multiple of LightBounds::step
-    /// From all lamps together, counted as RayCounts::gather: to see whether there are any, and then to find them all.
+    /// From all lights together, counted as RayCounts::gather: to see whether there are any, and then to find them all.
     static constexpr std::size_t light_rays = 32768, more_light_rays = 131072;
 
     /// A triangle, or one of four parts of a part (barycentric coordinates halved).

@@ -1,5 +1,5 @@
 #pragma once
-// Rays from the lamps into the scene: what their light meets first.
+// Rays from the lights into the scene: what their light meets first.
 
 #include <vector>
 
