@@ -106,20 +106,26 @@ Hit pass_sheets(const LightingContext& context, RayTask& task, Ray& ray, Rgb& pa
     }
 }
 
-/// Casts one ray of a light.
-/// @param place  of the ray among those of the light, in [0, 1)
-/// @param power  lm, of the light
-/// @param count  of rays that the light has
-LitPlace cast_light_ray(const LightingContext& context, const LightTarget& target, RayTask& task, int light,
-                        float place, double power, double count, RandomStream& random) {
+/// One of the rays of a light.
+struct LightRay {
+    int light = 0;
+    float place = 0.0f;  ///< among those of the light, in [0, 1)
+    double power = 0.0;  ///< lm, of the light
+    double count = 0.0;  ///< of rays that the light has
+};
+
+LitPlace cast_light_ray(const LightingContext& context, const LightTarget& target, RayTask& task,
+                        const LightRay& light_ray, RandomStream& random) {
     const LightSet& lights = context.lights;
+    const int light = light_ray.light;
+    double power = light_ray.power;
     const int after = light - static_cast<int>(lights.emitters.size());
     const PunctualLight* punctual =
         after >= 0 && after < std::ssize(lights.punctual) ? &lights.punctual[after] : nullptr;
     const bool spreads = punctual != nullptr && punctual->kind != Light::Kind::directional;
     Ray ray;
     if (after < 0) {
-        ray = leave_emitter(context.shading, lights.emitters[light], place, random);
+        ray = leave_emitter(context.shading, lights.emitters[light], light_ray.place, random);
     } else if (spreads) {
         ray = leave_punctual(*punctual, random);
     } else if (punctual != nullptr) {
@@ -146,7 +152,7 @@ LitPlace cast_light_ray(const LightingContext& context, const LightTarget& targe
             hit.primitive,
             glm::dot(side, ray.direction) > 0.0f,
             {hit.u, hit.v},
-            power / count * luminance(passed * (material.diffuse + material.gloss.f0))};
+            power / light_ray.count * luminance(passed * (material.diffuse + material.gloss.f0))};
 }
 
 }  // namespace
@@ -166,9 +172,11 @@ std::vector<LitPlace> cast_light_rays(const LightingContext& context, const Ligh
         const double number = (i + random.next()) / static_cast<double>(count);
         const auto light =
             std::min<std::ptrdiff_t>(std::ranges::upper_bound(ends, number) - ends.begin(), std::ssize(ends) - 1);
-        const double place = (number - ends[light]) / shares[light] + 1.0;
-        places[i] = cast_light_ray(context, target, task, static_cast<int>(light), static_cast<float>(place),
-                                   powers[light], shares[light] * static_cast<double>(count), random);
+        const LightRay ray{.light = static_cast<int>(light),
+                           .place = static_cast<float>((number - ends[light]) / shares[light] + 1.0),
+                           .power = powers[light],
+                           .count = shares[light] * static_cast<double>(count)};
+        places[i] = cast_light_ray(context, target, task, ray, random);
     });
     return places;
 }
