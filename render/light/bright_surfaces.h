@@ -3,10 +3,10 @@
 // beside the sky, a floor in sunlight. Seen from elsewhere they are small, and few of the rays over a hemisphere meet
 // them: these rays carry much of the light, and nearly all of its noise.
 //
-// What each triangle reflects, and each part of a large one, is found by light rays (light_rays.h). From a point, rays
-// towards bright triangles join those over the hemisphere. Both find their light, weighted by the balance heuristic
-// (Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering"): without bias, whatever
-// was taken for bright.
+// Light rays (light_rays.h) tell what each triangle reflects, and each part of a large one. From a point, rays towards
+// bright triangles join those over the hemisphere. Both find their light, weighted by the balance heuristic (Veach and
+// Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering"): without bias, whatever was taken for
+// bright.
 
 #include <array>
 #include <span>

@@ -23,7 +23,7 @@ void add_box(Scene& scene) {
     add_mesh(scene, wall, {0.0, 1.0, 0.0}, z_to_down);
 }
 
-/// What the side of each instance reflects that its normal points to, lm.
+/// Light that each instance reflects on the side that its normal points to, lm.
 std::vector<double> add_light_rays(Scene scene, const LightTarget& target = {{}, 2.0f}, std::size_t rays = 40000) {
     const Stage stage(std::move(scene));
     RayCounts counts;
