@@ -5,8 +5,8 @@
 //
 // Light rays (light_rays.h) tell what each triangle reflects, and each part of a large one. From a point, rays towards
 // bright triangles join those over the hemisphere. Both find their light, weighted by the balance heuristic (Veach and
-// Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering"): without bias, whatever was taken for
-// bright.
+// Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering"): without bias, whatever was taken
+// for bright.
 
 #include <array>
 #include <span>
