@@ -26,7 +26,7 @@ case $kind in
     # Pyramids, cache, sampling and materials. Left out: what checks statistics, memory or a growth of work in millions.
     rows=()
     [ "$kind" = readers ] || rows=(test_perception test_records test_materials test_paths test_lighting_keyframes)
-    row_filter='LightRays.*:BrightSurfaces.*:SmallPictures.*:TextureControl.Nothing*:TextureControl.Corrected*:*.DT07*:*.PY*:*.IC*:*.MC*'
+    row_filter='AimedRays.*:LightRays.*:BrightSurfaces.*:SmallPictures.*:TextureControl.Nothing*:TextureControl.Corrected*:*.DT07*:*.PY*:*.IC*:*.MC*'
     row_filter+='-FlatPicture.*:Optimization.*:*.IC11_TheIndexFinds*:*.IC15*'
     row_filter+=':PathValues.MC13*:Accumulation.*:FurnaceScenes.*:Path.MC14*:Path.MC19*:PathLights.MC23*'
     # Pictures that are compared by what they show, and two processes with one cache file.

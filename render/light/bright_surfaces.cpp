@@ -24,7 +24,7 @@ constexpr double bright_over_mean = 4.0;
 constexpr double least_share = 0.5;
 
 constexpr std::size_t most_places = 128;  // that decide which sides count, about
-constexpr float room_behind = 1.5f;       // of light from afar, over the size of what is seen
+constexpr float room_behind = 1.5f;       // size of the target of light from afar, over that of what is seen
 
 constexpr float least_rise = 1e-6f;  // of a unit direction above the true surface: below it, rounding decides
 

@@ -72,9 +72,8 @@ Ray leave_punctual(const PunctualLight& light, RandomStream& random) {
 /// @param direction  unit, of light
 Ray enter_target(const ShadingScene& shading, const LightTarget& target, const glm::vec3& direction,
                  RandomStream& random) {
-    const glm::vec2 u = random.next_2d();
-    const float radius = target.radius * std::sqrt(u.x), turn = 2.0f * std::numbers::pi_v<float> * u.y;
-    const glm::vec3 across = make_basis(direction).to_world({radius * std::cos(turn), radius * std::sin(turn), 0.0f});
+    const glm::vec2 disc = target.radius * glm::vec2(sample_cosine_hemisphere(random.next_2d()));
+    const glm::vec3 across = make_basis(direction).to_world({disc, 0.0f});
     const SceneBounds& bounds = shading.bounds.all;
     const float back = glm::length(bounds.high - bounds.low) + glm::length(target.center) + target.radius;
     return {target.center + across - direction * back, direction};
