@@ -4,6 +4,7 @@
 
 #include "engine/base/pixel_loops.h"
 #include "render/frame/sequence_state.h"
+#include "render/frame/visible_limits.h"
 #include "render/plan/effect_picture.h"
 #include "render/settings/measure.h"
 #include "render/shade/frame.h"
@@ -32,17 +33,6 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
         out.surface.albedo(x, y) =
             glm::min(material.diffuse + material.gloss.f0 + material.glass.share * material.glass.tint, Rgb(1.0f));
     });
-}
-
-/// Empty where nothing is known of what a viewer sees.
-Image<Outline> find_visible_outlines(const Shot& shot, const ShadingScene& shading, const PreparedFrame& frame) {
-    const FrameOutput& out = frame.out;
-    if (out.limits.threshold.empty()) return {};
-    Image<Outline> outlines = find_outlines(out.view, frame.centers.hits, out.motion);
-    mark_small_objects(outlines, out.view, frame.centers.hits, shading);
-    const double asked = frame.plan.settings.error, error = asked > 0.0 ? asked : 1.0;
-    mark_contrasts(outlines, out.estimate, out.limits.threshold, error / shot.scene.film.viewing.display_white);
-    return outlines;
 }
 
 /// Risk of using the light of lighting keyframes; none if the frame is one itself, or if nothing but the camera
@@ -75,9 +65,7 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     options.partial = &request.partial;
     FrameOutput& out = prepared.out;
     const Image<Outline> outlines = find_visible_outlines(s.shot, s.here.shading(), prepared);
-    const VisibleLimits limits{
-        out.limits.threshold,     out.limits.threshold_noise, out.perception.aleph, out.limits.alpha, outlines,
-        s.shot.scene.film.viewing};
+    const VisibleLimits limits = make_visible_limits(s.shot, out, outlines);
     if (!out.limits.threshold.empty()) {
         options.limits = &limits;
         options.estimate = &out.estimate;

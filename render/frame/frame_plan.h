@@ -31,7 +31,7 @@ struct FrameWork {
     bool motion_only = false;  ///< of what `perceive` says
     OtherFrame other = OtherFrame::none;
     bool edited = false;  ///< motion leads from a frame before an edit
-    bool held = false;    ///< the next frame is a copy of this one
+    bool lasts = false;   ///< other frames have its noise too: copies of it, or those that read its light
 };
 
 /// Makes the effects plans of a shot's frames.

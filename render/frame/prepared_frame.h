@@ -29,9 +29,9 @@ struct Preparation {
     FrameMotion motion;
     FrameScene shutter;  ///< the scene while the shutter is open
 
-    /// How visible the noise of a frame is. It lasts where the next frame has the same.
+    /// How visible the noise of a frame is. It lasts where other frames have the same.
     const NoiseVisibility& noise(const FrameWork& work) {
-        const bool lasts = work.held || shot.keeps_noise(work.frame);
+        const bool lasts = work.lasts || shot.keeps_noise(work.frame);
         std::optional<NoiseVisibility>& known = lasts ? lasting_noise_ : fresh_noise_;
         if (!known)
             known.emplace(shot.scene.film.viewing, shot.scene.film.frame_rate,

@@ -1,5 +1,6 @@
 #include "render/frame/sequence_state.h"
 
+#include "render/frame/visible_limits.h"
 #include "render/pixels/sample_place.h"
 
 namespace aleph {
@@ -21,12 +22,14 @@ KeyframeSource make_keyframe_source(SequenceState& s) {
         return key;
     };
     const auto look = [&s](std::int64_t frame) {
+        const bool perceive = s.shot.is_guided() || s.shot.settings.error > 0.0;
         PreparedFrame prepared =
-            prepare_frame(s.preparation, s.keyframe, {.frame = frame, .perceive = s.shot.is_guided()});
+            prepare_frame(s.preparation, s.keyframe, {.frame = frame, .perceive = perceive, .lasts = true});
         const auto view = std::make_shared<KeyView>();
         view->frame = frame;
         s.keyframe.copy_to(*view);
         view->accuracy = std::move(prepared.out.limits.alpha);
+        view->tolerance = find_record_tolerance(s.shot, s.keyframe.shading(), prepared);
         view->rays = prepared.out.statistics.counts.rays;
         return view;
     };
@@ -59,9 +62,9 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
 
 PreparedFrame SequenceState::prepare(std::int64_t frame, bool perceive, bool maps) {
     const bool is_edited = preparation.motion.is_edited();
-    const bool is_held = !is_edited && static_spans.find_first(frame + 1) == frame;
+    const bool lasts = !is_edited && static_spans.find_first(frame + 1) == frame;
     return prepare_frame(preparation, here,
-                         {.frame = frame, .perceive = perceive, .maps = maps, .edited = is_edited, .held = is_held});
+                         {.frame = frame, .perceive = perceive, .maps = maps, .edited = is_edited, .lasts = lasts});
 }
 
 std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t frame, const FramePlan& plan,

@@ -83,8 +83,11 @@ class CacheIntegrator final : public LightIntegrator {
     /// Paths of samples while the shutter is open do not use it: it holds for the shutter's centre.
     bool needs_further() const { return context_.bounces.further.bounces > 0 && (cached_ || !blurred_); }
 
-    /// Neither do they use bright surfaces, and where keyframes know the light little is left to gather.
-    bool needs_bright() const { return indirect_ && (cached_ || !blurred_) && context_.carried == nullptr; }
+    /// Neither do they use bright surfaces. Where keyframes know the light, little is left but samples whose irradiance
+    /// is not worth a record.
+    bool needs_bright() const {
+        return indirect_ && (cached_ || !blurred_) && (context_.carried == nullptr || context_.tolerance != nullptr);
+    }
 
     /// Some of the surfaces in the picture, also where lighting keyframes know their light.
     std::vector<PixelSurface> find_seen(const SampleHits& first) const {

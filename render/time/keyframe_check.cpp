@@ -15,6 +15,7 @@ constexpr int coarse_tiles = 4;  // between probes elsewhere
 /// A mover is near where it may hide so much of the hemisphere, relative to the accuracy.
 constexpr float near_form_factor = 0.25f;
 constexpr float noise_deviations = 1.5f;  // of a probe, by which it may differ although nothing happened
+constexpr double deciding_noise = 0.25;   // of the gather that decides, over the accuracy
 constexpr std::uint8_t still_bit = 1, moving_bit = 2;
 
 /// The cosine-weighted share of a hemisphere that a sphere hides is at most (radius / distance)^2.
@@ -96,10 +97,15 @@ bool CheckedLight::differs(const IrradianceCache& cache, const IndirectContext& 
     const std::optional<Rgb> own = cache.interpolate(query), theirs = keyframes_.find(surface, accuracy, task);
     if (!own || !theirs) return false;
     const float ray_variance = cache.expect(query, context.max_radius)->ray_variance;  // it has records: `own`
+    const auto is_beyond = [&, b = luminance(*theirs)](float a, int rays) {
+        const float noise = std::sqrt(ray_variance / static_cast<float>(rays));
+        return std::abs(a - b) > std::hypot(accuracy, noise_deviations * noise) * 0.5f * (a + b);
+    };
     const int rays = choose_rays(context.settings, accuracy, ray_variance);
-    const float noise = std::sqrt(ray_variance / static_cast<float>(rays));
-    const float a = luminance(*own), b = luminance(*theirs);
-    return std::abs(a - b) > std::hypot(accuracy, noise_deviations * noise) * 0.5f * (a + b);
+    if (!is_beyond(luminance(*own), rays)) return false;
+    const int more = choose_rays_for_noise(ray_variance, deciding_noise * accuracy, rays, most_rays);
+    thread_local GatherScratch scratch;
+    return is_beyond(luminance(gather_at(context, task, surface, scratch, more).irradiance), more);
 }
 
 void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context, FrameTally& frame) {
@@ -116,18 +122,20 @@ void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context,
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(count, 1);
     fill_places(cache, at_probes, {std::move(points), surface_at}, tally);
-    RayTask task(context.lighting.rays);
+    std::vector<std::uint8_t> differ(probes_.size());
+    cast_parallel(probes_.size(), 4, context.lighting.rays, tally.counts.rays, [&](int i, RayTask& task) {
+        // Probes that another's record covers tell nothing new.
+        differ[i] = tally.records(i, 0) > 0.0f && differs(cache, context, probes_[i], task);
+    });
     std::ranges::fill(rejected_.pixels, std::uint8_t{0});
     for (int i = 0; i < count; ++i) {
-        // Probes that another's record covers tell nothing new.
-        if (tally.records(i, 0) > 0.0f && differs(cache, context, probes_[i], task)) reject(probes_[i]);
+        if (differ[i]) reject(probes_[i]);
     }
     for (int i = 0; i < count; ++i) {
         frame.records(probes_[i].x, probes_[i].y) += tally.records(i, 0);
         frame.invalid_samples(probes_[i].x, probes_[i].y) += tally.invalid_samples(i, 0);
     }
     frame.counts.rays += tally.counts.rays;
-    frame.counts.rays += task.counts;
     frame.counts.records += tally.counts.records;
     frame.counts.invalid_samples += tally.counts.invalid_samples;
 }

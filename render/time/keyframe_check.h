@@ -47,6 +47,7 @@ class CheckedLight final : public CarriedLight {
     };
     void add_probes(const IndirectContext& context, int tile_x, int tile_y);
     void reject(const Probe& probe);
+    /// Probes whose records differ are gathered again: noise alone brings some of many that far.
     bool differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe, RayTask& task) const;
 
     const CarriedLight& keyframes_;

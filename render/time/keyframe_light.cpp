@@ -54,7 +54,8 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
                             .progress = {},
                             .direct = &direct,
                             .carried = input.carried,
-                            .seen = view->frame == input.frame ? nullptr : &view->shading});
+                            .seen = view->frame == input.frame ? nullptr : &view->shading,
+                            .tolerance = view->tolerance.empty() ? nullptr : &view->tolerance});
         first_samples.push_back(input.cast(*view, tally.counts.rays));
         add_seen_surfaces(contexts.back(), first_samples.back(), seen, tally.counts.rays);
     }

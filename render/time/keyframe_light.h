@@ -24,8 +24,9 @@ struct KeyPose {
 /// View of a lighting keyframe's camera.
 struct KeyView : KeyPose {
     std::int64_t frame = 0;
-    Image<float> accuracy;  ///< alpha per pixel
-    RayCounts rays;         ///< of its first hits and its quick estimate
+    Image<float> accuracy;   ///< alpha per pixel
+    Image<float> tolerance;  ///< of noise that lasts (IndirectContext); empty: no error is asked for
+    RayCounts rays;          ///< of its first hits and its quick estimate
 };
 
 /// The light of a lighting keyframe.
