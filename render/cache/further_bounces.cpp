@@ -82,4 +82,13 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     return known;
 }
 
+std::optional<FurtherBounces> restore_further_bounces(const IndirectContext& context,
+                                                      const std::vector<IrradianceRecord>& records) {
+    if (records.empty()) return std::nullopt;
+    FurtherBounces known{make_cache(context.lighting.shading), choose_alpha(context.settings)};
+    known.cache.restore(records);
+    known.cache.prepare();
+    return known;
+}
+
 }  // namespace aleph

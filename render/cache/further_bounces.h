@@ -48,4 +48,8 @@ class FurtherIrradiance final : public KnownIrradiance {
 std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& context,
                                                     const std::vector<PixelSurface>& seen, FrameCounts& counts);
 
+/// The same from its records; nothing if there are none.
+std::optional<FurtherBounces> restore_further_bounces(const IndirectContext& context,
+                                                      const std::vector<IrradianceRecord>& records);
+
 }  // namespace aleph

@@ -2,6 +2,7 @@
 // Inputs of a frame's indirect light.
 
 #include <optional>
+#include <vector>
 
 #include "engine/base/color.h"
 #include "render/cache/direct_grid.h"
@@ -24,6 +25,8 @@ struct CarriedLight {
     /// @param used  increased by the records that are used; may be null
     virtual std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
                                     RecordUse* used = nullptr) const = 0;
+    /// Records of light of further bounces that hold in this scene (FurtherBounces); none if it has to be solved.
+    virtual std::vector<IrradianceRecord> find_further(const ShadingScene&) const { return {}; }
 };
 
 /// Bounces of the light beside the one that is gathered.
@@ -45,7 +48,7 @@ struct IndirectContext {
     /// Direct light that gathers share; filled along with the cache. Null: each computes its own, without bias.
     DirectGrid* direct = nullptr;
     const BrightSurfaces* bright = nullptr;  ///< that gathers and samples aim at, at least one; null: none
-    const CarriedLight* carried = nullptr;  ///< surfaces that it knows get no records; may be null
+    const CarriedLight* carried = nullptr;   ///< surfaces that it knows get no records; may be null
     /// If set, the hits were cast in this pose of the scene, and the light is wanted where their surfaces are in
     /// `lighting` (carry_point).
     const ShadingScene* seen = nullptr;

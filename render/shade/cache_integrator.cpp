@@ -101,7 +101,10 @@ class CacheIntegrator final : public LightIntegrator {
     /// Finds light of further bounces, for gathers and for paths of samples.
     void solve_further(const std::vector<PixelSurface>& seen) {
         if (!needs_further()) return;
-        further_bounces_ = solve_further_bounces(context_, seen, input_.out.counts);
+        if (context_.carried != nullptr)
+            further_bounces_ =
+                restore_further_bounces(context_, context_.carried->find_further(context_.lighting.shading));
+        if (!further_bounces_) further_bounces_ = solve_further_bounces(context_, seen, input_.out.counts);
         if (!further_bounces_) return;
         context_.bounces.further = make_multi_bounce_light(context_.settings, &*further_bounces_);
         known_.fewer = &further_.emplace(context_.bounces.further);

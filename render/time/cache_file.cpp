@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view magic = "alephL1\n";
+constexpr std::string_view magic = "alephL2\n";
 static_assert(std::is_trivially_copyable_v<IrradianceRecord>);
 
 /// They change how records are read, not the records.
@@ -54,22 +54,22 @@ Fingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& set
     return fingerprint;
 }
 
-void write_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint,
-                      const KeyframeRecords& keyframes) {
+void write_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint, const ShotRecords& keyframes) {
     ByteWriter out;
     out.add_text(format_fingerprint(fingerprint));
     out.add(std::uint64_t{sizeof(IrradianceRecord)});
     out.add(std::uint64_t{keyframes.size()});
     for (const auto& [frame, records] : keyframes) {
         out.add(frame);
-        out.add(records);
+        out.add(records.seen);
+        out.add(records.further);
     }
     std::string text = std::string(magic) + out.take();
     text += hash_bytes(text);
     write_file(path, text);
 }
 
-KeyframeRecords read_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint) {
+ShotRecords read_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint) {
     if (!std::filesystem::exists(path)) return {};
     const std::string file = path.string();
     const Bytes bytes = read_regular_file(path, file, "");
@@ -86,11 +86,13 @@ KeyframeRecords read_cache_file(const std::filesystem::path& path, const Fingerp
     const std::string difference = find_difference(found, fingerprint);
     if (!difference.empty()) throw InputError(file, "", "the cache file cannot be used: " + difference);
     if (in.read<std::uint64_t>() != sizeof(IrradianceRecord)) refuse_damaged(file);
-    KeyframeRecords keyframes;
+    ShotRecords keyframes;
     const auto count = in.read<std::uint64_t>();
     for (std::uint64_t i = 0; i < count && in.is_good(); ++i) {
         const auto frame = in.read<std::int64_t>();
-        keyframes[frame] = in.read_all<IrradianceRecord>();
+        KeyframeRecords& records = keyframes[frame];
+        records.seen = in.read_all<IrradianceRecord>();
+        records.further = in.read_all<IrradianceRecord>();
     }
     if (!in.is_good() || !in.at_end()) refuse_damaged(file);
     return keyframes;

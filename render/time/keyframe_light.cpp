@@ -24,20 +24,21 @@ bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
 }
 
 /// Records of things at rest, in the coordinates of another pose.
-std::vector<IrradianceRecord> shift_records(const KeyframeLight& from, const ShadingScene& to) {
-    std::vector<IrradianceRecord> records = from.cache.records();
-    const glm::vec3 shift(from.at->shading.anchor - to.anchor);
+std::vector<IrradianceRecord> shift_records(std::vector<IrradianceRecord> records, const ShadingScene& from,
+                                            const ShadingScene& to) {
+    const glm::vec3 shift(from.anchor - to.anchor);
     for (IrradianceRecord& record : records) record.position += shift;
     return records;
 }
 
 }  // namespace
 
-std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameCounts& counts) {
+KeyframeRecords compute_records(const KeyframeInput& input, FrameCounts& counts) {
     const LightingContext& lighting = input.lighting;
     const CameraView& first = input.views.front()->posed.view;
     IrradianceCache cache = make_cache(lighting.shading);
-    if (input.base != nullptr) cache.restore(shift_records(*input.base, lighting.shading));
+    if (input.base != nullptr)
+        cache.restore(shift_records(input.base->cache.records(), input.base->at->shading, lighting.shading));
     const std::size_t kept = cache.records().size();
     DirectGrid direct(scene_radius(lighting.shading));
     FrameTally tally;
@@ -72,14 +73,16 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
     tally.counts.rays += counts.rays;
     counts = tally.counts;
     cache.finish(kept);
-    return cache.records();
+    KeyframeRecords records{cache.records(), {}};
+    if (input.still && further_bounces) records.further = further_bounces->cache.records();
+    return records;
 }
 
 /// The records' order decides in which order a look-up adds them, so the cache is always made from the list, whether
 /// it was computed or read from a file.
-KeyframeLight make_keyframe_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records) {
-    KeyframeLight keyframe{at, make_cache(at->shading)};
-    keyframe.cache.restore(records);
+KeyframeLight make_keyframe_light(std::shared_ptr<const KeyPose> at, const KeyframeRecords& records) {
+    KeyframeLight keyframe{at, make_cache(at->shading), records.further};
+    keyframe.cache.restore(records.seen);
     keyframe.cache.prepare();
     return keyframe;
 }
@@ -109,6 +112,12 @@ std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float 
     }
     if (!still_ && differ(*before, *after, weight_, accuracy)) return std::nullopt;
     return *before * (1.0f - weight_) + *after * weight_;
+}
+
+std::vector<IrradianceRecord> BlendedLight::find_further(const ShadingScene& frame) const {
+    if (!still_) return {};
+    const KeyframeLight& nearer = after_ && weight_ > 0.5f ? *after_ : *before_;
+    return shift_records(nearer.further, nearer.at->shading, frame);
 }
 
 std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accuracy, RayTask& task,

@@ -29,14 +29,21 @@ struct KeyView : KeyPose {
     RayCounts rays;          ///< of its first hits and its quick estimate
 };
 
+/// The records of a lighting keyframe.
+struct KeyframeRecords {
+    std::vector<IrradianceRecord> seen;     ///< at what cameras see
+    std::vector<IrradianceRecord> further;  ///< FurtherBounces, where other frames may read it
+};
+
 /// The light of a lighting keyframe.
 struct KeyframeLight {
     std::shared_ptr<const KeyPose> at;
     IrradianceCache cache;
+    std::vector<IrradianceRecord> further;  ///< of KeyframeRecords
 };
 
 /// @param records  of this keyframe, from compute_records
-KeyframeLight make_keyframe_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records);
+KeyframeLight make_keyframe_light(std::shared_ptr<const KeyPose> at, const KeyframeRecords& records);
 
 /// The first sample of every pixel of a view; adds its rays.
 using CastView = std::function<SampleHits(const KeyView& view, RayCounts& counts)>;
@@ -51,11 +58,12 @@ struct KeyframeInput {
     const CastView& cast;
     const CarriedLight* carried = nullptr;  ///< where it knows the light no records are needed; may be null
     const KeyframeLight* base = nullptr;    ///< its records hold at this keyframe too; may be null
+    bool still = false;                     ///< nothing but the camera changes
 };
 
 /// The records of a base keyframe, if there is one, and those computed at surfaces that they do not cover.
 /// @param counts  increased
-std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameCounts& counts);
+KeyframeRecords compute_records(const KeyframeInput& input, FrameCounts& counts);
 
 /// Light of the keyframes before and after a frame.
 class BlendedLight : public CarriedLight {
@@ -72,6 +80,8 @@ class BlendedLight : public CarriedLight {
 
     std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
                             RecordUse* used = nullptr) const override;
+    /// Those of the nearer keyframe, if nothing but the camera changes.
+    std::vector<IrradianceRecord> find_further(const ShadingScene& frame) const override;
 
   private:
     std::optional<Rgb> read(const KeyframeLight& keyframe, const PixelSurface& surface, float accuracy, RayTask& task,

@@ -34,14 +34,14 @@ std::filesystem::path LightStore::file_of(std::int64_t keyframe) const {
     return path_ / fmt::format("{}.{}.light", hash_bytes(format_fingerprint(fingerprint_)).substr(0, 16), keyframe);
 }
 
-std::optional<std::vector<IrradianceRecord>> LightStore::find(std::int64_t keyframe) const {
-    const KeyframeRecords read = is_folder_ ? read_cache_file(file_of(keyframe), fingerprint_) : KeyframeRecords();
-    const KeyframeRecords& known = is_folder_ ? read : records_;
+std::optional<KeyframeRecords> LightStore::find(std::int64_t keyframe) const {
+    const ShotRecords read = is_folder_ ? read_cache_file(file_of(keyframe), fingerprint_) : ShotRecords();
+    const ShotRecords& known = is_folder_ ? read : records_;
     const auto found = known.find(keyframe);
     return found == known.end() ? std::nullopt : std::optional(found->second);
 }
 
-void LightStore::keep(std::int64_t keyframe, const std::vector<IrradianceRecord>& records) {
+void LightStore::keep(std::int64_t keyframe, const KeyframeRecords& records) {
     if (is_folder_) {
         write_cache_file(file_of(keyframe), fingerprint_, {{keyframe, records}});
         return;

@@ -20,11 +20,11 @@ class LightStore {
     /// The records of a keyframe, if they are kept. The name of a folder's file has the fingerprint: files of other
     /// scenes, settings and programs may lie beside it.
     /// @throws InputError as read_cache_file
-    std::optional<std::vector<IrradianceRecord>> find(std::int64_t keyframe) const;
+    std::optional<KeyframeRecords> find(std::int64_t keyframe) const;
 
     /// Keeps the records of a keyframe: in a folder at once.
     /// @throws OutputError
-    void keep(std::int64_t keyframe, const std::vector<IrradianceRecord>& records);
+    void keep(std::int64_t keyframe, const KeyframeRecords& records);
 
     /// Writes the file, if there is anything to add to it.
     /// @throws OutputError
@@ -36,8 +36,8 @@ class LightStore {
     const std::filesystem::path path_;
     const Fingerprint fingerprint_;
     const bool is_folder_;
-    KeyframeRecords records_;  ///< of the file
-    bool changed_ = false;     ///< since the file was read or written
+    ShotRecords records_;   ///< of the file
+    bool changed_ = false;  ///< since the file was read or written
 };
 
 }  // namespace aleph

@@ -35,9 +35,9 @@ std::int64_t ShotLight::find_base(std::int64_t keyframe) const {
     return still_ && !unmoving_ ? find_base_keyframe(keyframes_, keyframe) : keyframe;
 }
 
-std::vector<IrradianceRecord> ShotLight::compute(std::int64_t keyframe, const std::vector<std::int64_t>& frames,
-                                                 const CarriedLight* carried, const KeyframeLight* base,
-                                                 std::vector<KeyframeStatistics>& filled) {
+KeyframeRecords ShotLight::compute(std::int64_t keyframe, const std::vector<std::int64_t>& frames,
+                                   const CarriedLight* carried, const KeyframeLight* base,
+                                   std::vector<KeyframeStatistics>& filled) {
     KeyframeStatistics statistics;
     statistics.frame = keyframe;
     StageClock clock;
@@ -51,8 +51,8 @@ std::vector<IrradianceRecord> ShotLight::compute(std::int64_t keyframe, const st
         views.push_back(view);
     }
     const LightingContext lighting = source_.light(keyframe);
-    const KeyframeInput input{keyframe, lighting, views, settings_, source_.cast, carried, base};
-    std::vector<IrradianceRecord> records = compute_records(input, statistics.counts);
+    const KeyframeInput input{keyframe, lighting, views, settings_, source_.cast, carried, base, still_};
+    KeyframeRecords records = compute_records(input, statistics.counts);
     clock.add_to(statistics.seconds);
     filled.push_back(statistics);
     return records;
@@ -62,7 +62,7 @@ void ShotLight::prepare(std::int64_t keyframe, const std::vector<std::int64_t>& 
                         std::vector<KeyframeStatistics>& filled) {
     std::shared_ptr<const KeyframeLight>& light = lights_[keyframe];
     if (light) return;
-    std::optional<std::vector<IrradianceRecord>> records;
+    std::optional<KeyframeRecords> records;
     if (store_) records = store_->find(keyframe);
     const std::int64_t base = find_base(keyframe);
     if (!records) {

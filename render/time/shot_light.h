@@ -58,9 +58,8 @@ class ShotLight {
     /// Finds the keyframe's light, or computes it at the surfaces of these views where `carried` does not know it.
     void prepare(std::int64_t keyframe, const std::vector<std::int64_t>& views, const CarriedLight* carried,
                  std::vector<KeyframeStatistics>& filled);
-    std::vector<IrradianceRecord> compute(std::int64_t keyframe, const std::vector<std::int64_t>& frames,
-                                          const CarriedLight* carried, const KeyframeLight* base,
-                                          std::vector<KeyframeStatistics>& filled);
+    KeyframeRecords compute(std::int64_t keyframe, const std::vector<std::int64_t>& frames, const CarriedLight* carried,
+                            const KeyframeLight* base, std::vector<KeyframeStatistics>& filled);
 
     LightingKeyframes keyframes_;
     const RenderSettings& settings_;

@@ -69,6 +69,16 @@ TEST_F(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
     EXPECT_THROW(Sequence(scene, exact).load_light(folder / "light"), InputError) << "its caustics are blurred";
 }
 
+TEST_F(CacheFile, IC22_ItKeepsLightOfFurtherBounces) {
+    const Scene walk = make_shot_with_moving_camera();
+    RenderSettings several = settings;
+    several.light.bounces = 3;
+    Sequence plain(walk, several);
+    const std::string expected = frame_bytes(plain, walk, several, 3);
+    EXPECT_TRUE(render_with(folder / "light", walk, several) == expected) << "there was no file";
+    EXPECT_TRUE(render_with(folder / "light", walk, several) == expected) << "from the file";
+}
+
 TEST_F(CacheFile, IC22_AFolderKeepsAFileForEachKeyframe) {
     Sequence plain(scene, settings);
     const std::string expected = frame_bytes(plain, scene, settings, 3);
@@ -188,8 +198,8 @@ TEST_F(CacheFile, IC22_DamagedFilesAreRefused) {
 /// Sizes inside the file cannot ask for memory that its length does not back, even if its checksum is right.
 TEST_F(CacheFile, IC22_SizesAreCheckedBeforeMemoryIsTaken) {
     const Fingerprint fingerprint{"b", "s", {}};
-    write_cache_file(folder / "light", fingerprint, {{5, {IrradianceRecord{}}}});
-    EXPECT_EQ(read_cache_file(folder / "light", fingerprint).at(5).size(), 1u);
+    write_cache_file(folder / "light", fingerprint, {{5, {{IrradianceRecord{}}, {IrradianceRecord{}}}}});
+    EXPECT_EQ(read_cache_file(folder / "light", fingerprint).at(5).seen.size(), 1u);
     const std::string good = read_bytes(folder / "light");
     for (std::size_t place = 8; place < good.size() - 40; place += 8) {
         std::string bad = good.substr(0, good.size() - 40);

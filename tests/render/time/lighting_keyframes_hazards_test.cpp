@@ -122,6 +122,20 @@ TEST(LightingKeyframes, FX10_WhereOnlyTheCameraMovesLightIsCarriedOver) {
     EXPECT_LT(relative_rms(render_alone(scene, shot_settings(10), 5), render_alone(scene, shot_settings(0), 5)), 0.05);
 }
 
+TEST(LightingKeyframes, FX10_WhereOnlyTheCameraMovesFurtherBouncesAreCarriedOver) {
+    const Scene scene = make_shot_with_moving_camera();
+    RenderSettings own = shot_settings(0), keyframes = shot_settings(10);
+    own.light.bounces = keyframes.light.bounces = 4;
+    Sequence sequence(scene, keyframes);
+    for (const int frame : {4, 6}) {
+        const FrameOutput out = sequence.render(frame);
+        EXPECT_EQ(out.statistics.counts.multi_bounce_rays, 0u) << frame;
+        EXPECT_LT(relative_rms(out.shaded.color, render_alone(scene, own, frame)), 0.05) << frame;
+    }
+    const FrameOutput moving = Sequence(make_shot_with_mover(), keyframes).render(4);
+    EXPECT_GT(moving.statistics.counts.multi_bounce_rays, 0u) << "what moves changes this light";
+}
+
 /// The camera crosses x = 8 m, where the origin of single-precision coordinates jumps by 16 m.
 TEST(LightingKeyframes, FX10_LightIsCarriedOverWhereTheAnchorChanges) {
     Scene scene = make_shot_with_moving_camera();
