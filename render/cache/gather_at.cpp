@@ -19,11 +19,15 @@ constexpr std::uint32_t gather_seed_mask = 0x67617468u;
 /// Keeps those of caches of different numbers of bounces apart.
 constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
 
-/// Records have random numbers of their place (make_place_key): a surface at rest that a camera at rest sees has the
-/// same noise at every time.
+/// Keeps those of frames apart.
+constexpr std::uint32_t frame_seed_step = 0x85ebca6bu;
+
+/// Records have random numbers of their place (make_place_key): a surface at rest has the same noise in all frames,
+/// unless the frame has a key.
 RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
     const std::uint32_t bounces = static_cast<std::uint32_t>(context.bounces.before);
-    const std::uint32_t seed = (context.settings.seed ^ gather_seed_mask) + bounces * turn_seed_step;
+    const std::uint32_t seed =
+        (context.settings.seed ^ gather_seed_mask) + bounces * turn_seed_step + context.record_key * frame_seed_step;
     return make_place_key(seed, surface.hit);
 }
 

@@ -1,0 +1,103 @@
+// Noise of records: what of it lasts is held to what goes unseen, it is new in each frame elsewhere, and it does not
+// decide whether a frame reads lighting keyframes.
+
+#include "tests/support/shot_scenes.h"
+#include "tests/support/test.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 48, height = 36, seeds = 6;
+constexpr int block = 4;  // pixels, over which the noise of samples cancels and that of records remains
+
+RenderSettings make_settings(int light_step) {
+    RenderSettings settings{.picture = {.width = width, .height = height}};
+    follow_error(settings, 1.0);
+    settings.cache.light_step = light_step;
+    return settings;
+}
+
+/// What each seed adds to the mean of all: luminance of blocks, over the noise of single pixels that goes unseen.
+std::vector<Image<double>> find_block_noise(const Scene& scene, RenderSettings settings, int frame) {
+    std::vector<Image<double>> noise;
+    Image<double> mean(width / block, height / block);
+    for (settings.seed = 1; settings.seed <= seeds; ++settings.seed) {
+        const FrameOutput out = Sequence(scene, settings).render(frame, {.frame = true, .maps = true, .progress = {}});
+        Image<double>& blocks = noise.emplace_back(width / block, height / block);
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const double shown = luminance(out.shaded.color(x, y)) * scene.film.viewing.display_white;
+                blocks(x / block, y / block) += shown / out.limits.threshold_noise(x, y) / (block * block);
+            }
+        }
+        for (std::size_t i = 0; i < mean.size(); ++i) mean.pixels[i] += blocks.pixels[i] / seeds;
+    }
+    for (Image<double>& blocks : noise) {
+        for (std::size_t i = 0; i < mean.size(); ++i) blocks.pixels[i] -= mean.pixels[i];
+    }
+    return noise;
+}
+
+/// Mean over seeds and blocks, from a row on, of the product of the noise of two frames.
+double mean_product(const std::vector<Image<double>>& a, const std::vector<Image<double>>& b, int first_row = 0) {
+    double sum = 0.0;
+    for (int s = 0; s < seeds; ++s) {
+        for (int y = first_row; y < height / block; ++y) {
+            for (int x = 0; x < width / block; ++x) sum += a[s](x, y) * b[s](x, y);
+        }
+    }
+    return sum / ((seeds - 1) * (height / block - first_row) * (width / block));
+}
+
+double find_deviation(const Scene& scene, int light_step, int frame) {
+    const std::vector<Image<double>> noise = find_block_noise(scene, make_settings(light_step), frame);
+    return std::sqrt(mean_product(noise, noise));
+}
+
+/// Most light comes from a spot on the red wall beside the lamp.
+Scene make_spot_on_wall(Scene scene) {
+    for (Node& node : scene.nodes) {
+        if (node.light >= 0) node.transform.translation = glm::dvec3(-2.9, 2.0, -1.0);
+    }
+    scene.film.exposure = 1.0;
+    return scene;
+}
+
+TEST(LightingKeyframes, TheirNoiseGoesUnseenWhereAnErrorIsAsked) {
+    for (const Scene& scene :
+         {make_spot_on_wall(make_shot_with_moving_camera()), make_spot_on_wall(make_shot_with_mover())}) {
+        EXPECT_LT(find_deviation(scene, 10, 4), 0.11) << "between two";
+        EXPECT_LT(find_deviation(scene, 10, 10), 0.11) << "at one";
+    }
+}
+
+/// On one large triangle, as in large pictures, records of different frames lie at the same places (make_place_key).
+/// The eye averages their noise if it is new. With uniform samples there are records everywhere, and on the floor no
+/// other noise.
+TEST(RecordNoise, IsNewInEachFrameWhereAnErrorIsAsked) {
+    Scene scene = make_spot_on_wall(make_shot_with_mover());
+    scene.meshes[0] = make_quad(600.0, 600.0, 0);
+    const auto correlate = [&](const RenderSettings& settings) {
+        const std::vector<Image<double>> a = find_block_noise(scene, settings, 4);
+        const std::vector<Image<double>> b = find_block_noise(scene, settings, 5);
+        constexpr int floor = 7;  // row of blocks
+        return mean_product(a, b, floor) / std::sqrt(mean_product(a, a, floor) * mean_product(b, b, floor));
+    };
+    RenderSettings settings = make_settings(0);
+    settings.sampling.rule = Sampling::uniform;
+    settings.sampling.spp = 4;
+    EXPECT_LT(correlate(settings), 0.2);
+    settings.error = 0.0;
+    EXPECT_GT(correlate(settings), 0.7) << "it lasts";
+}
+
+/// A small box moves in the far corner, and changes no light but there.
+TEST(LightingKeyframes, NoiseOfAProbeRejectsNoLight) {
+    RenderSettings settings = shot_settings(10);
+    settings.cache.gather = 1024;
+    const FrameOutput out = Sequence(make_spot_on_wall(make_shot_with_mover()), settings).render(5);
+    EXPECT_LT(out.statistics.counts.records, 40u);
+}
+
+}  // namespace
+}  // namespace aleph
