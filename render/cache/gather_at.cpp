@@ -22,12 +22,13 @@ constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
 /// Keeps those of frames apart.
 constexpr std::uint32_t frame_seed_step = 0x85ebca6bu;
 
-/// Records have random numbers of their place (make_place_key): a surface at rest has the same noise in all frames,
-/// unless the frame has a key.
+/// Records have random numbers of their place (make_place_key): a surface at rest has the same noise in all frames.
+/// Where an error is asked for, rays are chosen for noise that is new in each frame, which the eye averages.
 RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
     const std::uint32_t bounces = static_cast<std::uint32_t>(context.bounces.before);
+    const std::uint32_t frame = context.settings.error > 0.0 ? context.frame : 0u;
     const std::uint32_t seed =
-        (context.settings.seed ^ gather_seed_mask) + bounces * turn_seed_step + context.record_key * frame_seed_step;
+        (context.settings.seed ^ gather_seed_mask) + bounces * turn_seed_step + frame * frame_seed_step;
     return make_place_key(seed, surface.hit);
 }
 

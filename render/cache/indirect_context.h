@@ -41,7 +41,7 @@ struct IndirectContext {
     const CameraView& view;
     const RenderSettings& settings;
     const Image<float>& accuracy;           ///< alpha per pixel
-    std::uint32_t frame = 0;                ///< for random numbers of samples
+    std::uint32_t frame = 0;                ///< for random numbers
     float max_radius = 1.0f;                ///< m, of records: scene_radius
     FrameProgress progress;                 ///< may be empty
     FrameCheckpoint* checkpoint = nullptr;  ///< keeps the results of gathers; may be null
@@ -55,7 +55,6 @@ struct IndirectContext {
     /// Luminance that the mean of a pixel's samples may err by: records are computed only where they cost less than
     /// rays of samples. Null: everywhere.
     const Image<float>* tolerance = nullptr;
-    std::uint32_t record_key = 0;  ///< for random numbers of gathers, beside their place
     BounceContext bounces{};
 };
 
@@ -72,7 +71,6 @@ inline IndirectContext make_places_context(const IndirectContext& frame, const I
             .checkpoint = frame.checkpoint,
             .direct = frame.direct,
             .bright = frame.bright,
-            .record_key = frame.record_key,
             .bounces = frame.bounces};
 }
 

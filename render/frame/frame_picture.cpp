@@ -82,8 +82,7 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
                                   .max_radius = scene_radius(lighting.shading),
                                   .progress = request.progress,
                                   .checkpoint = request.checkpoint,
-                                  .carried = carried,
-                                  .record_key = s.shot.record_key(frame)};
+                                  .carried = carried};
     out.shaded = shade_frame(context, prepared.centers, s.shot.exposure, options);
     FrameStatistics& stats = out.statistics;
     stats.seconds.fill = out.shaded.fill_seconds;

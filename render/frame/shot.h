@@ -46,11 +46,6 @@ struct Shot {
     std::uint32_t noise_key(std::int64_t frame) const {
         return keeps_noise(frame) ? 0u : static_cast<std::uint32_t>(frame);
     }
-    /// Key of the random numbers of a frame's records, beside their place: where an error is asked for, places that are
-    /// seen again have new noise.
-    std::uint32_t record_key(std::int64_t frame) const {
-        return settings.error > 0.0 ? static_cast<std::uint32_t>(frame) : 0u;
-    }
     bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty() || shots.size() > 1; }
     /// Returns whether a camera has the same view at all times.
     bool is_still(int camera) const { return std::ranges::find(pose_plan.cameras, camera) == pose_plan.cameras.end(); }

@@ -37,6 +37,9 @@ class CacheIntegrator final : public LightIntegrator {
     void fill(const SampleHits& first) override {
         if (cached_ && input_.options.risk != nullptr)
             context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
+        if (needs_further() && context_.carried != nullptr)
+            further_bounces_ =
+                restore_further_bounces(context_, context_.carried->find_further(context_.lighting.shading));
         const std::vector<PixelSurface> seen = find_seen(first);
         if (needs_bright()) bright_ = find_bright_surfaces(context_.lighting, seen, input_.out.counts.rays);
         if (!bright_.empty()) context_.bright = &bright_;
@@ -94,16 +97,14 @@ class CacheIntegrator final : public LightIntegrator {
         std::vector<PixelSurface> seen;
         IndirectContext all = context_;
         all.carried = nullptr;
-        if (needs_bright() || needs_further()) add_seen_surfaces(all, first, seen, input_.out.counts.rays);
+        if (needs_bright() || (needs_further() && !further_bounces_))
+            add_seen_surfaces(all, first, seen, input_.out.counts.rays);
         return seen;
     }
 
     /// Finds light of further bounces, for gathers and for paths of samples.
     void solve_further(const std::vector<PixelSurface>& seen) {
         if (!needs_further()) return;
-        if (context_.carried != nullptr)
-            further_bounces_ =
-                restore_further_bounces(context_, context_.carried->find_further(context_.lighting.shading));
         if (!further_bounces_) further_bounces_ = solve_further_bounces(context_, seen, input_.out.counts);
         if (!further_bounces_) return;
         context_.bounces.further = make_multi_bounce_light(context_.settings, &*further_bounces_);

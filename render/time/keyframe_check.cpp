@@ -122,10 +122,12 @@ void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context,
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(count, 1);
     fill_places(cache, at_probes, {std::move(points), surface_at}, tally);
+    IndirectContext alone = context;
+    alone.direct = nullptr;
     std::vector<std::uint8_t> differ(probes_.size());
     cast_parallel(probes_.size(), 4, context.lighting.rays, tally.counts.rays, [&](int i, RayTask& task) {
         // Probes that another's record covers tell nothing new.
-        differ[i] = tally.records(i, 0) > 0.0f && differs(cache, context, probes_[i], task);
+        differ[i] = tally.records(i, 0) > 0.0f && differs(cache, alone, probes_[i], task);
     });
     std::ranges::fill(rejected_.pixels, std::uint8_t{0});
     for (int i = 0; i < count; ++i) {

@@ -47,7 +47,8 @@ class CheckedLight final : public CarriedLight {
     };
     void add_probes(const IndirectContext& context, int tile_x, int tile_y);
     void reject(const Probe& probe);
-    /// Probes whose records differ are gathered again: noise alone brings some of many that far.
+    /// A probe whose records differ is gathered again, since noise alone makes some of many differ.
+    /// @param context  without the direct light that gathers share: a resumed frame has not all of it yet
     bool differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe, RayTask& task) const;
 
     const CarriedLight& keyframes_;

@@ -31,13 +31,13 @@ class FrameCheckpointTest : public testing::TestWithParam<CheckpointCase> {
         }
     }
 
-    /// The frame's file with all channels.
+    /// The frame's file with all channels, and its rays.
     std::string render(const FrameRequest& request) const {
         Sequence sequence(scene_, settings_);
         const FrameOutput output = sequence.render(GetParam().frame, request);
         const ScratchFolder folder;
         write_exr(folder / "frame.exr", make_frame_image(output, true, scene_, settings_, sequence.exposure()));
-        return read_bytes(folder / "frame.exr");
+        return read_bytes(folder / "frame.exr") + std::to_string(output.statistics.counts.rays.total());
     }
 
     Scene scene_;
@@ -95,6 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
     Renders, FrameCheckpointTest,
     testing::Values(
         CheckpointCase{"asked_error", "pool/scene.json", 20, {{"error", 1.0}}},
+        CheckpointCase{"keyframes", "pool/scene.json", 23, {{"error", 1.0}, {"light_step", 10.0}}},
         CheckpointCase{"textures", "boomerang/scene.json", 22, {{"error", 1.0}}},
         CheckpointCase{"records",
                        "cornell/scene.json",
