@@ -19,6 +19,15 @@ constexpr double sampled_accuracy = 0.05;  // stands for that of a picture witho
 constexpr int fewest_rays = 64, most_record_rays = 1024;
 constexpr double record_noise_aim = 0.15;
 
+/// Pixels for each ray of a record, from the fewest on. Records do not grow in number with the picture, while their
+/// noise, common to all that see a wall, does not shrink with it as that of samples: so their work grows instead.
+constexpr int pixels_per_ray = 300;
+
+int choose_fewest_rays(const PictureSettings& picture) {
+    const std::int64_t pixels = std::int64_t{picture.width} * picture.height;
+    return static_cast<int>(std::clamp<std::int64_t>(pixels / pixels_per_ray, fewest_rays, most_record_rays));
+}
+
 /// The records' alpha. Records that reach far bring light from where there is more of it into corners: an error that
 /// lasts from frame to frame, and that is seen where noise of its size is not.
 float choose_alpha(const RenderSettings& settings) {
@@ -57,7 +66,7 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     std::vector<KeptRays> gathered;
     FillPlaces fill = make_fill_places(context.lighting.shading, places);
     fill.coarse_first = false;
-    fill.rays = fewest_rays;
+    fill.rays = choose_fewest_rays(context.settings.picture);
     fill.most_rays = most_record_rays;
     fill.noise = record_noise_aim;
     fill.gathered = &gathered;

@@ -23,12 +23,13 @@ constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
 constexpr std::uint32_t frame_seed_step = 0x85ebca6bu;
 
 /// Records have random numbers of their place (make_place_key): a surface at rest has the same noise in all frames.
-/// Where an error is asked for, rays are chosen for noise that is new in each frame, which the eye averages.
+/// Where an error is asked for, rays are chosen for noise that is new in each frame, which the eye averages. That of
+/// further bounces stays: it is common to whole walls, where flicker is seen sooner than an error that lasts.
 RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
     const std::uint32_t bounces = static_cast<std::uint32_t>(context.bounces.before);
-    const std::uint32_t frame = context.settings.error > 0.0 ? context.frame : 0u;
-    const std::uint32_t seed =
-        (context.settings.seed ^ gather_seed_mask) + bounces * turn_seed_step + frame * frame_seed_step;
+    const bool is_new = context.settings.error > 0.0 && context.bounces.before == 0;
+    const std::uint32_t seed = (context.settings.seed ^ gather_seed_mask) + bounces * turn_seed_step +
+                               (is_new ? context.frame : 0u) * frame_seed_step;
     return make_place_key(seed, surface.hit);
 }
 

@@ -195,6 +195,22 @@ TEST(SeveralBounces, IC23_TheyCostLessThanThePictureHoweverMany) {
     EXPECT_LT(many.rays.total(), 1.3 * three.rays.total());
 }
 
+/// Their noise is that of whole walls, which does not shrink with the pixels.
+TEST(SeveralBounces, RecordsTakeMoreRaysForALargePicture) {
+    const Stage stage(make_lit_sphere(), 96, 72);
+    const auto count_rays = [&](int width, int height) {
+        RenderSettings settings = cache_settings(2, 0.3, 64);
+        settings.picture.width = width;
+        settings.picture.height = height;
+        const FrameCounts counts = shade(stage, settings).counts;
+        EXPECT_GT(counts.multi_bounce_records, 20u);
+        return counts.multi_bounce_rays;
+    };
+    const std::uint64_t small = count_rays(96, 72);
+    EXPECT_EQ(count_rays(160, 120), small);
+    EXPECT_GT(count_rays(320, 240), small + small / 4);
+}
+
 TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {
     const Scene scene = make_shot_with_mover();
     for (const int light_step : {0, 4}) {

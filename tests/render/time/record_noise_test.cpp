@@ -1,6 +1,8 @@
 // Noise of records: what of it lasts is held to what goes unseen, it is new in each frame elsewhere, and it does not
 // decide whether a frame reads lighting keyframes.
 
+#include "render/cache/gather_at.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
 
@@ -89,6 +91,23 @@ TEST(RecordNoise, IsNewInEachFrameWhereAnErrorIsAsked) {
     EXPECT_LT(correlate(settings), 0.2);
     settings.error = 0.0;
     EXPECT_GT(correlate(settings), 0.7) << "it lasts";
+}
+
+TEST(RecordNoise, OfFurtherBouncesLasts) {
+    IndirectStage fill(make_spot_on_wall(make_shot_with_mover()), width, height, 0.15);
+    fill.settings.error = 1.0;
+    RayTask task(fill.stage.rays);
+    GatherScratch scratch;
+    const auto gather = [&](int bounces_before, std::uint32_t frame) {
+        fill.context.bounces.before = bounces_before;
+        fill.context.frame = frame;
+        const PixelSurface surface =
+            make_pixel_surface(fill.stage.shading, fill.stage.view, fill.centers, width / 2, height - 4);
+        return gather_at(fill.context, task, surface, scratch, 64).irradiance;
+    };
+    EXPECT_GT(gather(1, 4).g, 0.0f);
+    EXPECT_EQ(gather(1, 4), gather(1, 5));
+    EXPECT_NE(gather(0, 4), gather(0, 5));
 }
 
 /// A small box moves in the far corner, and changes no light but there.
