@@ -86,7 +86,7 @@ struct ShadedFrame : FrameTally {
     double fill_seconds = 0.0, shade_seconds = 0.0;
 };
 
-/// Reports the progress of a frame: 0 to 1, and the stage's name. May be called from any thread.
+/// Reports the progress of a frame: 0 to 1, and the stage's name. Called from the thread that renders the frame.
 using FrameProgress = std::function<void(double fraction, const char* stage)>;
 
 }  // namespace aleph

@@ -10,9 +10,9 @@
 #include "render/images/image_sequence.h"
 #include "render/output/frame_files.h"
 #include "render/python/arrays.h"
-#include "render/python/background.h"
 #include "render/python/bindings.h"
 #include "render/python/frame_object.h"
+#include "render/python/long_work.h"
 #include "render/python/scene_object.h"
 #include "render/python/settings_object.h"
 #include "render/settings/motion_source.h"
@@ -64,7 +64,7 @@ std::vector<std::shared_ptr<Frame>> make_maps(const py::sequence& images, const 
     given.settings.guide.motion = source_for_pictures(given.settings.guide.motion);
     std::vector<std::shared_ptr<Frame>> frames;
     const auto origin = describe_origin(shot, given.settings, 1.0);
-    run_in_background(threads, on_progress, [&](const FrameProgress& progress) {
+    run_without_lock(threads, on_progress, [&](const FrameProgress& progress) {
         const auto count = static_cast<std::int64_t>(pictures.size());
         ImageSequence sequence(shot, std::move(pictures), given.settings);
         for (std::int64_t i = 0; i < count; ++i) {

@@ -3,12 +3,14 @@
 #include <pybind11/stl.h>
 
 #include <mutex>
+#include <optional>
 
+#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "render/frame/sequence.h"
-#include "render/python/background.h"
 #include "render/python/bindings.h"
 #include "render/python/frame_object.h"
+#include "render/python/long_work.h"
 #include "render/python/scene_object.h"
 #include "render/python/settings_object.h"
 
@@ -16,21 +18,37 @@ namespace aleph::python {
 
 namespace {
 
+/// A turn at a sequence that Python threads share.
+class Turn {
+  public:
+    /// @param busy  of the sequence, while its turn lasts
+    /// @throws InputError where this thread has not ended its turn: in the report of a frame, or in an edit
+    Turn(std::recursive_mutex& mutex, bool& busy) : lock_(mutex), busy_(busy) {
+        if (busy_) throw InputError("", "Sequence", "on_progress and change cannot use the sequence that calls them");
+        busy_ = true;
+    }
+    ~Turn() { busy_ = false; }
+
+  private:
+    std::unique_lock<std::recursive_mutex> lock_;
+    bool& busy_;
+};
+
 class PythonSequence {
   public:
     PythonSequence(const py::object& source, const std::string& camera, int threads, const py::dict& arguments)
         : threads_(threads) {
         Scene scene = py::isinstance<Scene>(source) ? source.cast<const Scene&>() : *load(source, py::str("."));
         given_ = read_settings(scene, arguments, true);
-        run_in_background(threads_, py::none(), [&](const FrameProgress&) {
+        run_without_lock(threads_, py::none(), [&](const FrameProgress&) {
             sequence_ = std::make_unique<Sequence>(std::move(scene), given_.settings, camera);
         });
     }
 
     std::shared_ptr<Frame> render(std::int64_t number, bool maps, bool picture, const py::object& on_progress) {
         auto frame = std::make_shared<Frame>();
-        run_in_background(threads_, on_progress, [&](const FrameProgress& progress) {
-            const std::lock_guard lock(mutex_);
+        run_without_lock(threads_, on_progress, [&](const FrameProgress& progress) {
+            const Turn turn(mutex_, busy_);
             FrameRequest request;
             request.frame = picture;
             request.maps = maps;
@@ -43,10 +61,10 @@ class PythonSequence {
     }
 
     void edit(const py::function& change) {
-        std::unique_lock lock(mutex_, std::defer_lock);
+        std::optional<Turn> turn;
         {
             const py::gil_scoped_release release;  // the frame that is made may need it
-            lock.lock();
+            turn.emplace(mutex_, busy_);
         }
         sequence_->edit([&](Scene& scene) {
             const auto edited = std::make_shared<Scene>(std::move(scene));
@@ -68,7 +86,8 @@ class PythonSequence {
     double exposure() const { return sequence_->exposure(); }
 
   private:
-    std::mutex mutex_;  ///< Python threads may share this: one at a time
+    std::recursive_mutex mutex_;
+    bool busy_ = false;
     int threads_;
     GivenSettings given_;
     std::unique_ptr<Sequence> sequence_;  ///< after what its settings point to

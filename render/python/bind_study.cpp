@@ -7,8 +7,8 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "render/python/background.h"
 #include "render/python/bindings.h"
+#include "render/python/long_work.h"
 #include "render/python/scene_object.h"
 #include "render/study/prepared_study.h"
 #include "render/study/run_study.h"
@@ -32,7 +32,7 @@ py::tuple run(const py::object& source, const py::object& folder, int threads, c
     Study study = take_study(source);
     const std::filesystem::path kept = to_path(folder);
     std::string csv, json;
-    run_in_background(threads, on_progress, [&](const FrameProgress& progress) {
+    run_without_lock(threads, on_progress, [&](const FrameProgress& progress) {
         const PreparedStudy prepared = prepare_study(std::move(study));
         const auto show = [&](double share, const std::string& what) { progress(share, what.c_str()); };
         const StudyResults results =

@@ -132,6 +132,15 @@ def test_python_threads_share_a_sequence(ball):
     assert all(map(np.array_equal, results, expected))
 
 
+def test_a_sequence_is_not_used_while_it_renders(ball):
+    sequence = aleph.Sequence(ball, **QUICK)
+    with pytest.raises(aleph.InputError, match="cannot use the sequence"):
+        sequence.render(3, on_progress=lambda share, stage: sequence.render(4))
+    with pytest.raises(aleph.InputError, match="cannot use the sequence"):
+        sequence.edit(lambda scene: sequence.render(4))
+    assert np.array_equal(sequence.render(3).color, aleph.render(ball, 3, **QUICK).color)
+
+
 def test_memory_does_not_grow(ball):
     def render(times):
         for _ in range(times):
