@@ -3,7 +3,6 @@
 
 #include <ostream>
 
-#include "engine/base/parallel.h"
 #include "motion/model_motion.h"
 #include "tests/support/child_node.h"
 #include "tests/support/motion_scenes.h"
@@ -167,15 +166,6 @@ TEST_P(MotionTruth, TheSameMomentTwiceGivesExactlyZero) {
         ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0));
         ASSERT_EQ(field.path_length.pixels[i], 0.0);
     }
-}
-
-TEST_P(MotionTruth, SameBitsForAnyNumberOfThreads) {
-    const Image<Hit> hits = make_random_hits(scene_, pose(scene_, 0.3), width, height);
-    const auto run = [&](int threads) {
-        const ThreadLimit limit(threads);
-        return motion_between(scene_, 0.3, 0.3 + 1.0 / 30.0, hits);
-    };
-    expect_same_field(run(1), run(4));
 }
 
 INSTANTIATE_TEST_SUITE_P(

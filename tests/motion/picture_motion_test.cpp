@@ -5,7 +5,6 @@
 #include "tests/support/image_patterns.h"
 #include "tests/support/numbers.h"
 #include "tests/support/test.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {
@@ -167,23 +166,6 @@ TEST(PictureMotion, FlowTakesPicturesOfEverySizeAndValue) {
     });
     for (const glm::dvec2& d : find_motion(bad, bad, PictureSearch::flow).there.displacement.pixels)
         EXPECT_LT(glm::length(d), 0.1);
-}
-
-TEST(PictureMotion, SameForAnyNumberOfThreadsAndEveryTime) {
-    const Image<Rgb> first = MovedSquare{}.draw(),
-                     second = MovedSquare{.wall = {1.3, 2.6}, .square = {6.4, 0.0}}.draw();
-    for (const PictureSearch search : checked_searches()) {
-        const auto run = [&](int threads) {
-            return with_threads(threads, [&] { return find_motion(first, second, search); });
-        };
-        const PictureMotions one = run(1);
-        for (const int threads : {1, 2, 7}) {
-            const PictureMotions again = run(threads);
-            EXPECT_EQ(one.there.displacement, again.there.displacement);
-            EXPECT_EQ(one.back.displacement, again.back.displacement);
-            EXPECT_EQ(one.there.validity, again.there.validity);
-        }
-    }
 }
 
 TEST(PictureMotion, SizesMustAgree) {

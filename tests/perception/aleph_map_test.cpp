@@ -1,7 +1,6 @@
 // The float rows of the last pass against the double formulas, and compute_perception as a whole.
 
 #include "perception/aleph_map.h"
-#include "engine/base/parallel.h"
 #include "perception/perception.h"
 #include "perception/vision/fast_math.h"
 #include "perception/vision/kelly_vision.h"
@@ -93,24 +92,6 @@ TEST(Perception, MeasuredBandsAreStricter) {
         return mean_of(compute_perception(frame.estimate, frame.velocity, {}, {}, {.bands = bands}).aleph);
     };
     EXPECT_LT(aleph_with(Bands::measured), aleph_with(Bands::printed));
-}
-
-TEST(Perception, SameBitsForAnyNumberOfThreadsAndAfterOtherSizes) {
-    const SyntheticFrame frame = make_synthetic_frame(203, 151);
-    for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
-        const auto maps_with = [&](int threads) {
-            const ThreadLimit limit(threads);
-            return compute_perception(frame.estimate, frame.velocity, {}, {}, {.grid = grid}, {true, true});
-        };
-        const PerceptionMaps one = maps_with(1);
-        for (const int threads : {2, 3, 8}) {
-            const PerceptionMaps many = maps_with(threads);
-            EXPECT_EQ(many.aleph, one.aleph);
-            EXPECT_EQ(many.saliency, one.saliency);
-            EXPECT_EQ(many.retinal_velocity, one.retinal_velocity);
-            EXPECT_EQ(many.conspicuity_orientation, one.conspicuity_orientation);
-        }
-    }
 }
 
 TEST(Perception, OutputsAreThoseAskedFor) {

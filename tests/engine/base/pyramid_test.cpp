@@ -1,7 +1,6 @@
 // Gaussian pyramids against zero insertion and convolution in double (perception_reference.h).
 
 #include "engine/base/pyramid.h"
-#include "engine/base/parallel.h"
 #include "engine/base/sampling.h"
 #include "tests/support/perception_reference.h"
 #include "tests/support/test.h"
@@ -93,17 +92,6 @@ INSTANTIATE_TEST_SUITE_P(Pyramid, EverySize,
                          testing::Values(LevelSize{1, 1}, LevelSize{2, 2}, LevelSize{1, 9}, LevelSize{9, 1},
                                          LevelSize{2, 5}, LevelSize{3, 4}, LevelSize{17, 33}, LevelSize{64, 48},
                                          LevelSize{101, 70}));
-
-TEST(Pyramid, SameBitsForAnyNumberOfThreads) {
-    const Image<float> image = random_image(333, 211);
-    const auto levels_with = [&](int threads) {
-        const ThreadLimit limit(threads);
-        return make_gaussian_pyramid(image, 9);
-    };
-    const auto one = levels_with(1);
-    EXPECT_EQ(levels_with(2), one);
-    EXPECT_EQ(levels_with(4), one);
-}
 
 }  // namespace
 }  // namespace aleph

@@ -8,7 +8,7 @@ namespace aleph {
 
 struct BadChange {
     const char* name;
-    const char* place;   ///< of the error, exactly
+    std::string place;   ///< of the error, exactly
     const char* reason;  ///< a part of the error's
     std::function<void(GltfDraft&)> change;
 };
@@ -17,6 +17,11 @@ struct BadChange {
     BadChange {                                                \
         name, place, reason, [](GltfDraft& d) { __VA_ARGS__; } \
     }
+
+/// The value where the error must be found: the last argument is assigned there.
+#define SET(name, place, reason, ...) BAD(name, place, reason, d.json[Json::json_pointer(place)] = __VA_ARGS__)
+
+inline const std::string material_extension = "/materials/0/extensions/KHR_materials_";
 
 inline std::string bad_name(const testing::TestParamInfo<BadChange>& info) {
     return info.param.name;

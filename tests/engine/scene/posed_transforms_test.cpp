@@ -48,6 +48,7 @@ TEST(Transforms, KF21_ShearedKeysComeBackAsTheyWere) {
         if (!same_side) continue;  // two ways, one path
         const glm::dmat4 there = interpolate_matrix(keys[i - 1], keys[i], 0.3);
         EXPECT_LT(distance(there, interpolate_matrix(keys[i], keys[i - 1], 0.7)), 1e-12);
+        EXPECT_EQ(orientation_sign(there), orientation_sign(keys[i]));  // it does not collapse on the way
     }
 }
 

@@ -191,9 +191,11 @@ TEST(MapsImages, SameBytesForAnyThreadsOrderAndCompany) {
         EXPECT_EQ(frames.run(more).code, 0);
         return read_bytes(frames.folder.path() / "out" / "f-maps.0002.exr");
     };
-    const std::string alone = bytes_of_frame_2({"--frames", "2", "-t", "1"});
-    EXPECT_EQ(alone, bytes_of_frame_2({"-t", "2"}));
-    EXPECT_EQ(alone, bytes_of_frame_2({"--frames", "3,1,2"}));
+    for (const char* motion : has_flow() ? std::vector{"image", "flow"} : std::vector{"image"}) {
+        const std::string alone = bytes_of_frame_2({"--motion", motion, "--frames", "2", "-t", "1"});
+        EXPECT_EQ(alone, bytes_of_frame_2({"--motion", motion, "-t", "2"}));
+        EXPECT_EQ(alone, bytes_of_frame_2({"--motion", motion, "--frames", "3,1,2"}));
+    }
 }
 
 /// The picture as it is, and five maps (MapPreview).

@@ -9,7 +9,6 @@
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {
@@ -109,16 +108,6 @@ TEST(IndirectEstimate, HasNoDetailOnAWall) {
     EXPECT_GT(lowest, 0.0);
     EXPECT_LT(highest, 4.0 * lowest);
     EXPECT_LT(largest, 0.03);
-}
-
-TEST(IndirectEstimate, IsTheSameForAnyNumberOfThreads) {
-    const Stage stage(make_room(), 60, 44);
-    RayCounts counts, counts_of_five;
-    const Image<Rgb> one = with_threads(1, [&] { return estimate(stage, true, counts); });
-    const Image<Rgb> five = with_threads(5, [&] { return estimate(stage, true, counts_of_five); });
-    EXPECT_EQ(one.pixels, five.pixels);
-    EXPECT_GT(counts.gather, 0u);
-    EXPECT_EQ(counts.gather, counts_of_five.gather);
 }
 
 TEST(IndirectEstimate, NoBouncesMeansNone) {

@@ -175,7 +175,7 @@ TEST(SeveralBounces, IC23_EverySampleFindsTheLightOfAllBounces) {
 
 TEST(SeveralBounces, IC23_AFurnaceGainsNoLight) {
     const Stage stage(make_sphere(glm::dvec3(1.0)), 16, 12);
-    for (const int bounces : {2, 4}) {
+    for (const int bounces : {0, 1, 2, 4}) {
         const double expected = sum_of_powers(bounces + 1);
         const Mean mean = mean_of_pixels(shade(stage, cache_settings(bounces, 0.3, 64)));
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected) << bounces;

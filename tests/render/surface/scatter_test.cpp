@@ -189,7 +189,7 @@ std::array<Mean, keyframe_count> sample_keyframes(const LitSurface& lit, int cou
 
 TEST(Scatter, SamplesAndIntegralAgree) {
     for (const NamedMaterial& entry : list_rough_materials()) {
-        for (const float cosine : {1.0f, 0.7f, 0.25f}) {
+        for (const float cosine : {1.0f, 0.7f, 0.25f, 0.05f}) {
             const ViewedSurface surface = make_viewed(entry.material, direction_of(cosine));
             const LitSurface lit(surface);
             const Moments integrals = integrate_scattered(lit);

@@ -5,7 +5,6 @@
 #include "render/time/lighting_keyframes.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {
@@ -115,18 +114,6 @@ TEST(EstimateKeyframes, MapsAreThoseOfThePicture) {
             EXPECT_TRUE(maps.estimate.pixels == both.estimate.pixels) << step << " " << frame;
             EXPECT_TRUE(maps.limits.alpha.pixels == both.limits.alpha.pixels) << step << " " << frame;
         }
-    }
-}
-
-TEST(EstimateKeyframes, MapsAreTheSameAloneAndOnAnyThreads) {
-    const Scene scene = make_riding_shot();
-    Sequence sequence(scene, estimate_settings(4));
-    for (const int frame : {2, 3, 4, 7, 13, 1}) {
-        const Image<Rgb> together = sequence.render(frame, only_maps).estimate;
-        with_threads(3, [&] {
-            const Image<Rgb> alone = Sequence(scene, estimate_settings(4)).render(frame, only_maps).estimate;
-            EXPECT_TRUE(alone.pixels == together.pixels) << frame;
-        });
     }
 }
 
