@@ -10,7 +10,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/opponent_color.h"
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "engine/base/pyramid.h"
 
 namespace aleph {
@@ -163,14 +163,9 @@ Offset search_in_steps(const CensusLevel& now, const CensusLevel& other, int x, 
 
 Image<Offset> refine(const CensusLevel& now, const CensusLevel& other, const Image<Offset>& coarse) {
     Image<Offset> fine(now.width, now.height);
-    parallel_rows(now.height, rows_per_chunk, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            const Offset* const from = coarse.row(y / 2);
-            for (int x = 0; x < now.width; ++x) {
-                const Offset& half = from[x / 2];
-                fine(x, y) = search_in_steps(now, other, x, y, {2 * half.x, 2 * half.y});
-            }
-        }
+    parallel_pixels(fine, rows_per_chunk, [&](int x, int y) {
+        const Offset& half = coarse(x / 2, y / 2);
+        fine(x, y) = search_in_steps(now, other, x, y, {2 * half.x, 2 * half.y});
     });
     return fine;
 }

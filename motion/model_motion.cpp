@@ -8,11 +8,38 @@
 #include <numbers>
 
 #include "engine/base/errors.h"
-#include "engine/base/parallel.h"
-#include "motion/object_motion.h"
+#include "engine/base/pixel_loops.h"
 #include "motion/reprojection.h"
 
 namespace aleph {
+
+/// An instance, or the background.
+struct ObjectMotion {
+    CameraFromObject now, other;
+    bool counterpart = false;  ///< shown in the other frame too
+    bool still = false;        ///< both projections are the same bits
+    bool deforms = false;
+    const Mesh* mesh = nullptr;
+    const PosedMesh* shape_now = nullptr;
+    const PosedMesh* shape_other = nullptr;
+    /// Its place and shape at a time between the frames.
+    struct Step {
+        CameraFromObject place;
+        PosedMesh shape;
+    };
+    /// From now towards other, where it turns too far for one chord. Else empty.
+    std::vector<Step> steps;
+};
+
+struct PreparedMotion {
+    CameraView now, other;
+    std::vector<CameraView> steps;      ///< times between the frames, from now towards other
+    std::vector<ObjectMotion> objects;  ///< as SeenInstances numbers them
+    ObjectMotion background;
+    double sign = 1.0;  ///< displacement_sign
+    double diagonal = 0.0;
+};
+
 namespace {
 
 /// The turn (of an object or the camera) that one chord of the path may stand for, radians.
@@ -142,6 +169,46 @@ PixelMotion compute_hit_motion(const PreparedMotion& all, const ObjectMotion& ob
     return compute_point_motion(all, object, {point, point, &hit}, nearest_depth(all.now), nearest_depth(all.other));
 }
 
+bool same_projection(const CameraView& a, const CameraView& b) {
+    return a.width == b.width && a.height == b.height && a.orthographic == b.orthographic &&
+           a.pixels_per_unit == b.pixels_per_unit && a.axis_offset == b.axis_offset;
+}
+
+/// Objects and background at both frames, without steps. Refers to the scene and to both poses.
+PreparedMotion prepare_motion(const Scene& scene, const PosedView& now, const PosedView& other, OtherFrame which,
+                              const SeenInstances& seen) {
+    PreparedMotion motion;
+    motion.now = now.view;
+    motion.other = other.view;
+    motion.sign = displacement_sign(which);
+    motion.diagonal = std::hypot(now.view.width, now.view.height);
+    const bool same = same_projection(motion.now, motion.other);
+
+    motion.background.counterpart = true;
+    motion.background.now = make_background_map(motion.now, motion.now);
+    motion.background.other = make_background_map(motion.now, motion.other);
+    motion.background.still = motion.now.orthographic || (same && motion.background.now == motion.background.other);
+
+    const std::vector<Instance>&instances = now.pose.instances, &other_instances = other.pose.instances;
+    motion.objects.resize(seen.instances().size());
+    for (std::size_t i = 0; i < motion.objects.size(); ++i) {
+        const auto place = static_cast<std::size_t>(seen.instances()[i]);
+        const Instance& instance = instances[place];
+        ObjectMotion& object = motion.objects[i];
+        object.mesh = &scene.meshes[instance.mesh];
+        object.now = make_camera_from_object(motion.now, now.pose.world[instance.node]);
+        // The list of instances is the same at every time; poses of different scenes have no counterparts.
+        if (place >= other_instances.size() || !(other_instances[place] == instance)) continue;
+        object.counterpart = other.pose.shown[place] != 0;
+        object.other = make_camera_from_object(motion.other, other.pose.world[instance.node]);
+        object.shape_now = &now.pose.meshes[instance.mesh];
+        object.shape_other = &other.pose.meshes[instance.mesh];
+        object.deforms = !object.shape_now->positions.empty();
+        object.still = same && object.now == object.other && *object.shape_now == *object.shape_other;
+    }
+    return motion;
+}
+
 }  // namespace
 
 ModelMotion::ModelMotion(const Scene& scene, const PosePlan& plan) : scene_(scene), plan_(plan), turns_(scene, plan) {}
@@ -197,18 +264,14 @@ MotionField ModelMotion::compute(const PosedView& now, const PosedView& other, c
     PreparedMotion all = prepare_motion(scene_, now, other, which, seen_);
     add_steps(all, now, other);
     constexpr int rows_per_chunk = 8;
-    parallel_rows(hits.height, rows_per_chunk, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < hits.width; ++x) {
-                const Hit& hit = hits(x, y);
-                const PixelMotion motion = hit.instance == no_index
-                                               ? compute_background_motion(all, x + 0.5, y + 0.5)
-                                               : compute_hit_motion(all, all.objects[seen_.number(hit.instance)], hit);
-                field.displacement(x, y) = motion.displacement;
-                field.path_length(x, y) = motion.path_length;
-                field.validity(x, y) = motion.validity;
-            }
-        }
+    parallel_pixels(hits, rows_per_chunk, [&](int x, int y) {
+        const Hit& hit = hits(x, y);
+        const PixelMotion motion = hit.instance == no_index
+                                       ? compute_background_motion(all, x + 0.5, y + 0.5)
+                                       : compute_hit_motion(all, all.objects[seen_.number(hit.instance)], hit);
+        field.displacement(x, y) = motion.displacement;
+        field.path_length(x, y) = motion.path_length;
+        field.validity(x, y) = motion.validity;
     });
     return field;
 }
@@ -221,16 +284,12 @@ MotionField compute_model_motion(const Scene& scene, const PosedView& now, const
 
 MotionField make_still_motion(const CameraView& view, const Image<Hit>& hits) {
     MotionField field = make_motion_field(hits.width, hits.height, MotionValidity::background);
-    parallel_rows(hits.height, 16, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < hits.width; ++x) {
-                const Hit& hit = hits(x, y);
-                if (hit.instance == no_index) continue;
-                const CameraRay ray = make_camera_ray(view, x + 0.5, y + 0.5);
-                const double depth = -(ray.direction * view.axes).z * hit.distance;
-                field.validity(x, y) = depth > view.near_plane ? MotionValidity::valid : MotionValidity::behind_camera;
-            }
-        }
+    parallel_pixels(hits, 16, [&](int x, int y) {
+        const Hit& hit = hits(x, y);
+        if (hit.instance == no_index) return;
+        const CameraRay ray = make_camera_ray(view, x + 0.5, y + 0.5);
+        const double depth = -(ray.direction * view.axes).z * hit.distance;
+        field.validity(x, y) = depth > view.near_plane ? MotionValidity::valid : MotionValidity::behind_camera;
     });
     return field;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 
 namespace aleph {
 namespace {
@@ -31,17 +31,13 @@ MotionValidity check(int x, int y, const glm::dvec2& way, const Image<glm::dvec2
 MotionField make_checked(const Image<glm::dvec2>& ways, const Image<glm::dvec2>& back) {
     MotionField field = make_motion_field(ways.width, ways.height, MotionValidity::no_counterpart);
     const double longest = std::hypot(ways.width, ways.height);
-    parallel_rows(ways.height, 8, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < ways.width; ++x) {
-                const MotionValidity validity = check(x, y, ways(x, y), back);
-                field.validity(x, y) = validity;
-                if (validity == MotionValidity::no_counterpart) continue;
-                const double length = glm::length(ways(x, y));
-                field.path_length(x, y) = std::min(length, longest);
-                field.displacement(x, y) = length > longest ? ways(x, y) * (longest / length) : ways(x, y);
-            }
-        }
+    parallel_pixels(ways, 8, [&](int x, int y) {
+        const MotionValidity validity = check(x, y, ways(x, y), back);
+        field.validity(x, y) = validity;
+        if (validity == MotionValidity::no_counterpart) return;
+        const double length = glm::length(ways(x, y));
+        field.path_length(x, y) = std::min(length, longest);
+        field.displacement(x, y) = length > longest ? ways(x, y) * (longest / length) : ways(x, y);
     });
     return field;
 }

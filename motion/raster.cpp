@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "engine/rays/ray_scene.h"
 #include "motion/reprojection.h"
 
@@ -222,7 +222,10 @@ MotionField compute_raster_motion(ModelMotion& model, const Scene& scene, const 
                                   const Image<Hit>& items, OtherFrame which) {
     MotionField field = model.compute(now, other, items, which);
     const double sign = displacement_sign(which), longest = std::hypot(items.width, items.height);
-    const auto measure_from_center = [&](int x, int y) {
+    parallel_pixels(items, 8, [&](int x, int y) {
+        const MotionValidity validity = field.validity(x, y);
+        if (validity != MotionValidity::valid && validity != MotionValidity::leaves_screen) return;
+        // Measured from the pixel's centre.
         const Hit& item = items(x, y);
         const auto [node, mesh] = now.pose.instances[item.instance];
         const CameraFromObject place = make_camera_from_object(now.view, now.pose.world[node]);
@@ -233,15 +236,6 @@ MotionField compute_raster_motion(ModelMotion& model, const Scene& scene, const 
         const double length = glm::length(displacement);
         if (length > longest) displacement *= longest / length;
         field.path_length(x, y) = std::min(length, longest);
-    };
-    parallel_rows(items.height, 8, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < items.width; ++x) {
-                const MotionValidity validity = field.validity(x, y);
-                if (validity == MotionValidity::valid || validity == MotionValidity::leaves_screen)
-                    measure_from_center(x, y);
-            }
-        }
     });
     return field;
 }

@@ -8,9 +8,9 @@
 
 namespace aleph {
 
-BandLevels make_band_levels(LevelSize size, RowSource finest, const std::vector<Image<float>>& a, float grey) {
+BandLevels make_band_levels(std::vector<Image<float>>& a, float grey) {
     BandLevels out;
-    out.sizes = pyramid_sizes(size.width, size.height, band_count + 1);
+    out.sizes = pyramid_sizes(a[0].width, a[0].height, band_count + 1);
     out.grey = grey;
     parallel_for(band_count - 1, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin + 1; i < end + 1; ++i) {
@@ -21,18 +21,15 @@ BandLevels make_band_levels(LevelSize size, RowSource finest, const std::vector<
             out.differences[i] = std::move(difference);
         }
     });
-    out.finest = std::move(finest);
+    out.finest = std::move(a[0]);
     out.second = a[1];
     out.coarsest = a[band_count];
     return out;
 }
 
 BandRows::BandRows(const BandLevels& levels)
-    : levels_(levels),
-      expanders_(band_count + 1, RowExpander(levels.sizes)),
-      finest_(levels.sizes.front().width),
-      noise_(finest_.size()) {
-    for (std::vector<float>& row : rows_) row.resize(finest_.size());
+    : levels_(levels), expanders_(band_count + 1, RowExpander(levels.sizes)), noise_(levels.sizes.front().width) {
+    for (std::vector<float>& row : rows_) row.resize(noise_.size());
 }
 
 void BandRows::load(int begin, int end) {
@@ -46,8 +43,7 @@ void BandRows::load(int begin, int end) {
 void BandRows::expand_row(int y) {
     for (int i = 0; i < band_count; ++i) expanders_[i].expand_row(y, rows_[i].data());
     expanders_[band_count].expand_row(y, noise_.data());
-    levels_.finest(y, finest_.data());
-    const float* const finest = finest_.data();
+    const float* const finest = levels_.finest.row(y);
     float* const band_0 = rows_[0].data();
     float* const noise = noise_.data();
     const float grey = levels_.grey;
@@ -59,18 +55,16 @@ void BandRows::expand_row(int y) {
     }
 }
 
-ChannelSummary summarize(LevelSize size, const RowSource& source) {
-    std::vector<double> sums(size.height);
-    std::vector<float> maxima(size.height);
-    parallel_rows(size.height, rows_per_band, [&](int begin, int end) {
-        std::vector<float> row(size.width);
+ChannelSummary summarize(const Image<float>& channel) {
+    std::vector<double> sums(channel.height);
+    std::vector<float> maxima(channel.height);
+    parallel_rows(channel.height, rows_per_band, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {
-            source(y, row.data());
-            const float* const values = row.data();
+            const float* const values = channel.row(y);
             double sum = 0.0;
             float highest = values[0];
 #pragma omp simd reduction(+ : sum) reduction(max : highest)
-            for (int x = 0; x < size.width; ++x) {
+            for (int x = 0; x < channel.width; ++x) {
                 sum += values[x];
                 highest = values[x] > highest ? values[x] : highest;
             }
@@ -79,7 +73,7 @@ ChannelSummary summarize(LevelSize size, const RowSource& source) {
         }
     });
     const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
-    return {static_cast<float>(sum / (static_cast<double>(size.width) * size.height)),
+    return {static_cast<float>(sum / static_cast<double>(channel.size())),
             *std::max_element(maxima.begin(), maxima.end())};
 }
 

@@ -15,17 +15,15 @@ namespace aleph {
 struct BandLevels {
     std::vector<LevelSize> sizes;                      ///< of levels 0..7
     float grey = 0.0f;                                 ///< subtracted from A, so that weak bands keep more digits
-    RowSource finest;                                  ///< A(0) - grey
-    Image<float> second, coarsest;                     ///< A(1), A(7), minus grey
+    Image<float> finest, second, coarsest;             ///< A(0), A(1), A(7), minus grey
     std::array<Image<float>, band_count> differences;  ///< A(i) - expanded A(i+1), i >= 1
 };
 
 /// Where the sum of the bands is at most band_noise * max(|A0|, |A7|), it is rounding: R_6 = 1, the others are 0.
 inline constexpr float band_noise = 1e-5f;
 
-/// @param finest  A - grey; what it reads from must outlive the result
-/// @param a       Gaussian levels of A - grey, at least 1..7; level 0 is not read
-BandLevels make_band_levels(LevelSize size, RowSource finest, const std::vector<Image<float>>& a, float grey);
+/// @param a  Gaussian levels of A - grey, at least 0..7; level 0 is moved into the result
+BandLevels make_band_levels(std::vector<Image<float>>& a, float grey);
 
 /// The bands of one row at a time, at full size. Each thread needs its own.
 class BandRows {
@@ -47,7 +45,7 @@ class BandRows {
     const BandLevels& levels_;
     std::vector<RowExpander> expanders_;  ///< by level: differences of bands 1..6; 0: A(1); 7: A(7)
     std::array<std::vector<float>, band_count> rows_;
-    std::vector<float> finest_, noise_;
+    std::vector<float> noise_;
 };
 
 struct ChannelSummary {
@@ -56,6 +54,6 @@ struct ChannelSummary {
 };
 
 /// Mean and maximum of a channel. The mean is summed in double row by row: the same for any number of threads.
-ChannelSummary summarize(LevelSize size, const RowSource& source);
+ChannelSummary summarize(const Image<float>& channel);
 
 }  // namespace aleph

@@ -5,7 +5,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/opponent_color.h"
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "perception/aleph_map.h"
 #include "perception/band_response.h"
 #include "perception/check_viewing.h"
@@ -30,42 +30,38 @@ void check_input(const Image<Rgb>& estimate, const Image<float>& velocity, const
 }
 
 /// Velocity for the motion channel, deg/s: rounding counts as rest; at most the image diagonal per frame.
-RowSource make_motion_rows(const Image<float>& velocity, const ViewingConditions& viewing,
-                           const FrameRate& frame_rate) {
+Image<float> cap_motion(const Image<float>& velocity, const ViewingConditions& viewing, const FrameRate& frame_rate) {
     const double per_pixel = frame_rate.per_second() / viewing.pixels_per_degree;  // deg/s of 1 pixel per frame
     const auto smallest = static_cast<float>(min_displacement * per_pixel);
     const auto largest = static_cast<float>(std::min(std::hypot(velocity.width, velocity.height) * per_pixel, 1e15));
-    return [&velocity, smallest, largest](int y, float* out) {
-        const float* const v = velocity.row(y);
-        for (int x = 0; x < velocity.width; ++x) {
-            const float capped = v[x] < largest ? v[x] : largest;
-            out[x] = v[x] >= smallest ? capped : 0.0f;
-        }
-    };
+    Image<float> out(velocity.width, velocity.height);
+    parallel_pixels(velocity, rows_per_band, [&](int x, int y) {
+        const float v = velocity(x, y), capped = v < largest ? v : largest;
+        out(x, y) = v >= smallest ? capped : 0.0f;
+    });
+    return out;
 }
 
-/// A channel of the estimate minus a constant.
-RowSource make_opponent_rows(const Image<Rgb>& estimate, OpponentChannel channel, bool neutral, float less) {
-    return [&estimate, weights = opponent_weights(channel, neutral), less](int y, float* out) {
-        opponent_row(estimate.row(y), estimate.width, weights, out);
-        for (int x = 0; x < estimate.width; ++x) out[x] -= less;
-    };
+/// The levels that saliency reads: without level 0, which would take as much memory as three times all others.
+std::vector<Image<float>> make_coarse_levels(Image<float> channel) {
+    std::vector<Image<float>> levels = make_gaussian_pyramid(std::move(channel), saliency_levels);
+    levels[0] = {};
+    return levels;
 }
 
 /// Pyramids of the channels, and their saliency.
-/// @param a  Gaussian levels of A
-Saliency find_saliency(const Image<Rgb>& estimate, const RowSource& motion, std::vector<Image<float>> a,
-                       float a_maximum, const PerceptionSettings& settings) {
-    const LevelSize size{estimate.width, estimate.height};
+/// @param motion  as cap_motion gives it
+/// @param a       Gaussian levels of A
+Saliency find_saliency(const Image<Rgb>& estimate, Image<float> motion, std::vector<Image<float>> a, float a_maximum,
+                       const PerceptionSettings& settings) {
     const auto opponent_pyramid = [&](OpponentChannel channel) {
-        return make_gaussian_pyramid(size, make_opponent_rows(estimate, channel, settings.neutral_opponent, 0.0f),
-                                     saliency_levels);
+        return make_coarse_levels(compute_opponent(estimate, channel, settings.neutral_opponent));
     };
-    const ChannelPyramids pyramids{.size = size,
+    const ChannelPyramids pyramids{.size = {estimate.width, estimate.height},
                                    .a = std::move(a),
                                    .c1 = opponent_pyramid(OpponentChannel::c1),
                                    .c2 = opponent_pyramid(OpponentChannel::c2),
-                                   .velocity = make_gaussian_pyramid(size, motion, saliency_levels)};
+                                   .velocity = make_coarse_levels(std::move(motion))};
     return compute_saliency(pyramids, a_maximum, settings.grid);
 }
 
@@ -89,17 +85,18 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
 
     const FlushDenormals flush;
     const bool salient = settings.guide == Guide::saliency;
-    const LevelSize size{estimate.width, estimate.height};
-    const ChannelSummary a_summary = summarize(size, make_opponent_rows(estimate, OpponentChannel::a, false, 0.0f));
-    const RowSource a_rows = make_opponent_rows(estimate, OpponentChannel::a, false, a_summary.mean);
-    std::vector<Image<float>> a = make_gaussian_pyramid(size, a_rows, salient ? saliency_levels : band_count + 1);
-    const BandLevels bands = make_band_levels(size, a_rows, a, a_summary.mean);
+    Image<float> achromatic = compute_opponent(estimate, OpponentChannel::a, false);
+    const ChannelSummary a_summary = summarize(achromatic);
+    for (float& value : achromatic.pixels) value -= a_summary.mean;
+    std::vector<Image<float>> a =
+        make_gaussian_pyramid(std::move(achromatic), salient ? saliency_levels : band_count + 1);
+    const BandLevels bands = make_band_levels(a, a_summary.mean);
 
     PerceptionMaps maps;
     Saliency saliency;
     if (salient) {
-        saliency = find_saliency(estimate, make_motion_rows(velocity, viewing, frame_rate), std::move(a),
-                                 a_summary.maximum, settings);
+        saliency = find_saliency(estimate, cap_motion(velocity, viewing, frame_rate), std::move(a), a_summary.maximum,
+                                 settings);
     }
     const VisionModel& vision = *settings.vision;
     AlephPass pass{.bands = bands,

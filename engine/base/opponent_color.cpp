@@ -3,7 +3,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 
 namespace aleph {
 
@@ -44,26 +44,14 @@ float clamp_component(float c) {
 
 }  // namespace
 
-ChannelWeights opponent_weights(OpponentChannel channel, bool neutral) {
+Image<float> compute_opponent(const Image<Rgb>& rgb, OpponentChannel channel, bool neutral) {
     const glm::dmat3 m = opponent_from_rgb(neutral);
     const int row = static_cast<int>(channel);
-    return {static_cast<float>(m[0][row]), static_cast<float>(m[1][row]), static_cast<float>(m[2][row])};
-}
-
-void opponent_row(const Rgb* rgb, int count, const ChannelWeights& weights, float* out) {
-    const ChannelWeights w = weights;
-    for (int x = 0; x < count; ++x) {
-        out[x] = w.r * clamp_component(rgb[x].x) + w.g * clamp_component(rgb[x].y) + w.b * clamp_component(rgb[x].z);
-    }
-}
-
-Image<float> compute_opponent(const Image<Rgb>& rgb, OpponentChannel channel, bool neutral) {
-    const ChannelWeights weights = opponent_weights(channel, neutral);
+    const auto r = static_cast<float>(m[0][row]), g = static_cast<float>(m[1][row]), b = static_cast<float>(m[2][row]);
     Image<float> out(rgb.width, rgb.height);
-    parallel_rows(rgb.height, rows_per_chunk, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            opponent_row(rgb.row(y), rgb.width, weights, out.row(y));
-        }
+    parallel_pixels(rgb, rows_per_chunk, [&](int x, int y) {
+        const Rgb& c = rgb(x, y);
+        out(x, y) = r * clamp_component(c.x) + g * clamp_component(c.y) + b * clamp_component(c.z);
     });
     return out;
 }

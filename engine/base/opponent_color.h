@@ -10,17 +10,8 @@ namespace aleph {
 /// Grey of luminance Y has (A, C1, C2) = (1, -.029, .554) Y.
 enum class OpponentChannel { a, c1, c2 };
 
-/// A channel as a weighted sum of R, G and B.
-struct ChannelWeights {
-    float r, g, b;
-};
-
+/// A channel of an image. Components below 0 and NaN count as 0, above 1e15 as 1e15: squares stay finite.
 /// @param neutral  subtract from C1 and C2 what grey of the same luminance gives, so that grey has C1 = C2 = 0
-ChannelWeights opponent_weights(OpponentChannel channel, bool neutral);
-
-/// A channel of `count` pixels. Components below 0 and NaN count as 0, above 1e15 as 1e15: squares stay finite.
-void opponent_row(const Rgb* rgb, int count, const ChannelWeights& weights, float* out);
-
 Image<float> compute_opponent(const Image<Rgb>& rgb, OpponentChannel channel, bool neutral);
 
 }  // namespace aleph

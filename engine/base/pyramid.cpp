@@ -19,18 +19,16 @@ int half_size(int n) {
 }
 
 /// The kernel down the columns at row y, into `out` (padded on both sides for the pass along the row).
-/// @param row  (y) -> const float*, the image's row
-template <class Row>
-void filter_columns(Row& row, LevelSize size, int y, float* out) {
-    const int w = size.width;
-    const float* const center = row(y);
-    if (size.height == 1) {
+void filter_columns(const Image<float>& image, int y, float* out) {
+    const int w = image.width;
+    const float* const center = image.row(y);
+    if (image.height == 1) {
         std::copy_n(center, w, out);
     } else {
-        const float* const up = row(reflect_101(y - 1, size.height));
-        const float* const up2 = row(reflect_101(y - 2, size.height));
-        const float* const down = row(reflect_101(y + 1, size.height));
-        const float* const down2 = row(reflect_101(y + 2, size.height));
+        const float* const up = image.row(reflect_101(y - 1, image.height));
+        const float* const up2 = image.row(reflect_101(y - 2, image.height));
+        const float* const down = image.row(reflect_101(y + 1, image.height));
+        const float* const down2 = image.row(reflect_101(y + 2, image.height));
         for (int x = 0; x < w; ++x) {
             out[x] = kernel_far * (up2[x] + down2[x]) + kernel_near * (up[x] + down[x]) + kernel_center * center[x];
         }
@@ -45,58 +43,17 @@ float filter_at(const float* row, int x) {
     return kernel_far * (row[x - 2] + row[x + 2]) + kernel_near * (row[x - 1] + row[x + 1]) + kernel_center * row[x];
 }
 
-/// The rows around the current one, which moves down an image; each is fetched once.
-class RowCache {
-  public:
-    RowCache(LevelSize size, const RowSource& source)
-        : width_(static_cast<std::size_t>(size.width)), source_(source), values_(width_ * rows), held_(rows, -1) {}
-
-    const float* operator()(int y) {
-        const auto slot = static_cast<std::size_t>(y) % rows;
-        float* const row = values_.data() + slot * width_;
-        if (held_[slot] != y) {
-            source_(y, row);
-            held_[slot] = y;
-        }
-        return row;
-    }
-
-  private:
-    static constexpr std::size_t rows = 8;  // above the kernel's height: its rows have different slots
-
-    std::size_t width_;
-    const RowSource& source_;
-    std::vector<float> values_;
-    std::vector<int> held_;
-};
-
-auto rows_of(const Image<float>& image) {
-    return [&](int y) { return image.row(y); };
-}
-
 /// Every `step`-th row of an image after the kernel down the columns: write(index, filtered), from many threads.
-/// @param make_rows  () -> (y) -> const float*, for each thread
-template <class MakeRows, class Write>
-void filter_rows(LevelSize size, int step, const MakeRows& make_rows, const Write& write) {
-    parallel_rows((size.height + step - 1) / step, rows_per_chunk, [&](int begin, int end) {
-        auto rows = make_rows();
-        std::vector<float> columns(size.width + 2 * padding);
+template <class Write>
+void filter_rows(const Image<float>& image, int step, const Write& write) {
+    parallel_rows((image.height + step - 1) / step, rows_per_chunk, [&](int begin, int end) {
+        std::vector<float> columns(image.width + 2 * padding);
         float* const filtered = columns.data() + padding;
         for (int y = begin; y < end; ++y) {
-            filter_columns(rows, size, step * y, filtered);
+            filter_columns(image, step * y, filtered);
             write(y, filtered);
         }
     });
-}
-
-template <class MakeRows>
-Image<float> reduce_rows(LevelSize size, const MakeRows& make_rows) {
-    Image<float> out(half_size(size.width), half_size(size.height));
-    filter_rows(size, 2, make_rows, [&](int y, const float* filtered) {
-        float* const row = out.row(y);
-        for (int x = 0; x < out.width; ++x) row[x] = size.width == 1 ? filtered[0] : filter_at(filtered, 2 * x);
-    });
-    return out;
 }
 
 /// Index of coarse sample i reflected at the borders of the finer axis: fine position 2i stays even.
@@ -179,21 +136,20 @@ std::vector<LevelSize> pyramid_sizes(int width, int height, int count) {
 
 Image<float> low_pass(const Image<float>& image) {
     Image<float> out(image.width, image.height);
-    filter_rows(
-        {image.width, image.height}, 1, [&] { return rows_of(image); },
-        [&](int y, const float* filtered) {
-            float* const row = out.row(y);
-            for (int x = 0; x < out.width; ++x) row[x] = out.width == 1 ? filtered[0] : filter_at(filtered, x);
-        });
+    filter_rows(image, 1, [&](int y, const float* filtered) {
+        float* const row = out.row(y);
+        for (int x = 0; x < out.width; ++x) row[x] = out.width == 1 ? filtered[0] : filter_at(filtered, x);
+    });
     return out;
 }
 
 Image<float> reduce(const Image<float>& image) {
-    return reduce_rows({image.width, image.height}, [&] { return rows_of(image); });
-}
-
-Image<float> reduce(LevelSize size, const RowSource& source) {
-    return reduce_rows(size, [&] { return RowCache(size, source); });
+    Image<float> out(half_size(image.width), half_size(image.height));
+    filter_rows(image, 2, [&](int y, const float* filtered) {
+        float* const row = out.row(y);
+        for (int x = 0; x < out.width; ++x) row[x] = image.width == 1 ? filtered[0] : filter_at(filtered, 2 * x);
+    });
+    return out;
 }
 
 Image<float> expand(const Image<float>& image, LevelSize fine) {
@@ -208,13 +164,6 @@ Image<float> expand(const Image<float>& image, LevelSize fine) {
 
 std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count) {
     std::vector<Image<float>> levels = {std::move(image)};
-    while (static_cast<int>(levels.size()) < count) levels.push_back(reduce(levels.back()));
-    return levels;
-}
-
-std::vector<Image<float>> make_gaussian_pyramid(LevelSize size, const RowSource& source, int count) {
-    std::vector<Image<float>> levels(1);
-    levels.push_back(reduce(size, source));
     while (static_cast<int>(levels.size()) < count) levels.push_back(reduce(levels.back()));
     return levels;
 }

@@ -2,7 +2,6 @@
 // Gaussian pyramids (Burt and Adelson 1983) with the kernel {.05 .25 .4 .25 .05}, thesis 5.2. Borders are reflect-101
 // (-1 is 1, n is n-2) on axes of any length. Coarse pixel i lies on fine pixel 2i.
 
-#include <functional>
 #include <vector>
 
 #include "engine/base/image.h"
@@ -13,9 +12,6 @@ struct LevelSize {
     int width = 0, height = 0;
     bool operator==(const LevelSize&) const = default;
 };
-
-/// Writes row y of an image, which need not be stored. Called from many threads at once, and repeatedly for a row.
-using RowSource = std::function<void(int y, float* out)>;
 
 /// Index of pixel i under reflect-101 on an axis of n pixels; any i, n >= 1.
 int reflect_101(int i, int n);
@@ -28,7 +24,6 @@ Image<float> low_pass(const Image<float>& image);
 
 /// The next coarser level: low pass, then the even samples. An axis of size 1 is copied.
 Image<float> reduce(const Image<float>& image);
-Image<float> reduce(LevelSize size, const RowSource& source);
 
 /// The next finer level: zero insertion, then twice the kernel. `fine` reduces to the image's size.
 /// An axis of size 1 is copied.
@@ -36,9 +31,6 @@ Image<float> expand(const Image<float>& image, LevelSize fine);
 
 /// Levels 0 .. count-1; level 0 is the image itself.
 std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count);
-
-/// Levels 0 .. count-1 of an image that is not stored: level 0 stays empty.
-std::vector<Image<float>> make_gaussian_pyramid(LevelSize size, const RowSource& source, int count);
 
 /// Expands level `from` of a pyramid to the size of level `to` <= from, step by step.
 Image<float> expand_to_level(const Image<float>& image, const std::vector<LevelSize>& sizes, int from, int to);

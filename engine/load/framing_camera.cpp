@@ -1,5 +1,4 @@
-#include "engine/load/framing_camera.h"
-
+// A camera for a scene that has none.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/base/bounds.h"
+#include "engine/load/warnings.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/transforms.h"
 

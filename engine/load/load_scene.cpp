@@ -2,12 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/load/camera_check.h"
-#include "engine/load/flat_warnings.h"
 #include "engine/load/format_rows.h"
-#include "engine/load/framing_camera.h"
-#include "engine/load/mesh_warnings.h"
-#include "engine/load/unlikely_values.h"
 #include "engine/load/warnings.h"
 #include "engine/pose/pose.h"
 
@@ -40,12 +35,11 @@ Scene load_alone(const SceneFormat& format, const LoadRequest& request) {
     return scene;
 }
 
-/// Adds the warnings, and a light where there is none.
+/// Checks scales, adds the warnings, and a light where there is none.
 void complete(Scene& scene, const SceneFormats& formats) {
-    check_camera_axes(scene);
     add_rotation_warnings(scene);
     add_mesh_warnings(scene);
-    add_flat_warnings(scene, formats);
+    check_scales(scene, formats);
     add_radian_warnings(scene);
     add_cut_warnings(scene);
     add_missing_light(scene);

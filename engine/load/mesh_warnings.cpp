@@ -1,5 +1,4 @@
-#include "engine/load/mesh_warnings.h"
-
+// Warnings of meshes that load and do not look as their file means it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/load/source_file.h"
+#include "engine/load/warnings.h"
 
 namespace aleph {
 

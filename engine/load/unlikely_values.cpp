@@ -1,5 +1,4 @@
-#include "engine/load/unlikely_values.h"
-
+// Warnings about values that are allowed and probably meant otherwise.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,6 +8,7 @@
 #include <set>
 
 #include "engine/base/errors.h"
+#include "engine/load/warnings.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/operations.h"
 

@@ -4,12 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <vector>
 
 #include "engine/base/errors.h"
+#include "engine/load/source_file.h"
+#include "engine/pose/parts.h"
+#include "engine/scene/transforms.h"
 
 namespace aleph {
 
 namespace {
+
+/// True where the file's reader warns of nodes that shrink everything to a point, and this is one.
+bool has_warning(const Scene& scene, const SceneFormats& formats, const Node& node, const glm::dmat4& world) {
+    const SceneFormat* format = find_format(formats, source_file(scene, node.include));
+    if (format == nullptr || !format->warns_of_points) return false;
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column) largest = std::max(largest, glm::length(glm::dvec3(world[column])));
+    return largest < 1e-12;
+}
 
 /// @param name  of what turns, for messages
 void add_rotation_warnings(const Track<glm::dquat>& track, const std::string& name,
@@ -42,6 +57,34 @@ bool is_positive_somewhere(const Track<T>& track) {
 }
 
 }  // namespace
+
+void check_scales(Scene& scene, const SceneFormats& formats) {
+    std::vector<std::uint8_t> blind, flat;  // at every frame so far
+    for (const Node& node : scene.nodes) {
+        blind.push_back(node.camera != no_index);
+        flat.push_back(!node.meshes.empty());
+    }
+    const FrameRange range = frame_range(scene);
+    for (const std::int64_t frame : {range.first, range.first + (range.last - range.first) / 2, range.last}) {
+        const ScenePose posed = place_nodes(scene, scene.film.frame_rate.seconds_of(frame));
+        for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+            const glm::dmat4& world = posed.world[n];
+            blind[n] = blind[n] != 0 && normal_matrix(world) == glm::dmat3(0.0);
+            flat[n] = flat[n] != 0 && !has_full_rank(world) && !has_warning(scene, formats, scene.nodes[n], world);
+        }
+    }
+    if (const auto found = std::ranges::find(blind, 1); found != blind.end()) {
+        const Node& node = scene.nodes[found - blind.begin()];
+        throw InputError(source_file(scene, node.include), fmt::format("node \"{}\"", printable(node.name)),
+                         "its camera looks in no direction: the node or one above it has a scale of 0");
+    }
+    const auto count = std::ranges::count(flat, 1);
+    if (count == 0) return;
+    const Node& first = scene.nodes[std::ranges::find(flat, 1) - flat.begin()];
+    scene.source.warnings.push_back(
+        fmt::format("node \"{}\"{}: the scale is 0, or next to it, along an axis, so nothing of it can be seen",
+                    printable(first.name), count > 1 ? fmt::format(" and {} more", count - 1) : ""));
+}
 
 void add_rotation_warnings(Scene& scene) {
     for (const Node& node : scene.nodes) {

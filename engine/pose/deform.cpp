@@ -14,10 +14,6 @@
 namespace aleph {
 namespace {
 
-bool is_skinned(const Mesh& mesh) {
-    return mesh.deformation.skin != no_index && mesh.deformation.joints_per_vertex > 0;
-}
-
 const PointCache& cache_of(const Scene& scene, const Mesh& mesh) {
     return scene.point_caches[mesh.deformation.points];
 }

@@ -20,6 +20,11 @@ struct Deformer {
     std::vector<std::uint32_t> normal_groups;
 };
 
+/// True where joints carry the vertices.
+inline bool is_skinned(const Mesh& mesh) {
+    return mesh.deformation.skin != no_index && mesh.deformation.joints_per_vertex > 0;
+}
+
 /// The meshes that have instances and whose points or normals differ from those of the mesh: samples that differ,
 /// morph targets that are or may be on, a skin, a cage that moves. In the order of the scene's meshes.
 /// @param moving_nodes  per node, true where its transform can change, and with it a skin

@@ -27,10 +27,7 @@ glm::dvec3 not_negative(const Track<glm::dvec3>& track, double seconds) {
 /// @param about_axis  stands in place of `rotation` where it is set
 glm::dquat rotation_at(const Track<glm::dquat>& rotation, const std::optional<AxisRotation>& about_axis,
                        double seconds) {
-    if (!about_axis) return evaluate(rotation, seconds);
-    const glm::dvec3 axis = safe_normalize(about_axis->axis);
-    const double half = 0.5 * evaluate(about_axis->angle, seconds);
-    return safe_normalize(glm::dquat(std::cos(half), axis * std::sin(half)));
+    return about_axis ? rotation_at(*about_axis, seconds) : evaluate(rotation, seconds);
 }
 
 glm::dmat4 matrix_at(const LocalTransform& local, double seconds) {
@@ -51,6 +48,12 @@ double evaluate_whole(const Track<double>& track, double seconds) {
 }
 
 }  // namespace
+
+glm::dquat rotation_at(const AxisRotation& turn, double seconds) {
+    const glm::dvec3 axis = safe_normalize(turn.axis);
+    const double half = 0.5 * evaluate(turn.angle, seconds);
+    return safe_normalize(glm::dquat(std::cos(half), axis * std::sin(half)));
+}
 
 void place_node(const Scene& scene, int index, double seconds, ScenePose& posed) {
     const Node& node = scene.nodes[index];

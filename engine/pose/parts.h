@@ -7,6 +7,8 @@
 
 namespace aleph {
 
+glm::dquat rotation_at(const AxisRotation& turn, double seconds);
+
 /// Transform and visibility of a node. Those of its parent must be in `posed` already.
 void place_node(const Scene& scene, int node, double seconds, ScenePose& posed);
 

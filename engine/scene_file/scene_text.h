@@ -30,12 +30,12 @@ SceneText read_scene_text(std::string_view text, const std::string& file, const 
 
 /// The text from which read_scene_text makes an equal scene: every bit of every track. Elements of includes are left
 /// out.
-/// @throws InputError with the element's place if the format cannot hold it: morph targets, skins, images without a
-/// path, two elements of one name, ...
+/// @throws InputError with the element's place if it refers to one of an include, or the format cannot hold it: morph
+/// targets, skins, images without a path, two elements of one name, ...
 std::string write_scene_text(const Scene& scene, const std::string& file);
 
 /// The scene without the elements of includes. In each list these come after the scene's own elements.
-/// @throws InputError if an own element comes after an included one or refers to one
+/// @throws InputError if an own element comes after an included one
 Scene without_includes(const Scene& scene, const std::string& file);
 
 /// Checks a path in a scene file: relative, forward slashes, no scheme, no control characters; ".." is allowed.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_set>
 
 #include "engine/base/errors.h"
@@ -35,17 +36,24 @@ class Writer {
         }
         for_each_list([&](const char* kind, const auto& list) { check_names(kind, list); }, scene_);
         write_header();
-        write_list("images", scene_.images, [&](const SceneImage& image) { return ordered_json(image.path); });
-        write_list("materials", scene_.materials,
+        write_list("images", "image", scene_.images, [&](const SceneImage& image) { return ordered_json(image.path); });
+        write_list("materials", "material", scene_.materials,
                    [&](const Material& material) { return write_material(at_, material); });
-        write_list("points", scene_.point_caches, [&](const PointCache& cache) { return write_point_cache(cache); });
-        write_list("cages", scene_.cages, [&](const Cage& cage) { return write_control_mesh(cage); });
-        write_list("meshes", scene_.meshes, [&](const Mesh& mesh) { return write_mesh(mesh); });
-        write_list("lights", scene_.lights, [&](const Light& light) { return write_light(at_, light); });
-        write_list("cameras", scene_.cameras, [&](const Camera& camera) { return write_camera(at_, camera); });
+        write_list("points", "points", scene_.point_caches,
+                   [&](const PointCache& cache) { return write_point_cache(cache); });
+        write_list("cages", "cage", scene_.cages, [&](const Cage& cage) { return write_control_mesh(cage); });
+        write_list("meshes", "mesh", scene_.meshes, [&](const Mesh& mesh) { return write_mesh(mesh); });
+        write_list("lights", "light", scene_.lights, [&](const Light& light) { return write_light(at_, light); });
+        write_list("cameras", "camera", scene_.cameras,
+                   [&](const Camera& camera) { return write_camera(at_, camera); });
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
             at_.place = place_of("node", scene_.nodes, i);
             out_["nodes"].push_back(write_node(i));
+        }
+        for (std::size_t i = 0; i < scene_.source.includes.size(); ++i) {
+            at_.place = fmt::format("include {}", i);
+            const int node = scene_.source.includes[i].node;
+            if (node != no_index) at_.name_in(scene_.nodes, node, "node");
         }
         write_includes(out_, no_index);
         return std::move(out_);
@@ -66,12 +74,12 @@ class Writer {
     }
 
     template <class Element, class Write>
-    void write_list(const char* key, const std::vector<Element>& list, const Write& write) {
+    void write_list(const char* key, const char* kind, const std::vector<Element>& list, const Write& write) {
         if (list.empty()) return;
         out_[key] = ordered_json::object();
         auto& object = out_[key].template get_ref<ordered_json::object_t&>();
         for (std::size_t i = 0; i < list.size(); ++i) {
-            at_.place = place_of(key, list, i);
+            at_.place = place_of(kind, list, i);
             object.emplace_back(list[i].name, write(list[i]));  // without a search for the key: names differ
         }
     }
@@ -109,7 +117,7 @@ class Writer {
         at_.place = "environment_image";
         if (scene_.environment.image != no_index) {
             if (!scene_.environment.radiance) at_.refuse("needs `environment`, the factor on the picture");
-            out_["environment_image"] = at_.name_in(scene_.images, scene_.environment.image);
+            out_["environment_image"] = at_.name_in(scene_.images, scene_.environment.image, "image");
         }
         at_.place = "environment";
         at_.rotation(out_, "environment_rotation", scene_.environment.rotation, scene_.environment.axis_rotation);
@@ -120,23 +128,24 @@ class Writer {
             at_.refuse("a scene file cannot hold morph targets and skins: keep the mesh in a .glb and include that");
         }
         ordered_json out;
+        const PointCache* const points = points_of(mesh);
         if (mesh.subdivision.cage != no_index) {
-            out["shape"] = {{"type", "cage"}, {"cage", at_.name_in(scene_.cages, mesh.subdivision.cage)}};
+            out["shape"] = {{"type", "cage"}, {"cage", at_.name_in(scene_.cages, mesh.subdivision.cage, "cage")}};
             if (mesh.subdivision.part != 0) out["shape"]["part"] = mesh.subdivision.part;
         } else if (mesh.shape) {
             validate(*mesh.shape, at_.file, at_.place);
             out["shape"] = write_shape(*mesh.shape);
         } else {
-            out["shape"] = write_triangles(mesh, points_of(mesh), at_.rate());
+            out["shape"] = write_triangles(mesh, points, at_.rate());
         }
-        if (mesh.material != no_index) out["material"] = at_.name_in(scene_.materials, mesh.material);
+        if (mesh.material != no_index) out["material"] = at_.name_in(scene_.materials, mesh.material, "material");
         at_.track(out, "present", mesh.present, Mesh{}.present, write_visibility);
         return out;
     }
 
     const PointCache* points_of(const Mesh& mesh) const {
         if (mesh.deformation.points == no_index) return nullptr;
-        at_.name_in(scene_.point_caches, mesh.deformation.points);
+        at_.name_in(scene_.point_caches, mesh.deformation.points, "points");
         const PointCache& cache = scene_.point_caches[mesh.deformation.points];
         for (const std::uint32_t point : mesh.deformation.vertex_points) {
             if (point >= cache.point_count())
@@ -152,7 +161,7 @@ class Writer {
     }
 
     ordered_json write_control_mesh(const Cage& cage) const {
-        const std::string points = at_.name_in(scene_.point_caches, cage.points);
+        const std::string points = at_.name_in(scene_.point_caches, cage.points, "points");
         try {
             validate(cage, scene_.point_caches[cage.points].point_count());
         } catch (const InputError& error) {
@@ -166,7 +175,7 @@ class Writer {
         const Node& node = scene_.nodes[index];
         ordered_json out = {{"name", node.name}};
         if (node.parent != no_index) {
-            const std::string parent = at_.name_in(scene_.nodes, node.parent);
+            const std::string parent = at_.name_in(std::span(scene_.nodes).first(index), node.parent, "parent node");
             if (parent.empty())
                 at_.refuse(fmt::format("its parent, node {}, needs a name in a scene file", node.parent));
             out["parent"] = parent;
@@ -184,12 +193,12 @@ class Writer {
         at_.track(out, "inherits", node.inherits, absent.inherits, write_visibility);
         at_.track(out, "visible", node.visible, absent.visible, write_visibility);
         if (node.meshes.size() == 1) {
-            out["mesh"] = at_.name_in(scene_.meshes, node.meshes.front());
+            out["mesh"] = at_.name_in(scene_.meshes, node.meshes.front(), "mesh");
         } else {
-            for (const int mesh : node.meshes) out["meshes"].push_back(at_.name_in(scene_.meshes, mesh));
+            for (const int mesh : node.meshes) out["meshes"].push_back(at_.name_in(scene_.meshes, mesh, "mesh"));
         }
-        if (node.camera != no_index) out["camera"] = at_.name_in(scene_.cameras, node.camera);
-        if (node.light != no_index) out["light"] = at_.name_in(scene_.lights, node.light);
+        if (node.camera != no_index) out["camera"] = at_.name_in(scene_.cameras, node.camera, "camera");
+        if (node.light != no_index) out["light"] = at_.name_in(scene_.lights, node.light, "light");
         write_includes(out, static_cast<int>(index));
         return out;
     }
@@ -220,6 +229,19 @@ class Writer {
     ordered_json out_;
 };
 
+/// The elements before the first included one. Only these are copied: included meshes are large.
+template <class Element>
+std::vector<Element> own_part(const char* kind, const std::vector<Element>& list, const std::string& file) {
+    const auto is_included = [](const Element& element) { return element.include != no_index; };
+    const auto end = std::find_if(list.begin(), list.end(), is_included);
+    const auto late = std::find_if_not(end, list.end(), is_included);
+    if (late != list.end()) {
+        throw InputError(file, fmt::format("{} {}", kind, late - list.begin()),
+                         "comes after an element of an include; the scene's own elements have to come first");
+    }
+    return {list.begin(), end};
+}
+
 template <class Element>
 std::string first_difference(const char* kind, const std::vector<Element>& a, const std::vector<Element>& b) {
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
@@ -239,6 +261,15 @@ std::string first_difference(const Scene& a, const Scene& b) {
 }
 
 }  // namespace
+
+Scene without_includes(const Scene& scene, const std::string& file) {
+    Scene own;
+    own.source = scene.source;
+    own.film = scene.film;
+    own.environment = scene.environment;
+    for_each_list([&](const char* kind, auto& to, const auto& from) { to = own_part(kind, from, file); }, own, scene);
+    return own;
+}
 
 std::string write_scene_text(const Scene& scene, const std::string& file) {
     Scene own = without_includes(scene, file);

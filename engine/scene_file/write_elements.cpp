@@ -9,7 +9,7 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json write_texture(const SceneWriting& at, const TextureRef& texture) {
-    ordered_json out = at.name_in(at.scene.images, texture.image);
+    ordered_json out = at.name_in(at.scene.images, texture.image, "image");
     if (texture == TextureRef{.image = texture.image}) return out;
     out = {{"image", out}};
     if (texture.uv_set != 0) out["uv_set"] = texture.uv_set;

@@ -21,9 +21,11 @@ struct SceneWriting {
     const FrameRate& rate() const { return scene.film.frame_rate; }
     [[noreturn]] void refuse(const std::string& reason) const { throw InputError(file, place, reason); }
 
+    /// The name by which the element refers to another one.
     template <class List>
-    const std::string& name_in(const List& list, int index) const {
-        if (index < 0 || index >= std::ssize(list)) refuse(fmt::format("there is no element {}", index));
+    const std::string& name_in(const List& list, int index, const char* what) const {
+        if (index < 0 || index >= std::ssize(list))
+            refuse(fmt::format("refers to {} {}, which belongs to an include or does not exist", what, index));
         return list[index].name;
     }
 

@@ -8,16 +8,15 @@ namespace aleph {
 
 namespace {
 
-constexpr double max_input = 1e30;      // its powers in the formulas stay finite
-constexpr double max_luminance = 1e12;  // cd/m2, of thresholds
+constexpr double max_input = 1e30;  // its powers in the formulas stay finite
 
 // std::fmax and std::fmin return the other argument for a NaN; std::clamp would return the NaN.
 double clamp_input(double value) {
     return std::fmin(std::fmax(value, 0.0), max_input);
 }
 
-double clamp_luminance(double value, double highest = castle_max_luminance) {
-    return std::fmin(std::fmax(value, castle_min_luminance), highest);
+double clamp_luminance(double value) {
+    return std::fmin(std::fmax(value, castle_min_luminance), castle_max_luminance);
 }
 
 /// p0 (1 + p1 / L)^-p2
@@ -130,10 +129,6 @@ double castle_yellow_violet(double rho, double omega, double luminance, double a
 
 double castle_peak(double luminance) {
     return find_maximum([luminance](double rho) { return castle_sustained(rho, luminance); });
-}
-
-double castle_threshold(double luminance) {
-    return clamp_luminance(luminance, max_luminance) / castle_peak(luminance);
 }
 
 }  // namespace aleph

@@ -44,8 +44,4 @@ double castle_yellow_violet(double rho, double omega, double luminance, double a
 /// sustained channel: at rest the transient one adds less than 0.1 % from .02 cd/m2 up, and is not fitted in the dark.
 double castle_peak(double luminance);
 
-/// The least visible luminance difference of a pattern at rest, cd/m2: luminance / castle_peak. In proportion to
-/// luminance from 1e4 cd/m2 up, to 1e12.
-double castle_threshold(double luminance);
-
 }  // namespace aleph

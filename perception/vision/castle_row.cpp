@@ -47,14 +47,6 @@ void elevate_pixel(const CastleTable& table, const CastlePixel& pixel, float* ou
 
 }  // namespace
 
-double castle_elevation(double rho, double retinal, double tracked, double luminance, double persistence,
-                        const FrameRate& frame_rate) {
-    const double moving = std::fmin(std::fmax(rho, 0.0), 1e30) * std::fmin(std::fmax(retinal, 0.0), 1e30);
-    const double sensitivity =
-        castle_sensitivity(rho, moving, luminance) * hold_transfer(rho, tracked, persistence, frame_rate);
-    return std::max(1.0, castle_peak(luminance) / std::max(sensitivity, 1.0));
-}
-
 CastleTable::CastleTable(const std::array<double, band_count>& rho, const ViewingConditions& viewing,
                          const FrameRate& frame_rate)
     : nodes(LuminanceGrid::nodes) {

@@ -1,5 +1,7 @@
 #pragma once
-// The elevations that castleCSF gives (castle.h), one value at a time in double and for rows of pixels in float.
+// The elevations that castleCSF gives (castle.h), for rows of pixels in float: how many times the contrast that is just
+// visible at rest, at the frequency where the eye sees best, goes unnoticed. castle_peak over castle_sensitivity times
+// hold_transfer, [1, 153]. A sensitivity below 1 counts as 1, because no contrast exceeds 1.
 
 #include <array>
 #include <memory>
@@ -9,16 +11,7 @@
 
 namespace aleph {
 
-/// How many times the contrast that is just visible at rest, at the frequency where the eye sees best, goes unnoticed
-/// at `rho`: castle_peak over castle_sensitivity times hold_transfer, [1, 153]. A sensitivity below 1 counts as 1,
-/// because no contrast exceeds 1. Arguments that are not finite or negative count as castle.h and display_hold.h say.
-/// @param retinal    v_R, deg/s
-/// @param tracked    what the eye follows, deg/s
-/// @param luminance  that the eye is adapted to, cd/m2
-double castle_elevation(double rho, double retinal, double tracked, double luminance, double persistence,
-                        const FrameRate& frame_rate);
-
-/// The bands as castle_elevation sees them: factors by band, and both channels' sensitivities over log luminance. The
+/// The bands: factors by band, and both channels' sensitivities over log luminance. The
 /// last of the eight lanes is not used.
 struct CastleTable {
     static constexpr int lanes = 8;
@@ -40,7 +33,7 @@ struct CastleTable {
     std::vector<Node> nodes;   ///< by LuminanceGrid
 };
 
-/// castle_elevation of a row, in float: within 2e-3 of it, but for luminances within 1e-4 of .0113 cd/m2, where the fit
+/// Elevations of a row, within 2e-3, but for luminances within 1e-4 of .0113 cd/m2, where the fit
 /// begins to have a transient channel.
 class CastleRow final : public ElevationRow {
   public:

@@ -16,18 +16,12 @@ class CastleVision final : public VisionModel {
     bool uses_luminance() const override { return true; }
     bool uses_persistence() const override { return true; }
 
-    double elevation(const Stimulus& stimulus, const Presentation& shown) const override {
-        return castle_elevation(stimulus.frequency, stimulus.retinal, stimulus.tracked, stimulus.luminance,
-                                shown.viewing.persistence, shown.frame_rate);
-    }
-
-    double threshold(double luminance) const override { return castle_threshold(luminance); }
-
     ElevationRowMaker make_rows(const std::array<double, band_count>& rho, const Presentation& shown) const override {
         const auto table = std::make_shared<const CastleTable>(rho, shown.viewing, shown.frame_rate);
         return [table](int width) { return std::make_unique<CastleRow>(table, width); };
     }
 
+    /// Luminance over castle_peak; in proportion to luminance from 1e4 cd/m2 up, to 1e12.
     void thresholds(const float* luminance, std::size_t count, float* out) const override {
         const LuminanceCurve& peak = castle_peak_curve();
         for (std::size_t i = 0; i < count; ++i) out[i] = clamp_threshold_luminance(luminance[i]) / peak(luminance[i]);

@@ -5,6 +5,7 @@
 
 #include "perception/vision/fast_math.h"
 #include "perception/vision/tvi.h"
+#include "perception/vision/vision_list.h"
 
 namespace aleph {
 
@@ -67,21 +68,41 @@ void KellyRow::elevations(int band, float* out) const {
     }
 }
 
-double KellyVision::elevation(const Stimulus& stimulus, const Presentation& /*shown*/) const {
-    return aleph::elevation(stimulus.frequency, stimulus.retinal, model_);
+namespace {
+
+/// A fit of Kelly's form as a model of vision.
+class KellyVision final : public VisionModel {
+  public:
+    KellyVision(std::string name, std::string summary, const KellyModel& model)
+        : name_(std::move(name)), summary_(std::move(summary)), model_(model) {}
+
+    std::string name() const override { return name_; }
+    std::string summary() const override { return summary_; }
+
+    ElevationRowMaker make_rows(const std::array<double, band_count>& rho,
+                                const Presentation& /*shown*/) const override {
+        return [rho, model = model_](int width) { return std::make_unique<KellyRow>(rho, width, model); };
+    }
+
+    void thresholds(const float* luminance, std::size_t count, float* out) const override {
+        tvi_row(luminance, count, out);
+    }
+
+  private:
+    std::string name_, summary_;
+    KellyModel model_;
+};
+
+}  // namespace
+
+const VisionModel& thesis_vision() {
+    static const KellyVision model("thesis", "Kelly 1979 with the thesis's constants", daly_1998);
+    return model;
 }
 
-double KellyVision::threshold(double luminance) const {
-    return tvi(luminance);
-}
-
-ElevationRowMaker KellyVision::make_rows(const std::array<double, band_count>& rho,
-                                         const Presentation& /*shown*/) const {
-    return [rho, model = model_](int width) { return std::make_unique<KellyRow>(rho, width, model); };
-}
-
-void KellyVision::thresholds(const float* luminance, std::size_t count, float* out) const {
-    tvi_row(luminance, count, out);
+const VisionModel& laird_vision() {
+    static const KellyVision model("laird", "Kelly 1979 with the constants of Laird 2006", laird_2006);
+    return model;
 }
 
 }  // namespace aleph

@@ -43,7 +43,7 @@ struct LuminanceGrid {
     }
 };
 
-/// cd/m2, in the range of castle_threshold: castle_min_luminance to 1e12; NaN is the lowest.
+/// cd/m2, in the range of thresholds: castle_min_luminance to 1e12; NaN is the lowest.
 inline float clamp_threshold_luminance(float luminance) {
     constexpr auto lowest = static_cast<float>(castle_min_luminance), highest = 1e12f;
     const float positive = luminance > lowest ? luminance : lowest;

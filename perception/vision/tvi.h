@@ -6,11 +6,8 @@
 
 namespace aleph {
 
-/// cd/m2 to cd/m2. Every input gives a finite positive result: below 1e-6 and for NaN that of 1e-6, above 1e12 that of
-/// 1e12.
-double tvi(double luminance);
-
-/// tvi() of `count` values, in float: within 1e-5 of it.
+/// `count` values, cd/m2 to cd/m2, within 1e-5. Every input gives a finite positive result: below 1e-6 and for NaN that
+/// of 1e-6, above 1e12 that of 1e12.
 void tvi_row(const float* luminance, std::size_t count, float* out);
 
 }  // namespace aleph

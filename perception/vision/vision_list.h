@@ -8,8 +8,7 @@ namespace aleph {
 
 class VisionModel;
 
-// The one list of them, in the order in which help shows them. Each is a function that returns the model, in a file of
-// its name.
+// The one list of them, in the order in which help shows them. Each is a function that returns the model.
 #define ALEPH_VISION_MODELS thesis_vision, laird_vision, castle_vision
 
 using VisionFunction = const VisionModel&();

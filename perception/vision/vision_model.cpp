@@ -4,10 +4,10 @@ namespace aleph {
 
 namespace {
 
-/// Elevations by VisionModel::elevation.
+/// Elevations by PlainVision::elevation.
 class PlainRow : public ElevationRow {
   public:
-    PlainRow(const VisionModel& model, const std::array<double, band_count>& rho, const Presentation& shown, int width)
+    PlainRow(const PlainVision& model, const std::array<double, band_count>& rho, const Presentation& shown, int width)
         : model_(model), rho_(rho), shown_(shown), width_(width) {}
 
     void load(const StimulusRow& row) override { row_ = row; }
@@ -23,7 +23,7 @@ class PlainRow : public ElevationRow {
     }
 
   private:
-    const VisionModel& model_;
+    const PlainVision& model_;
     std::array<double, band_count> rho_;
     Presentation shown_;
     int width_;
@@ -32,11 +32,11 @@ class PlainRow : public ElevationRow {
 
 }  // namespace
 
-ElevationRowMaker VisionModel::make_rows(const std::array<double, band_count>& rho, const Presentation& shown) const {
+ElevationRowMaker PlainVision::make_rows(const std::array<double, band_count>& rho, const Presentation& shown) const {
     return [this, rho, shown](int width) { return std::make_unique<PlainRow>(*this, rho, shown, width); };
 }
 
-void VisionModel::thresholds(const float* luminance, std::size_t count, float* out) const {
+void PlainVision::thresholds(const float* luminance, std::size_t count, float* out) const {
     for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<float>(threshold(luminance[i]));
 }
 

@@ -15,7 +15,7 @@
 
 namespace aleph {
 
-inline constexpr double highest_aleph = 250.76;  ///< of every model: the supremum of Kelly's csf_max is 250.751
+inline constexpr double highest_aleph = 250.76;  ///< of every model: the supremum of Kelly's CSF_max is 250.751
 
 /// How pictures are shown.
 struct Presentation {
@@ -23,7 +23,7 @@ struct Presentation {
     FrameRate frame_rate;
 };
 
-/// Contrast at one place of a picture, as it reaches the eye.
+/// Contrast at one place of a picture (PlainVision), as it reaches the eye.
 struct Stimulus {
     double frequency = 0.0;           ///< cycles per degree
     double retinal = drift_velocity;  ///< v_R, deg/s
@@ -68,25 +68,28 @@ class VisionModel {
     /// A few words for help, such as "castleCSF 2024".
     virtual std::string summary() const = 0;
 
-    /// The elevation f: how many times the least visible contrast goes unnoticed, [1, highest_aleph].
-    virtual double elevation(const Stimulus& stimulus, const Presentation& shown) const = 0;
-
-    /// The least visible luminance difference where f is 1, cd/m2, of an eye that is adapted to `luminance` cd/m2.
-    /// Every input has a finite positive result.
-    virtual double threshold(double luminance) const = 0;
-
-    /// Returns true if elevation() depends on luminance.
+    /// Returns true if elevations depend on luminance.
     virtual bool uses_luminance() const { return false; }
 
-    /// Returns true if elevation() depends on ViewingConditions::persistence.
+    /// Returns true if elevations depend on ViewingConditions::persistence.
     virtual bool uses_persistence() const { return false; }
 
-    /// elevation() of rows of pixels. The default calls it for every pixel and band; a model of its own is faster.
+    /// The elevation f of rows of pixels: how many times the least visible contrast goes unnoticed, [1, highest_aleph].
     /// @param rho  frequencies of the bands, cycles per degree
-    virtual ElevationRowMaker make_rows(const std::array<double, band_count>& rho, const Presentation& shown) const;
+    virtual ElevationRowMaker make_rows(const std::array<double, band_count>& rho, const Presentation& shown) const = 0;
 
-    /// threshold() of `count` values, in float. The default calls it for every value.
-    virtual void thresholds(const float* luminance, std::size_t count, float* out) const;
+    /// The least visible luminance differences where f is 1, cd/m2, of an eye that is adapted to each of `count`
+    /// luminances, cd/m2. Every input has a finite positive result.
+    virtual void thresholds(const float* luminance, std::size_t count, float* out) const = 0;
+};
+
+/// A model that says one value at a time, in double: easier to write, and slower.
+class PlainVision : public VisionModel {
+  public:
+    virtual double elevation(const Stimulus& stimulus, const Presentation& shown) const = 0;
+    virtual double threshold(double luminance) const = 0;
+    ElevationRowMaker make_rows(const std::array<double, band_count>& rho, const Presentation& shown) const override;
+    void thresholds(const float* luminance, std::size_t count, float* out) const override;
 };
 
 }  // namespace aleph

@@ -52,21 +52,6 @@ class PythonVision : public VisionModel {
     std::string summary() const override { return "a Python function"; }
     bool uses_luminance() const override { return true; }
 
-    double elevation(const Stimulus& stimulus, const Presentation&) const override {
-        const auto retinal = static_cast<float>(stimulus.retinal), tracked = static_cast<float>(stimulus.tracked),
-                   luminance = static_cast<float>(stimulus.luminance);
-        float out = 1.0f;
-        find_elevations(stimulus.frequency, {&retinal, &tracked, &luminance}, 1, &out);
-        return static_cast<double>(out);
-    }
-
-    double threshold(double luminance) const override {
-        const auto value = static_cast<float>(luminance);
-        float out = 0.0f;
-        thresholds(&value, 1, &out);
-        return static_cast<double>(out);
-    }
-
     ElevationRowMaker make_rows(const std::array<double, band_count>& rho, const Presentation&) const override {
         return [this, rho](int width) { return std::make_unique<PythonRow>(*this, rho, width); };
     }

@@ -25,25 +25,28 @@ TEST(FastMath, ExpAndLogAreGoodToAMillionth) {
     EXPECT_EQ(fast_exp2(-1e9f), 0x1p-126f);
 }
 
-TEST(KellyRow, AgreesWithTheDoubleFormula) {
+TEST(KellyRow, AgreesWithTheWrittenFormulas) {
     std::vector<float> velocity;
     for (double v = 0.15; v < 1e8; v *= 1.003) velocity.push_back(static_cast<float>(v));
     velocity.front() = 0.15f;
     std::vector<float> f(velocity.size());
-    for (const Bands bands : {Bands::printed, Bands::measured}) {
-        for (const double ppd : {15.0, 31.0, 60.0, 300.0}) {
-            const auto rho = band_frequencies(bands, ppd);
-            KellyRow row(rho, static_cast<int>(velocity.size()));
-            row.load({.retinal = velocity.data()});
-            for (int band = 0; band < band_count; ++band) {
-                row.elevations(band, f.data());
-                for (std::size_t i = 0; i < f.size(); ++i) {
-                    const double exact = elevation(rho[band], velocity[i]);
-                    ASSERT_NEAR(f[i] / exact, 1.0, 2e-5) << "band " << band << ", " << velocity[i] << " deg/s";
+    const std::pair<KellyModel, const VisionModel*> models[] = {{daly_1998, &thesis_vision()},
+                                                                {laird_2006, &laird_vision()}};
+    for (const auto& [constants, model] : models)
+        for (const Bands bands : {Bands::printed, Bands::measured}) {
+            for (const double ppd : {15.0, 31.0, 60.0, 300.0}) {
+                const auto rho = band_frequencies(bands, ppd);
+                KellyRow row(rho, static_cast<int>(velocity.size()), constants);
+                row.load({.retinal = velocity.data()});
+                for (int band = 0; band < band_count; ++band) {
+                    row.elevations(band, f.data());
+                    for (std::size_t i = 0; i < f.size(); ++i) {
+                        const double exact = written_elevation(model, rho[band], {.retinal = velocity[i]});
+                        ASSERT_NEAR(f[i] / exact, 1.0, 2e-5) << "band " << band << ", " << velocity[i] << " deg/s";
+                    }
                 }
             }
         }
-    }
 }
 
 TEST(KellyRow, KnowsWhenABandIsOneInTheWholeRow) {

@@ -57,10 +57,9 @@ TEST(BandResponse, OnePixelCheckerIsAllFinestBand) {
 
 TEST(BandResponse, SummaryIsTheSameForAnyNumberOfThreads) {
     const Image<float> image = compute_opponent(make_synthetic_frame(301, 77).estimate, OpponentChannel::a, false);
-    const auto rows = [&](int y, float* out) { std::copy_n(image.row(y), image.width, out); };
     const auto summarize_with = [&](int threads) {
         const ThreadLimit limit(threads);
-        return summarize({image.width, image.height}, rows);
+        return summarize(image);
     };
     EXPECT_FLOAT_EQ(summarize_with(1).mean, static_cast<float>(mean_of(image)));
     EXPECT_EQ(summarize_with(1).maximum, *std::max_element(image.pixels.begin(), image.pixels.end()));

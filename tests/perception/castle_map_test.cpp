@@ -115,7 +115,8 @@ TEST(CastleThreshold, IsLuminanceOverTheHighestSensitivity) {
     for (int i = 0; i < count; ++i) adaptation(i, 0) = static_cast<float>(luminances[i]);
     const Image<float> threshold = compute_threshold(Image<float>(count, 1, 3.0f), adaptation, castle_vision());
     for (int i = 0; i < count; ++i) {
-        EXPECT_NEAR(threshold(i, 0) / (3.0 * castle_threshold(luminances[i])), 1.0, 1e-3) << luminances[i];
+        EXPECT_NEAR(threshold(i, 0) * castle_peak(luminances[i]) / (3.0 * std::max(luminances[i], 1e-3)), 1.0, 1e-3)
+            << luminances[i];
     }
 }
 

@@ -2,9 +2,6 @@
 
 #include "perception/perception.h"
 #include "perception/vision/band_frequencies.h"
-#include "perception/vision/castle.h"
-#include "perception/vision/castle_row.h"
-#include "perception/vision/kelly.h"
 #include "perception/vision/retinal_velocity.h"
 #include "tests/perception/grating.h"
 #include "tests/support/perception_reference.h"
@@ -142,51 +139,26 @@ TEST(Gratings, MapsOfCastleAreTheKnownAnswer) {
     });
 }
 
-TEST(Gratings, SensitivityIsTheWrittenFormula) {
-    for (double v = 0.15; v < 1e4; v *= 1.3) {
-        for (double rho = 0.01; rho < 20.0; rho *= 1.5) {
-            const double exact = written_thesis_sensitivity(rho, v);
-            EXPECT_NEAR(csf(rho, v), exact, 1e-12 * exact + 1e-300) << rho << " cpd, " << v << " deg/s";
-        }
-    }
-}
-
-TEST(Gratings, ScalarModelsAreTheWrittenFormulas) {
-    const FrameRate frame_rate{};
+TEST(Gratings, SensitivityOfCastleIsTheWrittenFormula) {
     for (double rho = 16.0; rho >= 0.25; rho *= 0.5) {
         for (double v = 0.1; v < 200.0; v *= 1.3) {
-            const EyeMotion motion{.retinal = written_retinal_velocity(v, 0.82),
-                                   .tracked = written_tracked_velocity(v, 0.82)};
-            const double thesis = written_elevation(&thesis_vision(), rho, motion);
-            const double laird = written_elevation(&laird_vision(), rho, motion);
-            EXPECT_NEAR(elevation(rho, motion.retinal) / thesis, 1.0, 1e-12) << rho << " " << v;
-            EXPECT_NEAR(elevation(rho, motion.retinal, laird_2006) / laird, 1.0, 1e-12) << rho << " " << v;
             for (const double luminance : {0.05, 1.0, 100.0, 2000.0}) {
-                EyeMotion lit = motion;
-                lit.luminance = luminance;
-                const double castle = castle_elevation(rho, lit.retinal, lit.tracked, luminance, 1.0, frame_rate);
-                EXPECT_NEAR(castle / written_elevation(&castle_vision(), rho, lit), 1.0, 1e-9) << rho << " " << v;
+                const EyeMotion motion{written_retinal_velocity(v, 0.82), written_tracked_velocity(v, 0.82), luminance};
+                const double castle = castle_elevation(rho, motion.retinal, motion.tracked, luminance, 1.0, {});
+                EXPECT_NEAR(castle / written_elevation(&castle_vision(), rho, motion), 1.0, 1e-9) << rho << " " << v;
             }
         }
     }
 }
 
-TEST(Gratings, PeakFrequencyFallsAsOneOverVelocityPlusTwoOverC2) {
-    for (const KellyModel& model : {daly_1998, laird_2006}) {
-        const double product = csf_rho_numerator / (2.0 * pi * model.c1 * model.c2);
-        for (double v = 0.3; v < 1e3; v *= 1.4) {
-            EXPECT_NEAR(csf_peak_frequency(v, model) * (v + 2.0 / model.c2) / product, 1.0, 1e-12) << v;
-        }
-    }
-}
-
 TEST(Gratings, LairdPeaksWhereItsConstantsSay) {
-    // 45.9 / (.7986 * .3 + 2) / (2 pi .8404) cycles per degree, and the printed formula there.
-    EXPECT_NEAR(csf_peak_frequency(0.15, laird_2006), 3.88133, 1e-5);
-    const double peak = csf_peak_frequency(0.3, laird_2006);
-    EXPECT_NEAR(csf_max(0.15, laird_2006) / written_laird_sensitivity(peak, 0.3), 1.0, 1e-12);
-    EXPECT_GT(csf_max(0.3, laird_2006), written_laird_sensitivity(1.001 * peak, 0.3));
-    EXPECT_GT(csf_max(0.3, laird_2006), written_laird_sensitivity(0.999 * peak, 0.3));
+    // 45.9 / (.7986 * .3 + 2) / (2 pi .8404) cycles per degree. What is too fine to be seen has f = CSF_max.
+    constexpr double at = 3.88133, too_fine = 1e4;
+    const double peak = row_elevation(laird_vision(), {.frequency = too_fine, .retinal = 0.15});
+    EXPECT_NEAR(peak / written_laird_sensitivity(at, 0.3), 1.0, 2e-5);
+    EXPECT_EQ(row_elevation(laird_vision(), {.frequency = 0.999 * at, .retinal = 0.3}), 1.0);
+    EXPECT_GT(written_laird_sensitivity(at, 0.3), written_laird_sensitivity(1.001 * at, 0.3));
+    EXPECT_GT(written_laird_sensitivity(at, 0.3), written_laird_sensitivity(0.999 * at, 0.3));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "engine/base/sampling.h"
 #include "perception/perception.h"
 #include "perception/threshold.h"
-#include "perception/vision/tvi.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"
 #include "tests/support/vision_formulas.h"
@@ -25,7 +24,7 @@ TEST(VisionList, NamesEachModelOnce) {
     EXPECT_EQ(PerceptionSettings().vision, find_vision("thesis"));
 }
 
-TEST(VisionModel, RowsAgreeWithSingleValues) {
+TEST(VisionModel, RowsAreThoseOfTheirPixels) {
     constexpr int width = 400;
     std::vector<float> retinal(width), tracked(width), luminance(width), f(width);
     RandomStream random({3, 0, 0, 0});
@@ -37,13 +36,16 @@ TEST(VisionModel, RowsAgreeWithSingleValues) {
     const Presentation shown{.viewing = {.pixels_per_degree = 40.0, .persistence = 0.7}, .frame_rate = {24, 1}};
     const auto rho = band_frequencies(Bands::printed, shown.viewing.pixels_per_degree);
     for (const VisionModel* const model : vision_list()) {
-        const auto row = model->make_rows(rho, shown)(width);
+        const ElevationRowMaker make_row = model->make_rows(rho, shown);
+        const auto row = make_row(width), single = make_row(1);
         row->load({retinal.data(), tracked.data(), model->uses_luminance() ? luminance.data() : nullptr});
         for (int band = 0; band < band_count; ++band) {
             row->elevations(band, f.data());
             for (int x = 0; x < width; ++x) {
-                const double exact = model->elevation({rho[band], retinal[x], tracked[x], luminance[x]}, shown);
-                ASSERT_NEAR(f[x] / exact, 1.0, 2e-3) << model->name() << ", band " << band;
+                float alone = 0.0f;
+                single->load({&retinal[x], &tracked[x], model->uses_luminance() ? &luminance[x] : nullptr});
+                single->elevations(band, &alone);
+                ASSERT_EQ(f[x], alone) << model->name() << ", band " << band;
                 ASSERT_GE(f[x], 1.0f) << model->name();
                 ASSERT_LE(f[x], highest_aleph) << model->name();
                 ASSERT_TRUE(f[x] == 1.0f || !row->is_one(band)) << model->name();
@@ -51,7 +53,10 @@ TEST(VisionModel, RowsAgreeWithSingleValues) {
         }
         model->thresholds(luminance.data(), luminance.size(), f.data());
         for (int x = 0; x < width; ++x) {
-            ASSERT_NEAR(f[x] / model->threshold(luminance[x]), 1.0, 2e-3) << model->name() << " " << luminance[x];
+            float alone = 0.0f;
+            model->thresholds(&luminance[x], 1, &alone);
+            ASSERT_EQ(f[x], alone) << model->name() << " " << luminance[x];
+            ASSERT_GT(f[x], 0.0f) << model->name() << " " << luminance[x];
         }
     }
 }
@@ -62,9 +67,9 @@ TEST(VisionModel, SaysWhatItDependsOn) {
     dim.luminance = 1.0;
     const Presentation held, flashed{.viewing = {.persistence = 0.1}, .frame_rate = {}};
     for (const VisionModel* const model : vision_list()) {
-        const double f = model->elevation(bright, held);
-        EXPECT_EQ(model->uses_luminance(), model->elevation(dim, held) != f) << model->name();
-        EXPECT_EQ(model->uses_persistence(), model->elevation(bright, flashed) != f) << model->name();
+        const double f = row_elevation(*model, bright, held);
+        EXPECT_EQ(model->uses_luminance(), row_elevation(*model, dim, held) != f) << model->name();
+        EXPECT_EQ(model->uses_persistence(), row_elevation(*model, bright, flashed) != f) << model->name();
     }
 }
 
@@ -86,7 +91,7 @@ TEST(OwnVision, ElevationOneGivesAnAlephMapOfOnes) {
 }
 
 /// Elevations that grow with luminance and motion.
-class BrightVision final : public VisionModel {
+class BrightVision final : public PlainVision {
   public:
     std::string name() const override { return "bright"; }
     std::string summary() const override { return "a test's model"; }

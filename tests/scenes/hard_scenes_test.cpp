@@ -2,7 +2,7 @@
 // have the results that scenes/hard/README.md expects.
 
 #include "tests/scenes/hard_scenes.h"
-#include "engine/load/framing_camera.h"
+#include "engine/load/warnings.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/test.h"
 

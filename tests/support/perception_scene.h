@@ -120,7 +120,15 @@ inline std::vector<float> all_maps() {
     return values;
 }
 
-class OnesVision final : public VisionModel {
+/// tvi_row of one value.
+inline double tvi(double luminance) {
+    const auto value = static_cast<float>(luminance);
+    float out = 0.0f;
+    tvi_row(&value, 1, &out);
+    return out;
+}
+
+class OnesVision final : public PlainVision {
   public:
     std::string name() const override { return "ones"; }
     std::string summary() const override { return "the same elevation everywhere"; }

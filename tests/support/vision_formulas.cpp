@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "perception/vision/castle.h"
+#include "perception/vision/display_hold.h"
 #include "tests/support/numbers.h"
 
 namespace aleph {
@@ -14,9 +16,8 @@ double kelly_gain(double v, double c2) {
     return 6.1 + 7.3 * std::pow(std::abs(std::log10(c2 * v / 3.0)), 3.0);
 }
 
-/// (5.9), with the peak of (5.10).
-double kelly_elevation(double rho, double v, double c1, double c2, double (*sensitivity)(double, double)) {
-    const double peak = 45.9 / (c2 * v + 2.0) / (2.0 * pi * c1);
+/// (5.9)
+double kelly_elevation(double rho, double v, double peak, double (*sensitivity)(double, double)) {
     if (rho <= peak) return 1.0;
     return std::max(1.0, sensitivity(peak, v) / std::max(1.0, sensitivity(rho, v)));
 }
@@ -91,6 +92,14 @@ double written_laird_sensitivity(double rho, double v) {
            std::exp(-4.0 * pi * c1 * rho * (c2 * v + 2.0) / 45.9);
 }
 
+double written_thesis_peak(double v) {
+    return 45.9 / (1.7 * std::max(v, 0.15) + 2.0) / (2.0 * pi * 0.67);
+}
+
+double written_laird_peak(double v) {
+    return 45.9 / (0.7986 * std::max(v, 0.3) + 2.0) / (2.0 * pi * 0.8404);
+}
+
 double written_castle_sensitivity(double rho, double omega, double luminance) {
     const double peak = std::max(0.0, 2.41482 * std::log10(luminance) + 4.7036);
     const double away = std::pow(omega, 0.1898) - std::pow(peak, 0.1898);
@@ -115,14 +124,41 @@ double written_castle_peak(double luminance) {
 }
 
 double written_elevation(const VisionModel* vision, double rho, const EyeMotion& motion) {
-    if (vision == &thesis_vision()) {
-        return kelly_elevation(rho, std::max(motion.retinal, 0.15), 0.67, 1.7, written_thesis_sensitivity);
-    }
-    if (vision == &laird_vision()) {
-        return kelly_elevation(rho, std::max(motion.retinal, 0.3), 0.8404, 0.7986, written_laird_sensitivity);
-    }
+    const double v = motion.retinal;
+    if (vision == &thesis_vision()) return kelly_elevation(rho, v, written_thesis_peak(v), written_thesis_sensitivity);
+    if (vision == &laird_vision()) return kelly_elevation(rho, v, written_laird_peak(v), written_laird_sensitivity);
     const double seen = written_castle_sensitivity(rho, rho * motion.retinal, motion.luminance) * hold(rho, motion);
     return std::max(1.0, written_castle_peak(motion.luminance) / std::max(1.0, seen));
+}
+
+double written_tvi(double luminance) {
+    const double l = std::log10(std::clamp(luminance, 1e-6, 1e12));
+    double t = -2.86;
+    if (l >= -3.94) t = std::pow(0.405 * l + 1.6, 2.18) - 2.86;
+    if (l >= -1.44) t = l - 0.395;
+    if (l >= -0.0184) t = std::pow(0.249 * l + 0.65, 2.7) - 0.72;
+    if (l >= 1.9) t = l - 1.255;
+    return std::pow(10.0, t);
+}
+
+double castle_elevation(double rho, double retinal, double tracked, double luminance, double persistence,
+                        const FrameRate& frame_rate) {
+    const double moving = std::fmin(std::fmax(rho, 0.0), 1e30) * std::fmin(std::fmax(retinal, 0.0), 1e30);
+    const double sensitivity =
+        castle_sensitivity(rho, moving, luminance) * hold_transfer(rho, tracked, persistence, frame_rate);
+    return std::max(1.0, castle_peak(luminance) / std::max(sensitivity, 1.0));
+}
+
+double row_elevation(const VisionModel& vision, const Stimulus& stimulus, const Presentation& shown) {
+    std::array<double, band_count> rho;
+    rho.fill(stimulus.frequency);
+    const auto retinal = static_cast<float>(stimulus.retinal), tracked = static_cast<float>(stimulus.tracked),
+               luminance = static_cast<float>(stimulus.luminance);
+    const auto row = vision.make_rows(rho, shown)(1);
+    row->load({&retinal, &tracked, vision.uses_luminance() ? &luminance : nullptr});
+    float f = 0.0f;
+    row->elevations(0, &f);
+    return f;
 }
 
 }  // namespace aleph

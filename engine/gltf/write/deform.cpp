@@ -143,8 +143,7 @@ void MeshWriter::write_samples(int index, Written& written) {
     samples.sampling.kind = TimeSampling::Kind::acyclic;
     samples.sampling.times = moments.smooth;
     std::vector<double>& times = samples.sampling.times;
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
+    sort_and_unite(times);
 
     PosedMesh& posed = writer_.placed.meshes[index];
     pose_sample(index, times[0]);

@@ -1,10 +1,10 @@
 #include "engine/gltf/write/keys.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "engine/scene/operations.h"
 #include "engine/scene/transforms.h"
 
 namespace aleph {
@@ -20,16 +20,6 @@ float float_at_most(double t) {
 float float_above(double t) {
     const auto f = static_cast<float>(t);
     return double{f} > t ? f : std::nextafter(f, infinite);
-}
-
-std::array<double, 1> numbers(double value) {
-    return {value};
-}
-std::array<double, 3> numbers(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-std::array<double, 4> numbers(const glm::dquat& q) {
-    return {q.x, q.y, q.z, q.w};
 }
 
 template <class T>
@@ -53,7 +43,7 @@ template <class T>
 WrittenKeys make_step_keys(const Track<T>& track) {
     WrittenKeys keys;
     keys.interpolation = Interpolation::step;
-    keys.row = numbers(track.values[0]).size();
+    keys.row = components(track.values[0]).size();
     for (std::size_t i = 0; i < track.key_count(); ++i) {
         const double t = step_time(track, i);
         // In the middle between two keys the earlier one is still the nearest.
@@ -63,7 +53,8 @@ WrittenKeys make_step_keys(const Track<T>& track) {
             keys.times.pop_back();
             keys.values.resize(keys.values.size() - keys.row);
         }
-        keys.append(time, numbers(as_key(key_value(track, i))));
+        const T value = as_key(key_value(track, i));
+        keys.append(time, components(value));
     }
     return keys;
 }
@@ -82,16 +73,6 @@ std::vector<double> linear_times(const Track<T>& track) {
     return list_times(track);
 }
 
-template <class T>
-WrittenKeys make_linear_keys(const Track<T>& track) {
-    WrittenKeys keys;
-    keys.row = numbers(track.values[0]).size();
-    const std::vector<KeyTime> times = round_times(linear_times(track));
-    const std::vector<T> values = sample_keys(times, [&](double t) { return evaluate(track, t); });
-    for (std::size_t i = 0; i < times.size(); ++i) keys.append(times[i].time, numbers(values[i]));
-    return keys;
-}
-
 /// The factor that brings a key to its valid length.
 double unit_factor(const glm::dquat& key) {
     return 1.0 / glm::length(key);
@@ -105,23 +86,23 @@ template <class T>
 WrittenKeys make_cubic_keys(const Track<T>& track) {
     WrittenKeys keys;
     keys.interpolation = Interpolation::cubic;
-    keys.row = numbers(track.values[0]).size();
+    keys.row = components(track.values[0]).size();
     for (std::size_t i = 0; i < track.key_count(); ++i) {
         keys.times.push_back(static_cast<float>(sample_time(track.sampling, i)));
         const double factor = unit_factor(key_value(track, i));
         for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
-            for (const double number : numbers(track.values[k]))
+            for (const double number : components(track.values[k]))
                 keys.values.push_back(static_cast<float>(number * factor));
     }
     return keys;
 }
 
+}  // namespace
+
 void sort_and_unite(std::vector<double>& times) {
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
 }
-
-}  // namespace
 
 bool WrittenKeys::is_constant() const {
     if (interpolation == Interpolation::cubic) return false;
@@ -183,7 +164,7 @@ template <class T>
 WrittenKeys make_keys(const Track<T>& track) {
     switch (track.interpolation) {
         case Interpolation::linear:
-            return make_linear_keys(track);
+            return make_sampled_keys(round_times(linear_times(track)), [&](double t) { return evaluate(track, t); });
         case Interpolation::cubic:
             return make_cubic_keys(track);
         default:
@@ -206,6 +187,10 @@ bool has_exact_keys(const Track<T>& track) {
 
 void SampledTimes::add(const TimeSampling& sampling, std::size_t count) {
     for (std::size_t i = 0; count > 1 && i < count; ++i) smooth.push_back(sample_time(sampling, i));
+}
+
+void SampledTimes::add(const OperationStack& stack) {
+    add(stack.sampling, sample_count(stack));
 }
 
 template <class T>

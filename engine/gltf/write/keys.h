@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/scene/components.h"
 #include "engine/scene/scene.h"
 
 namespace aleph {
@@ -47,6 +48,18 @@ auto sample_keys(const std::vector<KeyTime>& keys, const Function& value) {
     return values;
 }
 
+/// Linear keys at these times. @param value  from a time in s
+template <class Function>
+WrittenKeys make_sampled_keys(const std::vector<KeyTime>& times, const Function& value) {
+    const auto values = sample_keys(times, value);
+    WrittenKeys keys;
+    keys.row = decltype(components(values[0]))::extent;
+    for (std::size_t i = 0; i < times.size(); ++i) keys.append(times[i].time, components(values[i]));
+    return keys;
+}
+
+void sort_and_unite(std::vector<double>& times);
+
 /// Times at which something is sampled that glTF cannot interpolate.
 struct SampledTimes {
     std::vector<double> smooth;  ///< s
@@ -55,6 +68,7 @@ struct SampledTimes {
     template <class T>
     void add(const Track<T>& track);
     void add(const TimeSampling& sampling, std::size_t count);
+    void add(const OperationStack& stack);
     std::size_t count() const { return smooth.size() + steps.size(); }
     /// The frames of a range from the first to the last of these times; the last is below the first for none.
     FrameRange find_frames(const FrameRate& rate, const FrameRange& range) const;

@@ -110,7 +110,7 @@ void MeshWriter::write_primitive(int index) {
         write_samples(index, written);
     } else {
         primitive["attributes"] = write_attributes(mesh, mesh.positions, mesh.normals);
-        if (has_joints(mesh)) write_joint_weights(writer_, mesh, primitive["attributes"]);
+        if (is_skinned(mesh)) write_joint_weights(writer_, mesh, primitive["attributes"]);
         write_targets(mesh, written);
     }
     const std::span<const std::uint32_t> indices(&mesh.triangles[0].x, 3 * mesh.triangles.size());

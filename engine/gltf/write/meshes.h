@@ -62,11 +62,6 @@ std::span<const float> floats_of(const std::vector<V>& vectors) {
     return {&vectors[0].x, vectors.size() * static_cast<std::size_t>(V::length())};
 }
 
-/// True where joints carry the vertices.
-inline bool has_joints(const Mesh& mesh) {
-    return mesh.deformation.skin != no_index && mesh.deformation.joints_per_vertex > 0;
-}
-
 /// Adds JOINTS_n and WEIGHTS_n.
 void write_joint_weights(GltfWriter& writer, const Mesh& mesh, OrderedJson& attributes);
 

@@ -10,12 +10,6 @@ namespace aleph {
 
 namespace {
 
-bool has_key(const Track<double>& track, double value) {
-    for (std::size_t i = 0; i < track.key_count(); ++i)
-        if (key_value(track, i) == value) return true;
-    return false;
-}
-
 /// True where a node is shown in spite of a hidden one above it: glTF hides everything below a hidden node, so what is
 /// hidden is said at the meshes and lights themselves.
 bool shows_below_hidden(const Scene& scene) {
@@ -40,8 +34,7 @@ struct Presence {
         for (const Track<double>* track : tracks) sampled.add(*track);
         std::vector<double> times = sampled.steps;
         times.insert(times.end(), sampled.smooth.begin(), sampled.smooth.end());
-        std::sort(times.begin(), times.end());
-        times.erase(std::unique(times.begin(), times.end()), times.end());
+        sort_and_unite(times);
         if (times.empty()) return Track<double>(value(0.0) ? 1.0 : 0.0);
         Track<double> made;
         made.sampling.kind = TimeSampling::Kind::acyclic;
@@ -172,7 +165,7 @@ class NodeWriter {
             if (holder == inner) is_free = false;
             const int mesh = meshes_.write(group, node.name);
             writer_.node(holder)["mesh"] = mesh;
-            if (has_joints(first)) writer_.node(holder)["skin"] = first.deformation.skin;
+            if (is_skinned(first)) writer_.node(holder)["skin"] = first.deformation.skin;
             writer_.animate(holder, "weights", meshes_.weight_keys(group[0]));
         }
         if (node.light == no_index) return;

@@ -1,7 +1,6 @@
 // glTF writer: the transforms of nodes. Tracks go as they are; operations, sheared matrices and nodes that leave their
 // parent's transform are sampled.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/gltf/write/decompose.h"
@@ -9,6 +8,7 @@
 #include "engine/pose/parts.h"
 #include "engine/scene/operations.h"
 #include "engine/scene/transforms.h"
+#include "engine/scene/visit.h"
 
 namespace aleph {
 
@@ -22,12 +22,7 @@ std::string place_of_node(const Scene& scene, int node) {
 class AxisKeys {
   public:
     AxisKeys(GltfWriter& writer, const AxisRotation& turn, const std::string& place)
-        : writer_(writer), turn_(turn), place_(place), axis_(safe_normalize(turn.axis)) {}
-
-    glm::dquat at(double seconds) const {
-        const double half = 0.5 * evaluate(turn_.angle, seconds);
-        return safe_normalize(glm::dquat(std::cos(half), axis_ * std::sin(half)));
-    }
+        : writer_(writer), turn_(turn), place_(place) {}
 
     WrittenKeys make() const {
         const Track<double>& angle = turn_.angle;
@@ -37,22 +32,14 @@ class AxisKeys {
             turns.interpolation = angle.interpolation;
             turns.values.clear();
             for (std::size_t i = 0; i < angle.key_count(); ++i)
-                turns.values.push_back(at(sample_time(angle.sampling, i)));
+                turns.values.push_back(rotation_at(turn_, sample_time(angle.sampling, i)));
             return make_keys(turns);
         }
         SampledTimes sampled;
         sampled.add(angle);
         const bool is_linear = angle.interpolation == Interpolation::linear;
         if (!is_linear) writer_.add_frames(sampled, place_);
-        const std::vector<KeyTime> times = split(sampled);
-        const std::vector<glm::dquat> values = sample_keys(times, [&](double t) { return at(t); });
-        WrittenKeys keys;
-        keys.row = 4;
-        for (std::size_t i = 0; i < times.size(); ++i) {
-            const glm::dquat& q = values[i];
-            keys.append(times[i].time, std::array{q.x, q.y, q.z, q.w});
-        }
-        return keys;
+        return make_sampled_keys(split(sampled), [&](double t) { return rotation_at(turn_, t); });
     }
 
   private:
@@ -80,7 +67,6 @@ class AxisKeys {
     GltfWriter& writer_;
     const AxisRotation& turn_;
     std::string place_;
-    glm::dvec3 axis_;
 };
 
 void write_tracks(GltfWriter& writer, const LocalTransform& local, const std::string& place,
@@ -94,10 +80,9 @@ void write_tracks(GltfWriter& writer, const LocalTransform& local, const std::st
         if (is_animated(local.rotation)) written.rotation_keys = writer.keys_of(local.rotation, place);
         return;
     }
-    const AxisKeys turns(writer, *local.axis_rotation, place);
     const Track<double>& angle = local.axis_rotation->angle;
-    written.rotation = turns.at(sample_time(angle.sampling, 0));
-    if (is_animated(angle)) written.rotation_keys = turns.make();
+    written.rotation = rotation_at(*local.axis_rotation, sample_time(angle.sampling, 0));
+    if (is_animated(angle)) written.rotation_keys = AxisKeys(writer, *local.axis_rotation, place).make();
 }
 
 void set_parts(const TransformParts& parts, WrittenTransform& written) {
@@ -116,11 +101,10 @@ void write_matrices(const std::vector<KeyTime>& times, const std::vector<glm::dm
     for (std::size_t i = 0; i < times.size(); ++i) {
         parts = decompose(matrices[i], parts);
         if (i == 0) set_parts(parts, written);
-        const auto& [t, r, s, inner] = parts;
-        written.translation_keys.append(times[i].time, std::array{t.x, t.y, t.z});
-        written.rotation_keys.append(times[i].time, std::array{r.x, r.y, r.z, r.w});
-        written.scale_keys.append(times[i].time, std::array{s.x, s.y, s.z});
-        written.inner_keys.append(times[i].time, std::array{inner.x, inner.y, inner.z, inner.w});
+        written.translation_keys.append(times[i].time, components(parts.translation));
+        written.rotation_keys.append(times[i].time, components(parts.rotation));
+        written.scale_keys.append(times[i].time, components(parts.scale));
+        written.inner_keys.append(times[i].time, components(parts.inner));
     }
     for (WrittenKeys* keys :
          {&written.translation_keys, &written.rotation_keys, &written.scale_keys, &written.inner_keys})
@@ -175,7 +159,7 @@ void write_operations(GltfWriter& writer, const OperationStack& stack, const std
     const auto at = [&](double t) { return evaluate(stack, t); };
     if (!is_animated(stack)) return set_parts(decompose(at(0.0), {}), written);
     SampledTimes sampled;
-    sampled.add(stack.sampling, sample_count(stack));
+    sampled.add(stack);
     writer.add_frames(sampled, place);
     write_sampled(at, sampled, written);
 }
@@ -189,19 +173,7 @@ void write_world(GltfWriter& writer, int node, const std::string& place, Written
     for (const int n : chain) {
         const Node& each = writer.scene.nodes[n];
         sampled.add(each.inherits);
-        const LocalTransform& local = each.transform;
-        if (local.operations) {
-            sampled.add(local.operations->sampling, sample_count(*local.operations));
-        } else if (local.matrix) {
-            sampled.add(*local.matrix);
-        } else {
-            sampled.add(local.translation);
-            sampled.add(local.scale);
-            if (local.axis_rotation)
-                sampled.add(local.axis_rotation->angle);
-            else
-                sampled.add(local.rotation);
-        }
+        visit_tracks(each.transform, [&](const auto& track) { sampled.add(track); });
     }
     writer.add_frames(sampled, place);
     const auto at = [&](double t) {
@@ -214,11 +186,14 @@ void write_world(GltfWriter& writer, int node, const std::string& place, Written
 
 }  // namespace
 
-bool is_detached(const Node& node) {
-    if (node.parent == no_index) return false;
-    for (std::size_t i = 0; i < node.inherits.key_count(); ++i)
-        if (key_value(node.inherits, i) == 0.0) return true;
+bool has_key(const Track<double>& track, double value) {
+    for (std::size_t i = 0; i < track.key_count(); ++i)
+        if (key_value(track, i) == value) return true;
     return false;
+}
+
+bool is_detached(const Node& node) {
+    return node.parent != no_index && has_key(node.inherits, 0.0);
 }
 
 WrittenTransform write_transform(GltfWriter& writer, int index) {

@@ -17,16 +17,6 @@ const char* interpolation_word(Interpolation interpolation) {
                                                    : "LINEAR";
 }
 
-std::array<double, 1> to_row(double value) {
-    return {value};
-}
-std::array<double, 3> to_row(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-std::array<double, 4> to_row(const glm::dquat& q) {
-    return {q.x, q.y, q.z, q.w};
-}
-
 OrderedJson list_names(const std::set<std::string>& names) {
     OrderedJson list = OrderedJson::array();
     for (const std::string& name : names) list.push_back(name);
@@ -53,12 +43,7 @@ WrittenKeys GltfWriter::keys_of(const Track<T>& track, const std::string& place)
     SampledTimes sampled;
     sampled.add(track);
     add_frames(sampled, place);
-    const std::vector<KeyTime> times = sampled.make_key_times();
-    const std::vector<T> values = sample_keys(times, [&](double t) { return evaluate(track, t); });
-    WrittenKeys keys;
-    keys.row = to_row(track.values[0]).size();
-    for (std::size_t i = 0; i < times.size(); ++i) keys.append(times[i].time, to_row(values[i]));
-    return keys;
+    return make_sampled_keys(sampled.make_key_times(), [&](double t) { return evaluate(track, t); });
 }
 template WrittenKeys GltfWriter::keys_of(const Track<double>&, const std::string&);
 template WrittenKeys GltfWriter::keys_of(const Track<glm::dvec3>&, const std::string&);

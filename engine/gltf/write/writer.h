@@ -95,15 +95,15 @@ struct WrittenTransform {
 /// @param node  of the scene
 WrittenTransform write_transform(GltfWriter& writer, int node);
 
+bool has_key(const Track<double>& track, double value);
+
 /// True where the node does not hang below its parent: at some time the parent's transform does not apply.
 bool is_detached(const Node& node);
 
 // Vectors and colours as JSON.
-inline OrderedJson to_json(const glm::dvec3& v) {
-    return OrderedJson::array({v.x, v.y, v.z});
-}
-inline OrderedJson to_json(const glm::dquat& q) {
-    return OrderedJson::array({q.x, q.y, q.z, q.w});
+template <class T>
+OrderedJson to_json(const T& value) {
+    return std::vector<double>(components(value).begin(), components(value).end());
 }
 
 }  // namespace aleph

@@ -18,7 +18,9 @@ glm::dvec3 to_opponent(const glm::dvec3& rgb) {
 
 TEST(OpponentColor, RedWorkedOutByHand) {
     // XYZ of Rec.709 red is (.4124, .2126, .0193).
-    const auto red = [](OpponentChannel channel) { return opponent_weights(channel, false).r; };
+    const auto red = [](OpponentChannel channel) {
+        return compute_opponent(Image<Rgb>(1, 1, Rgb(1.0f, 0.0f, 0.0f)), channel, false)(0, 0);
+    };
     EXPECT_NEAR(red(OpponentChannel::a), -0.0177 * 0.4124 + 1.0090 * 0.2126 + 0.0073 * 0.0193, 3e-8);
     EXPECT_NEAR(red(OpponentChannel::c1), -1.5370 * 0.4124 + 1.0821 * 0.2126 + 0.3209 * 0.0193, 3e-8);
     EXPECT_NEAR(red(OpponentChannel::c2), 0.1946 * 0.4124 - 0.2045 * 0.2126 + 0.5264 * 0.0193, 3e-8);

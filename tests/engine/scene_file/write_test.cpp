@@ -95,7 +95,7 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
                    "one for each");
     expect_spoiled([](Scene& s) { s.meshes[0].shape.reset(), s.meshes[0].positions[3].x = float_nan; }, "", "finite");
     expect_spoiled([](Scene& s) { s.point_caches.emplace_back().name = "p"; }, "\"p\"", "no positions");
-    expect_spoiled([](Scene& s) { s.cages.emplace_back().name = "c"; }, "c", "no element -1");
+    expect_spoiled([](Scene& s) { s.cages.emplace_back().name = "c"; }, "c", "points -1, which belongs to an include");
     expect_spoiled(
         [](Scene& s) {
             PointCache& points = s.point_caches.emplace_back();
@@ -140,7 +140,7 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
                    "nan");
     expect_spoiled([](Scene& s) { s.film.viewing.persistence = 2.0; }, "/viewing/persistence", "from 0 to 1");
     expect_spoiled([](Scene& s) { s.environment.image = 0, s.environment.radiance = glm::dvec3(1.0); },
-                   "environment_image", "no element 0");
+                   "environment_image", "image 0, which");
     expect_spoiled(
         [](Scene& s) {
             s.images.push_back({.name = "sky", .path = "sky.exr", .bytes = {}, .floats = {}});
@@ -150,6 +150,7 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     expect_spoiled([](Scene& s) { s.environment.rotation = glm::dquat(0, 1, 0, 0); }, "/environment_rotation",
                    "\"environment_image\", which is not given");
     expect_spoiled([](Scene& s) { s.source.includes = {{"b.glb", 1}, {"a.glb", 0}}; }, "includes", "exactly");
+    expect_spoiled([](Scene& s) { s.source.includes = {{"a.glb", 9}}; }, "include 0", "node 9");
     expect_spoiled([](Scene& s) { s.source.includes = {{"/abs.glb", 0}}; }, "/nodes/0/include", "absolute");
     expect_spoiled([](Scene& s) { s.nodes[0].include = 0; }, "node 1", "after");
     expect_spoiled(
