@@ -99,4 +99,27 @@ inline Mean mean_scattered(const LitSurface& lit, int count, std::uint32_t seed,
     return mean;
 }
 
+/// Integrates f(light) over the upper hemisphere along half vectors spread like the lobe of this width, so that narrow
+/// lobes are resolved: tan = width sqrt(u / (1 - u)).
+template <class F>
+double integrate_around_lobe(float width, const glm::vec3& view, const F& f, int steps = 512) {
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const double u = (i + 0.5) / steps, ratio = std::sqrt(u / (1.0 - u)), tangent = width * ratio;
+        const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent), sine = tangent * cosine;
+        // d tan / du = width / (2 ratio (1 - u)^2); d theta = cos^2 d tan
+        const double ring = sine * cosine * cosine * width / (2.0 * ratio * (1.0 - u) * (1.0 - u)) / steps;
+        for (int k = 0; k < steps; ++k) {
+            const double azimuth = 2.0 * pi * (k + 0.5) / steps;
+            const glm::dvec3 h(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine), v(view);
+            const double vh = glm::dot(v, h);
+            if (vh <= 0.0) continue;
+            const glm::dvec3 light = 2.0 * vh * h - v;
+            if (light.z <= 0.0) continue;
+            sum += f(glm::vec3(light)) * 4.0 * vh * ring * 2.0 * pi / steps;
+        }
+    }
+    return sum;
+}
+
 }  // namespace aleph
