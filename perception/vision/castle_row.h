@@ -11,8 +11,8 @@
 
 namespace aleph {
 
-/// The bands: factors by band, and both channels' sensitivities over log luminance. The
-/// last of the eight lanes is not used.
+/// The bands: factors by band, and both channels' sensitivities over log luminance. The last of the eight lanes is not
+/// used.
 struct CastleTable {
     static constexpr int lanes = 8;
     using Lanes = std::array<float, lanes>;
