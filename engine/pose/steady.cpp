@@ -85,8 +85,8 @@ bool is_mesh_steady(const Mesh& mesh, double from, double to) {
 
 void sort_unique(std::vector<int>& list) {
     std::ranges::sort(list);
-    const auto repeated = std::ranges::unique(list);
-    list.erase(repeated.begin(), repeated.end());
+    // Clang 14 cannot read std::ranges::unique.
+    list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 }  // namespace

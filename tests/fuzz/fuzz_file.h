@@ -30,7 +30,7 @@ inline const std::filesystem::path& fuzz_folder() {
 }
 
 /// Reads the bytes as a file of this name: an InputError or a scene that can be posed.
-/// @param append  append_alembic, append_gltf
+/// @param append  as append_alembic
 template <class Append>
 int read_fuzz_file(const char* name, const std::uint8_t* data, std::size_t size, const Append& append) {
     const std::filesystem::path path = fuzz_folder() / name;

@@ -7,5 +7,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const bool binary = std::string_view(reinterpret_cast<const char*>(data), size).starts_with("glTF");
-    return aleph::read_fuzz_file(binary ? "input.glb" : "input.gltf", data, size, aleph::append_gltf);
+    return aleph::read_fuzz_file(binary ? "input.glb" : "input.gltf", data, size,
+                                 [](const auto& path, aleph::Scene& scene, int node, int include) {
+                                     aleph::append_gltf(path, scene, node, include);
+                                 });
 }
