@@ -162,6 +162,23 @@ TEST(ImageIo, RefusesDeepAndMultiPartExr) {
     EXPECT_NE(input_error(folder / "deep.exr").find("deep"), std::string::npos);
 }
 
+/// OpenEXR would take the memory first: an attribute of 2 GB in a file of 400 bytes.
+TEST(ImageIo, RefusesAttributesLongerThanTheFile) {
+    const ScratchFolder folder;
+    write_exr(folder / "a.exr", small_image());
+    const auto bytes = read_numbers(folder / "a.exr");
+    const std::string type = "chlist";
+    const auto size = std::search(bytes.begin(), bytes.end(), type.begin(), type.end()) - bytes.begin() + 7;
+    for (const std::uint8_t high : {0x7f, 0xff}) {
+        auto changed = bytes;
+        changed[size + 3] = high;
+        save_bytes(folder / "long.exr", changed);
+        EXPECT_EQ(input_error(folder / "long.exr"), "is longer than the file");
+    }
+    save_bytes(folder / "cut.exr", {bytes.begin(), bytes.begin() + 12});
+    EXPECT_EQ(input_error(folder / "cut.exr"), "the file is cut");
+}
+
 TEST(ImageIo, ReadsRadianceHdr) {
     const ScratchFolder folder;
     const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
