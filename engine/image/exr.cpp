@@ -28,6 +28,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/image/codec.h"
+#include "engine/image/exr_header.h"
 
 namespace aleph {
 
@@ -184,30 +185,6 @@ void refuse_unsupported_kinds(ByteView bytes, const std::string& name) {
     if (Imf::isNonImage(flags)) throw InputError(name, "", "deep EXR files are not read; flatten it first");
 }
 
-/// Checks that the header's attributes lie within the file: OpenEXR takes the memory that they name before it reads
-/// them.
-void check_attributes(ByteView bytes, const std::string& name) {
-    if (!Imf::isImfMagic(reinterpret_cast<const char*>(bytes.data()))) return;  // it says so
-    std::size_t at = 8;
-    const auto text = [&] {
-        const auto end = std::find(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end(), std::uint8_t{0});
-        if (end == bytes.end()) throw InputError(name, "", "the file is cut");
-        const std::string found(bytes.begin() + static_cast<std::ptrdiff_t>(at), end);
-        at += found.size() + 1;
-        return found;
-    };
-    for (std::string attribute = text(); !attribute.empty(); attribute = text()) {
-        text();  // its type
-        std::int32_t size = 0;
-        if (bytes.size() - at < sizeof size) throw InputError(name, "", "the file is cut");
-        std::memcpy(&size, bytes.data() + at, sizeof size);
-        at += sizeof size;
-        if (size < 0 || static_cast<std::size_t>(size) > bytes.size() - at)
-            throw InputError(name, fmt::format("attribute '{}'", printable(attribute)), "is longer than the file");
-        at += static_cast<std::size_t>(size);
-    }
-}
-
 /// Reads the last row back: OpenEXR finishes a file in a destructor, which loses errors.
 void verify(const std::string& bytes, const Image<float>& first, const Channel& last) {
     MemoryInput stream({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
@@ -261,6 +238,7 @@ std::string encode_exr(const ChannelImage& image, int threads) {
 }
 
 std::optional<std::string> find_exr_text(const std::filesystem::path& path, const std::string& key) {
+    check_exr_header(path.string(), nullptr);
     try {
         Imf::InputFile file(path.c_str(), 0);
         const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(key);
@@ -286,7 +264,7 @@ std::optional<std::string> find_exr_text(const std::filesystem::path& path, cons
 
 ChannelImage decode_exr(ByteView bytes, const std::string& name) {
     refuse_unsupported_kinds(bytes, name);
-    check_attributes(bytes, name);
+    check_exr_header(name, &bytes);
     try {
         MemoryInput stream(bytes);
         Imf::InputFile file(stream, grow_thread_pool(thread_count()));

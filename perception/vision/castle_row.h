@@ -33,8 +33,8 @@ struct CastleTable {
     std::vector<Node> nodes;   ///< by LuminanceGrid
 };
 
-/// Elevations of a row, within 2e-3, but for luminances within 1e-4 of .0113 cd/m2, where the fit
-/// begins to have a transient channel.
+/// Elevations of a row, within 2e-3 of the formula, but for luminances within 1e-4 of .0113 cd/m2, where the fit begins
+/// to have a transient channel.
 class CastleRow final : public ElevationRow {
   public:
     CastleRow(std::shared_ptr<const CastleTable> table, int width);

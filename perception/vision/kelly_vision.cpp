@@ -37,8 +37,8 @@ void KellyRow::load(const StimulusRow& row) {
     float largest = 0.0f;
 #pragma omp simd reduction(max : largest)
     for (std::size_t x = 0; x < width; ++x) {
-        const float limited = velocity[x] < max_model_velocity ? velocity[x] : max_model_velocity;
-        const float v = limited > slowest ? limited : slowest;
+        const float moving = velocity[x] > slowest ? velocity[x] : slowest;  // also where it is NaN
+        const float v = moving < max_model_velocity ? moving : max_model_velocity;
         const float s = c2 * v + static_cast<float>(csf_rho_offset);
         const float l = std::abs(log10_2 * fast_log2(v) + log_offset);
         const float k = static_cast<float>(csf_k_offset) + static_cast<float>(csf_k_slope) * (l * l * l);
@@ -54,13 +54,15 @@ bool KellyRow::is_one(int band) const {
 }
 
 void KellyRow::elevations(int band, float* out) const {
-    // k, c0 and c2 v cancel: CSF_max / CSF = e^(2x-2) / x^2 with x = rho / rho_peak. Where CSF < 1, f is CSF_max.
+    // k, c0 and c2 v cancel: CSF_max / CSF = e^(2x-2) / x^2 with x = rho / rho_peak. Where CSF < 1, f is CSF_max; so it
+    // is long before the largest ratio, beyond which the square would overflow.
+    constexpr float largest_ratio = 32.0f;
     const float slope = slope_[band];
     const std::size_t width = spread_.size();
     const float* const spread = spread_.data();
     const float* const peak = peak_.data();
     for (std::size_t x = 0; x < width; ++x) {
-        const float ratio = slope * spread[x];
+        const float exact = slope * spread[x], ratio = exact > largest_ratio ? largest_ratio : exact;
         const float f = fast_exp2(2.0f * log2_e * (ratio - 1.0f)) / (ratio * ratio);
         const float clamped = f < peak[x] ? f : peak[x];
         const float at_least_one = clamped > 1.0f ? clamped : 1.0f;

@@ -19,7 +19,7 @@ constexpr double sampled_accuracy = 0.05;  // stands for that of a picture witho
 constexpr int fewest_rays = 64, most_record_rays = 1024;
 constexpr double record_noise_aim = 0.15;
 
-/// Pixels for each ray of a record, from the fewest on. Records do not grow in number with the picture, while their
+/// Pixels for each ray of a record, from the fewest on. From 160x120 up records do not grow in number, while their
 /// noise, common to all that see a wall, does not shrink with it as that of samples: so their work grows instead.
 constexpr int pixels_per_ray = 300;
 

@@ -37,7 +37,7 @@ TEST(SensitivityHard, CS01_RestAndEverythingBelowTheDriftIsTheDrift) {
 }
 
 TEST(SensitivityHard, CS02_NegativeAndNanVelocity) {
-    for (const double v : {-1.2, -double{largest}, -infinity})
+    for (const double v : {-1.2, -double{largest}, -infinity, not_a_number})
         EXPECT_EQ(thesis_elevation(16, v), thesis_elevation(16, 0.15)) << v;
     for (const float v : {-1.2f, -float_infinity, float_nan}) EXPECT_EQ(hazard_velocity(v, 0.5f), 0.15f) << v;
 }
@@ -77,7 +77,7 @@ TEST(SensitivityHard, CS05_ZeroAndOddFrequencies) {
     for (const double rho : {0.0, -0.0, denormal, -3.0, -infinity, not_a_number}) {
         EXPECT_EQ(thesis_elevation(rho, 5), 1.0) << rho;
     }
-    for (const double rho : {1e3, 1e10, 1e15}) EXPECT_NEAR(thesis_elevation(rho, 5), 169.8, 0.05) << rho;
+    for (const double rho : {1e3, 1e10, largest, infinity}) EXPECT_NEAR(thesis_elevation(rho, 5), 169.8, 0.05) << rho;
 }
 
 TEST(SensitivityHard, CS06_FrequenciesScaleWithPixelDensity) {

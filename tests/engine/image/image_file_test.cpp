@@ -162,7 +162,7 @@ TEST(ImageIo, RefusesDeepAndMultiPartExr) {
     EXPECT_NE(input_error(folder / "deep.exr").find("deep"), std::string::npos);
 }
 
-/// OpenEXR would take the memory first: an attribute of 2 GB in a file of 400 bytes.
+/// Imf::InputFile would take the memory first: an attribute of 2 GB in a file of 400 bytes.
 TEST(ImageIo, RefusesAttributesLongerThanTheFile) {
     const ScratchFolder folder;
     write_exr(folder / "a.exr", small_image());
@@ -173,10 +173,14 @@ TEST(ImageIo, RefusesAttributesLongerThanTheFile) {
         auto changed = bytes;
         changed[size + 3] = high;
         save_bytes(folder / "long.exr", changed);
-        EXPECT_EQ(input_error(folder / "long.exr"), "is longer than the file");
+        const std::string damage = "the header is damaged: Attribute 'channels', type 'chlist'";
+        EXPECT_EQ(input_error(folder / "long.exr").find(damage), 0u);
     }
-    save_bytes(folder / "cut.exr", {bytes.begin(), bytes.begin() + 12});
-    EXPECT_EQ(input_error(folder / "cut.exr"), "the file is cut");
+    // Where the list of channels ends before its attribute, two readers would take the bytes after it for other things.
+    auto changed = bytes;
+    changed[size] += 9;
+    save_bytes(folder / "shifted.exr", changed);
+    EXPECT_EQ(input_error(folder / "shifted.exr").find("the header is damaged"), 0u);
 }
 
 TEST(ImageIo, ReadsRadianceHdr) {
