@@ -6,7 +6,6 @@
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
@@ -29,49 +28,11 @@
 #include "engine/base/parallel.h"
 #include "engine/image/codec.h"
 #include "engine/image/exr_header.h"
+#include "engine/image/exr_stream.h"
 
 namespace aleph {
 
 namespace {
-
-class MemoryOutput : public Imf::OStream {
-  public:
-    explicit MemoryOutput(std::string& bytes) : Imf::OStream("memory"), bytes_(bytes) {}
-
-    void write(const char c[], int n) override {
-        const auto count = static_cast<std::size_t>(n);
-        if (position_ + count > bytes_.size()) bytes_.resize(position_ + count);
-        std::memcpy(bytes_.data() + position_, c, count);
-        position_ += count;
-    }
-    std::uint64_t tellp() override { return position_; }
-    void seekp(std::uint64_t position) override { position_ = position; }
-
-  private:
-    std::string& bytes_;
-    std::size_t position_ = 0;
-};
-
-class MemoryInput : public Imf::IStream {
-  public:
-    explicit MemoryInput(ByteView bytes) : Imf::IStream("memory"), bytes_(bytes) {}
-
-    bool read(char c[], int n) override {
-        const auto count = static_cast<std::size_t>(n);
-        if (n < 0 || position_ > bytes_.size() || count > bytes_.size() - position_) {
-            throw std::runtime_error("the file is cut");
-        }
-        std::memcpy(c, bytes_.data() + position_, count);
-        position_ += count;
-        return position_ < bytes_.size();
-    }
-    std::uint64_t tellg() override { return position_; }
-    void seekg(std::uint64_t position) override { position_ = position; }
-
-  private:
-    ByteView bytes_;
-    std::size_t position_ = 0;
-};
 
 /// OpenEXR has one pool of threads per process. It only grows: another caller may be using its threads.
 /// @return how many of the threads asked for it is to use; 0: none of the pool's
@@ -238,7 +199,6 @@ std::string encode_exr(const ChannelImage& image, int threads) {
 }
 
 std::optional<std::string> find_exr_text(const std::filesystem::path& path, const std::string& key) {
-    check_exr_header(path.string(), nullptr);
     try {
         Imf::InputFile file(path.c_str(), 0);
         const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(key);
@@ -264,7 +224,7 @@ std::optional<std::string> find_exr_text(const std::filesystem::path& path, cons
 
 ChannelImage decode_exr(ByteView bytes, const std::string& name) {
     refuse_unsupported_kinds(bytes, name);
-    check_exr_header(name, &bytes);
+    check_exr_header(bytes, name);
     try {
         MemoryInput stream(bytes);
         Imf::InputFile file(stream, grow_thread_pool(thread_count()));

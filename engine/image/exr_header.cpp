@@ -1,62 +1,69 @@
 #include "engine/image/exr_header.h"
 
-#include <OpenEXR/openexr.h>
+#include <OpenEXR/ImfAttribute.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfVersion.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 
 #include "engine/base/errors.h"
+#include "engine/image/exr_stream.h"
 
 namespace aleph {
 
 namespace {
 
-struct HeaderReading {
-    const ByteView* bytes = nullptr;
-    std::string fault;  ///< the first one
-};
-
-HeaderReading& reading_of(exr_const_context_t context) {
-    void* data = nullptr;
-    exr_get_user_data(context, &data);
-    return *static_cast<HeaderReading*>(data);
+/// Takes the next bytes off the front.
+ByteView take(ByteView& left, std::size_t count) {
+    if (count > left.size()) throw std::runtime_error("the file is cut");
+    const ByteView taken = left.first(count);
+    left = left.subspan(count);
+    return taken;
 }
 
-void keep_fault(exr_const_context_t context, exr_result_t /*code*/, const char* text) {
-    std::string& fault = reading_of(context).fault;
-    if (fault.empty()) fault = text;
+std::string take_text(ByteView& left) {
+    const auto end = std::find(left.begin(), left.end(), std::uint8_t{0});
+    const ByteView text = take(left, static_cast<std::size_t>(end - left.begin()));
+    take(left, 1);
+    return {text.begin(), text.end()};
 }
 
-std::int64_t size_of(exr_const_context_t /*context*/, void* data) {
-    return std::ssize(*static_cast<HeaderReading*>(data)->bytes);
+/// The value's bytes, of an attribute of any type.
+ByteView take_value(ByteView& left) {
+    std::int32_t size = 0;
+    std::memcpy(&size, take(left, sizeof size).data(), sizeof size);
+    if (size < 0 || static_cast<std::size_t>(size) > left.size()) throw std::runtime_error("is longer than the file");
+    return take(left, static_cast<std::size_t>(size));
 }
 
-std::int64_t read_bytes(exr_const_context_t /*context*/, void* data, void* to, std::uint64_t count, std::uint64_t from,
-                        exr_stream_error_func_ptr_t /*report*/) {
-    const ByteView bytes = *static_cast<HeaderReading*>(data)->bytes;
-    const ByteView left = bytes.subspan(std::min<std::uint64_t>(from, bytes.size()));
-    const std::size_t read = std::min<std::uint64_t>(count, left.size());
-    std::memcpy(to, left.data(), read);
-    return static_cast<std::int64_t>(read);
+/// Types that OpenEXR does not know are bytes, as many as the size says.
+void check_value(const std::string& type, ByteView value) {
+    if (!Imf::Attribute::knownType(type.c_str())) return;
+    const std::unique_ptr<Imf::Attribute> attribute(Imf::Attribute::newAttribute(type.c_str()));
+    MemoryInput stream(value);
+    attribute->readValueFrom(stream, static_cast<int>(value.size()), Imf::EXR_VERSION);
+    if (stream.tellg() != value.size()) throw std::runtime_error(fmt::format("is longer than its {}", printable(type)));
 }
 
 }  // namespace
 
-void check_exr_header(const std::string& name, const ByteView* bytes) {
-    HeaderReading reading{bytes, {}};
-    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    how.error_handler_fn = keep_fault;
-    how.user_data = &reading;
-    if (bytes != nullptr) {
-        how.read_fn = read_bytes;
-        how.size_fn = size_of;
+void check_exr_header(ByteView bytes, const std::string& name) {
+    Imf::staticInitialize();
+    std::string place;
+    try {
+        take(bytes, 8);  // magic number and version
+        for (std::string attribute = take_text(bytes); !attribute.empty(); attribute = take_text(bytes)) {
+            const std::string type = take_text(bytes);
+            place = fmt::format("attribute '{}'", printable(attribute));
+            check_value(type, take_value(bytes));
+            place.clear();
+        }
+    } catch (const std::exception& e) {
+        throw InputError(name, place, printable(e.what(), 400));
     }
-    exr_context_t context = nullptr;
-    const exr_result_t result = exr_start_read(&context, name.c_str(), &how);
-    exr_finish(&context);
-    if (result == EXR_ERR_SUCCESS) return;
-    const std::string reason = reading.fault.empty() ? exr_get_default_error_message(result) : reading.fault;
-    throw InputError(printable(name, 400), "", "the header is damaged: " + printable(reason, 400));
 }
 
 }  // namespace aleph

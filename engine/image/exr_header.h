@@ -7,10 +7,10 @@
 
 namespace aleph {
 
-/// Reads the header by OpenEXRCore, which compares attributes with the file's size. Imf::InputFile takes the memory
-/// that an attribute names before it reads it: a file of 4 KB could ask for 2 GB.
-/// @param bytes  of the file; null: those of the file of this name
+/// Reads each attribute of the header alone: it has to lie within the file, and to end where its size says.
+/// Imf::InputFile takes the memory that an attribute names before it reads it, and goes on where a value ends, whatever
+/// its size: a file of 4 KB could ask for 2 GB.
 /// @throws InputError
-void check_exr_header(const std::string& name, const ByteView* bytes);
+void check_exr_header(ByteView bytes, const std::string& name);
 
 }  // namespace aleph
