@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/color.h"
 #include "engine/base/pixel_loops.h"
 
 namespace aleph {
@@ -15,10 +16,6 @@ constexpr double firefly_factor = 10.0;
 constexpr float max_component = 1e30f;  // luminance stays finite
 
 enum class PixelState : std::uint8_t { valid, invalid, queued };
-
-bool is_finite(const Rgb& c) {
-    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
-}
 
 /// Lower median of each component over the valid 8-neighbours; false without any.
 bool median_of_neighbours(const Image<Rgb>& image, const Image<PixelState>& state, int x, int y, Rgb& median) {

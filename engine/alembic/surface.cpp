@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
+#include "engine/base/color.h"
 #include "engine/base/errors.h"
 
 namespace aleph {
@@ -86,10 +86,6 @@ std::vector<glm::vec3> read_vectors(const AlembicArchive& archive, const Alembic
     archive.budget().charge(vectors.size(), sizeof(glm::vec3));
     for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
     return vectors;
-}
-
-bool is_finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 void read_point_cache(AlembicReader& reader, int object, const Sampled& points, SurfaceRun& run) {

@@ -18,6 +18,11 @@ inline float largest_channel(const Rgb& c) {
     return std::max({c.x, c.y, c.z});
 }
 
+/// Whether all three channels are finite; or coordinates, which have the same type.
+inline bool is_finite(const Rgb& c) {
+    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+}
+
 /// sRGB transfer function, [0,1] to [0,1] (IEC 61966-2-1).
 inline float linear_to_srgb(float v) {
     return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/color.h"
 #include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/operations.h"
@@ -63,10 +64,6 @@ class Element {
     const Scene& scene_;
     std::string place_;
 };
-
-bool is_finite(const glm::vec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 bool is_positive(double value) {
     return std::isfinite(value) && value > 0.0;

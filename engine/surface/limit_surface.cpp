@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "engine/base/color.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/scene/points.h"
@@ -174,8 +175,7 @@ const PointCache& find_points(const Scene& scene, const Cage& cage) {
     require(!cache.positions.empty(), "it has no points");
     for (const auto& sample : cache.positions) {
         require(sample.size() == cache.point_count(), "its number of points changes");
-        for (const glm::vec3& p : sample)
-            require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "one of its points is not finite");
+        for (const glm::vec3& p : sample) require(is_finite(p), "one of its points is not finite");
     }
     return cache;
 }

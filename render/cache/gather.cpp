@@ -115,6 +115,7 @@ Rgb follow_lobes(const Lighting& lighting, std::size_t ray, const LitSurface& li
     state.left = {lighting.options.multi_bounce.bounces, lighting.options.depth};
     state.turned = true;
     state.emission = EmissionWeight::none;
+    state.media = lighting.context.around;
     const FurtherOnPath further(lighting, ray);
     if (further.is_known()) state.known = &further;
     return follow_sample(lighting.context, lighting.task, lit, sample, state, random);
@@ -147,14 +148,15 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     ViewedSurface surface = view_surface(shading, met, -direction, footprint);
     blur_caustics(shading, surface);
     const LitSurface lit(surface);
+    const Rgb arrives = transmit(lighting.context.around.attenuation(met, surface.material), scratch.hits[i].distance);
     LobeShares shares{};
     if (lighting.options.depth > 0 && surface.material.has_specular()) {
         shares = share_lobes(lit, LobeSet::all);
-        scratch.light[i] = follow_lobes(lighting, i, lit, shares);
+        scratch.light[i] = arrives * follow_lobes(lighting, i, lit, shares);
         shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
     }
     if (lighting.options.multi_bounce.bounces > 0 && surface.material.has_diffuse()) {
-        const Rgb weight = diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
+        const Rgb weight = arrives * diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
         if (lighting.options.multi_bounce.noted) {
             lighting.note_further(i, weight, surface.point, scratch.hits[i]);
         } else if (const auto known = lighting.look_up(i, surface.point, scratch.hits[i])) {
@@ -165,7 +167,8 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     }
     const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
     if (scattered.radiance == Rgb(0.0f)) return;
-    add_scattered(lighting, scattered, {scattered.radiance, Rgb(1.0f), Rgb(0.0f), static_cast<int>(i)});
+    const Rgb reaches = transmit_to_light(lighting.context.around, lit, scattered.shadow_ray);
+    add_scattered(lighting, scattered, {scattered.radiance * reaches, arrives, Rgb(0.0f), static_cast<int>(i)});
 }
 
 /// Albedo and cell of the direct grid of a plain Lambert surface.
@@ -174,7 +177,8 @@ void note_plain_hit(const Lighting& lighting, std::size_t i) {
     const ShadingScene& shading = lighting.context.shading;
     const Hit& hit = scratch.hits[i];
     const float solid_angle = lighting.solid_angle(i);
-    const LambertHit met = make_lambert_hit(shading, scratch.rays[i], hit, scratch.normals[i], solid_angle);
+    LambertHit met = make_lambert_hit(shading, scratch.rays[i], hit, scratch.normals[i], solid_angle);
+    met.albedo *= transmit(lighting.context.around.attenuation_inside(), hit.distance);
     if (met.albedo == Rgb(0.0f)) return;
     if (lighting.notes_further()) {
         lighting.note_further(i, met.albedo / pi, make_surface_place(shading, hit, scratch.rays[i].direction), hit);
@@ -216,7 +220,7 @@ void light_plain_hit(const Lighting& lighting, const PlainHit& noted) {
     }
     const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
     if (scattered.radiance == Rgb(0.0f)) return add_arrived(sample, Rgb(0.0f), lighting.options, scratch);
-    sample.unshadowed = scattered.radiance;
+    sample.unshadowed = scattered.radiance * transmit(context.around.attenuation_inside(), scattered.shadow_ray.far);
     add_scattered(lighting, scattered, sample);
 }
 
@@ -298,8 +302,11 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     task.tracer.intersect(scratch.rays, scratch.hits, scratch.normals);
     task.counts.gather += scratch.rays.size();
     if (sampler) weigh_rays(*sampler, scratch);
+    const LightingContext inside{
+        context.shading, context.lights, context.rays,
+        find_media(context.shading, task, {point.ray_origin(), point.normal}, task.counts.gather)};
     light_hits(
-        {context, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});
+        {inside, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});
     add_unshadowed(context, task, options, scratch);
     if (options.material != nullptr) weigh_by_transmission(*options.material, point.normal, scratch);
     if (sampler) apply_weights(scratch);

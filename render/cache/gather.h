@@ -56,11 +56,6 @@ struct IrradianceSample {
     float relative_error = 0.0f;
 };
 
-/// Returns whether all three channels are finite.
-inline bool is_finite(const Rgb& c) {
-    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
-}
-
 /// Index of the sixteenth of the circle that holds a direction with these tangent-plane coordinates. Neighbouring
 /// sectors need not have neighbouring indices.
 inline int sector_of(float x, float y) {

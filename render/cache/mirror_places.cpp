@@ -56,7 +56,7 @@ std::optional<Arrival> follow_mirrors(const IndirectContext& context, const Pixe
     const int turns = std::min(most_turns, context.settings.light.path_depth - 1 - count_bounces(context.settings));
     Arrival end{first.hit, -first.view, 1.0f, first};
     float distance = first.distance;
-    Media media;
+    Media media = context.lighting.around;
     for (int turn = 0; turn < turns; ++turn) {
         ViewedSurface mirror = narrow_lobes(end.surface);
         if (mirror.material.glass.volume) mirror.material.glass.ior_ratio = media.ratio_at(mirror);
@@ -64,7 +64,7 @@ std::optional<Arrival> follow_mirrors(const IndirectContext& context, const Pixe
         const ScatterSample sample = choose_turn(lit);
         end.weight *= largest_channel(sample.weight);
         if (!(end.weight >= least_weight)) return std::nullopt;
-        if (sample.passes && mirror.material.glass.volume) media.pass(mirror);
+        if (sample.passes && mirror.material.glass.volume) media.pass(mirror.point, mirror.material);
         end.direction = sample.direction;
         ++task.counts.specular;
         end.hit = task.tracer.intersect({lit.ray_origin(end.direction), end.direction});

@@ -16,10 +16,6 @@ namespace aleph {
 
 namespace {
 
-bool is_finite(const Rgb& c) {
-    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
-}
-
 std::vector<std::size_t> find_broken(const Image<Rgb>& a, const Image<Rgb>& b) {
     std::vector<std::size_t> broken;
     for (std::size_t i = 0; i < a.size(); ++i) {

@@ -53,7 +53,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     return estimate;
 }
 
-double compute_exposure(const Image<Rgb>& estimate) {
+std::optional<double> compute_exposure(const Image<Rgb>& estimate) {
     double sum = 0.0;
     std::size_t count = 0;
     for (const Rgb& pixel : estimate.pixels) {
@@ -62,7 +62,8 @@ double compute_exposure(const Image<Rgb>& estimate) {
         sum += std::log(y);
         ++count;
     }
-    return count == 0 ? 1.0 : 0.18 / std::exp(sum / static_cast<double>(count));
+    if (count == 0) return std::nullopt;
+    return 0.18 / std::exp(sum / static_cast<double>(count));
 }
 
 }  // namespace aleph

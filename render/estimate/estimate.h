@@ -25,7 +25,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
 /// @param task  its rays are those of Blend::cutout
 Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind);
 
-/// 0.18 / exp(mean log Y) over the pixels of an estimate with Y > 0; 1 if there are none.
-double compute_exposure(const Image<Rgb>& estimate);
+/// 0.18 / exp(mean log Y) over the pixels of an estimate with Y > 0; nothing if there are none.
+std::optional<double> compute_exposure(const Image<Rgb>& estimate);
 
 }  // namespace aleph

@@ -75,6 +75,7 @@ SampleScene open_scene(const Shot& shot, std::int64_t frame, double at, const Fr
                  shot.settings.picture.height);
     shutter.prepare();
     shutter.leave_out(skipped);
+    shutter.take_media_around(scene);
     return shutter.sample_scene();
 }
 

@@ -33,10 +33,17 @@ std::size_t FrameScene::prepare() {
         shading_ = make_shading_scene(shot_.scene, posed_->pose, *rays_, shot_.textures);
     }
     lights_ = make_light_set(*shading_);
+    around_ = {};
     leave_out(shot_.settings.effects.forbid);
     shading_->points_unshadowed = false;
     shading_->caustic_width = find_caustic_width(shot_.settings);
     return touched;
+}
+
+void FrameScene::find_media_around(std::uint64_t& rays_cast) {
+    RayTask task(*rays_);
+    const glm::vec3 camera(posed_->view.position - rays_->anchor()), up(0.0f, 1.0f, 0.0f);
+    around_ = find_media(*shading_, task, {camera, up}, rays_cast);
 }
 
 void FrameScene::copy_to(KeyPose& kept) const {

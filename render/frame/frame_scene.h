@@ -39,6 +39,11 @@ class FrameScene {
     /// Brings rays, shading and lights to the pose, with all effects but those that the settings forbid.
     /// @return instances that were updated
     std::size_t prepare();
+    /// Finds the volumes that the camera is in. To be called after prepare; without it there are none.
+    /// @param rays_cast  increased by the rays that this takes
+    void find_media_around(std::uint64_t& rays_cast);
+    /// Takes the volumes around the camera from another time.
+    void take_media_around(const FrameScene& other) { around_ = other.around_; }
     /// Leaves out of shading what a plan for this frame skips. To be called after prepare.
     void leave_out(const EffectsPlan& effects);
     /// Leaves effects out of shading; the lights stay, unless direct light is among the effects.
@@ -50,7 +55,7 @@ class FrameScene {
     const PosedView& posed() const { return *posed_; }
     const RayScene& rays() const { return *rays_; }
     const ShadingScene& shading() const { return *shading_; }
-    LightingContext lighting() const { return {*shading_, lights_, *rays_}; }
+    LightingContext lighting() const { return {*shading_, lights_, *rays_, around_}; }
     /// The scene while a sample is taken, valid until it is posed again.
     SampleScene sample_scene() const { return {lighting(), posed_->view}; }
 
@@ -65,6 +70,7 @@ class FrameScene {
     std::optional<PosedView> posed_;
     std::optional<ShadingScene> shading_;
     LightSet lights_;
+    Media around_;  ///< the camera
 };
 
 }  // namespace aleph

@@ -61,6 +61,7 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
 
     stats.instances_touched = here.prepare();
     here.leave_out(frame.plan.effects);
+    here.find_media_around(counts.primary);
     clock.add_to(stats.seconds.update);
 
     frame.centers = cast_centers(here.rays(), out.view, &counts.primary);

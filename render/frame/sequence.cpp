@@ -36,16 +36,22 @@ double find_full_exposure(const Scene& scene, RenderSettings settings, const std
     return Sequence(scene, settings, camera).exposure();
 }
 
-/// From a small quick estimate of the first frame.
+/// From a small quick estimate of the first frame; where that is black, of the first of some later ones that is not.
 double find_exposure(const Shot& shot, FrameScene& scene) {
+    constexpr std::int64_t steps = 8;  // over the shot
     const MeasuredSize size(shot.settings.picture);
-    const std::int64_t first = shot.range.first;
-    scene.pose(shot.scene.film.frame_rate.seconds_of(first), shot.camera(first), size.columns, size.rows);
-    scene.prepare();
-    RayCounts counts;
-    const SampleHits centers = cast_centers(scene.rays(), scene.posed().view, &counts.primary);
-    return compute_exposure(
-        compute_estimate(scene.lighting(), scene.posed().view, centers, {.exposure = shot.exposure}, counts));
+    const auto [first, last] = shot.range;
+    for (std::int64_t step = 0; step <= steps; ++step) {
+        const std::int64_t frame = first + (last - first) * step / steps;
+        scene.pose(shot.scene.film.frame_rate.seconds_of(frame), shot.camera(frame), size.columns, size.rows);
+        scene.prepare();
+        RayCounts counts;
+        const SampleHits centers = cast_centers(scene.rays(), scene.posed().view, &counts.primary);
+        const std::optional<double> exposure = compute_exposure(
+            compute_estimate(scene.lighting(), scene.posed().view, centers, {.exposure = shot.exposure}, counts));
+        if (exposure) return *exposure;
+    }
+    return 1.0;
 }
 
 }  // namespace

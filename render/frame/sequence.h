@@ -108,7 +108,7 @@ class Sequence {
 
     /// The scene, its subdivision cages at the levels that are rendered.
     const Scene& scene() const;
-    /// Factor on radiance: the scene's, or computed from its first frame.
+    /// Factor on radiance: the scene's, or computed from its first frame that is not black.
     double exposure() const;
     /// First and last frame: the scene's, or the span of its keys.
     FrameRange range() const;

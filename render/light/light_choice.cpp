@@ -65,6 +65,10 @@ ScatteredLight choose_lambert_light(const LightingContext& context, const Surfac
             context.shading.needs_shadow_ray(sample.pdf)};
 }
 
+Rgb transmit_to_light(const Media& around, const LitSurface& lit, const Ray& shadow_ray) {
+    return transmit(around.attenuation_towards(shadow_ray.direction, lit.point, lit.material), shadow_ray.far);
+}
+
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {
     if (!context.shading.has_thin_glass) {
         ++task.counts.shadow;

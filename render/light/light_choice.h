@@ -2,6 +2,7 @@
 // One light for a surface point, chosen among all, and whether it reaches the point.
 
 #include "render/light/lights.h"
+#include "render/surface/media.h"
 #include "render/surface/ray_task.h"
 #include "render/surface/scatter.h"
 
@@ -12,6 +13,7 @@ struct LightingContext {
     const ShadingScene& shading;
     const LightSet& lights;
     const RayScene& rays;
+    Media around{};  ///< of the points that paths start from, such as the camera
 };
 
 /// Light of one light that a surface scatters towards its viewer, before its shadow ray is cast.
@@ -42,6 +44,11 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample);
 
 /// Smooth sheets of glass that a straight ray passes at most.
 inline constexpr int max_sheets = 64;
+
+/// Share of light that the medium leaves between a surface and a light. It is one medium: the walls of volumes stop
+/// shadow rays.
+/// @param around  the viewer's side of the surface
+Rgb transmit_to_light(const Media& around, const LitSurface& lit, const Ray& shadow_ray);
 
 /// Share of light that passes along a shadow ray: smooth sheets of glass pass some, everything else stops it.
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray);

@@ -19,8 +19,24 @@ namespace aleph {
 
 namespace {
 
-/// Shadow rays end at this share of the distance to the light, so that they do not hit it.
-constexpr float shadow_end = 1.0f - 1e-4f;
+/// Shadow rays end before the light, so that they do not hit it, by this share of the distance at most.
+constexpr float most_shortened = 1e-4f;
+
+/// m: length of a shadow ray to a light at a distance. It ends before the light by more than the rounding error of a
+/// point on a lamp and of where a ray meets its plane.
+/// @param largest  m, of the light's coordinates
+/// @param cosine   at which rays meet it
+float shadow_length(float distance, float largest, float cosine) {
+    const float rounding = std::max(0x1p-17f * distance, 0x1p-20f * largest) / cosine;
+    return distance - std::min(rounding, most_shortened * distance);
+}
+
+float largest_coordinate(const glm::vec3& p) {
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+/// Stands for the cosine at lights without area: they may lie in a surface, such as a ceiling.
+constexpr float any_cosine = 0.5f;
 
 float pdf_by_area(const Emitter& emitter, float cos_at_light, float distance) {
     return distance * distance / (cos_at_light * emitter.area);
@@ -98,7 +114,7 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
     float cosine = -glm::dot(sample.direction, triangle.normal);
     if (emitter.double_sided) cosine = std::abs(cosine);
     if (!(cosine > 0.0f)) return sample;
-    sample.distance = distance * shadow_end;
+    sample.distance = shadow_length(distance, largest_coordinate(emitter.center) + emitter.radius, cosine);
     sample.pdf = angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, cosine, distance);
     Rgb radiance = emitter.radiance;
     if (emitter.textured || emitter.has_alpha) {
@@ -144,7 +160,7 @@ LightSample sample_punctual(const PunctualLight& light, const Receiver& receiver
     if (!(distance2 > 0.0f)) return sample;
     const float distance = std::sqrt(distance2);
     sample.direction = to_light / distance;
-    sample.distance = distance * shadow_end;
+    sample.distance = shadow_length(distance, largest_coordinate(light.position), any_cosine);
     float window = 1.0f;  // KHR_lights_punctual: max(min(1 - (d/range)^4, 1), 0)
     if (light.range > 0.0f) {
         const float ratio2 = distance2 / (light.range * light.range);

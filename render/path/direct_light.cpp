@@ -22,10 +22,10 @@ class Unblocked {
     Unblocked(const LightingContext& context, RayTask& task) : context_(context), task_(task) {}
 
     /// @param pdf  LightSample::pdf
-    void add(const Ray& ray, float pdf, const Rgb& contribution) {
+    void add(const LitSurface& lit, const Ray& ray, float pdf, const Rgb& contribution) {
         if (contribution == Rgb(0.0f)) return;
-        Rgb passed(1.0f);
-        if (context_.shading.needs_shadow_ray(pdf)) passed = find_transmittance(context_, task_, ray);
+        Rgb passed = transmit_to_light(context_.around, lit, ray);
+        if (context_.shading.needs_shadow_ray(pdf)) passed *= find_transmittance(context_, task_, ray);
         if (passed != Rgb(0.0f)) light_ += contribution * passed;
     }
 
@@ -74,7 +74,7 @@ class ChosenLights {
         const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen_.at(pick.light), receiver_,
                                                      {pick.rest, u.y}, light_share);
         if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return;
-        sum.add(make_shadow_ray(lit_, sample), sample.pdf,
+        sum.add(lit_, make_shadow_ray(lit_, sample), sample.pdf,
                 scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
                     (pick.probability * static_cast<float>(count)));
     }
@@ -115,7 +115,7 @@ Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const Lit
             const LightSample sample = sample_seen_light(context.shading, context.lights, seen, receiver,
                                                          lattice_point(i, count, estimate_shift), share);
             if (!lit.is_reached(sample.direction)) continue;
-            sum.add(make_shadow_ray(lit, sample), sample.pdf,
+            sum.add(lit, make_shadow_ray(lit, sample), sample.pdf,
                     scatter_towards(lit, sample.direction, sample.pdf, estimate_shares) * sample.incoming * share);
         }
     }

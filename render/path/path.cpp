@@ -100,9 +100,10 @@ class Path {
             if (shares == LobeShares{}) return;
             const ScatterSample sample = sample_scatter(lit, shares, random_.next(), random_.next_2d(), random_.next());
             // After the last bounce the ray still looks for lamps: near a large one, sampling it alone is noise.
-            const bool ends = state_.left.bounces <= 0 && sample.lobe == Lobe::diffuse;
+            const bool last_bounce = state_.left.bounces <= 0 && sample.lobe == Lobe::diffuse;
             if (!follow(lit, sample, surface)) return;
-            if (ends) return look_through(sample.direction, surface);
+            const bool last_surface = state_.left.depth == 0 && state_.emission == EmissionWeight::weighted;
+            if (last_bounce || last_surface) return look_through(sample.direction, surface);
         }
     }
 
@@ -120,7 +121,7 @@ class Path {
             --state_.left.bounces;
             state_.turned = true;
         }
-        if (sample.passes && lit.material.glass.volume) state_.media.pass({lit.point, lit.material, glm::vec3(0.0f)});
+        if (sample.passes && lit.material.glass.volume) state_.media.pass(lit.point, lit.material);
         const Ray ray{lit.ray_origin(sample.direction), sample.direction};
         count_ray(task_.counts, sample);
         return meet(ray, next);
@@ -145,8 +146,7 @@ class Path {
         }
         next = view_surface(context_.shading, make_surface_point(context_.shading, hit, ray.direction), -ray.direction,
                             {});
-        const Rgb attenuation = state_.media.attenuation(next);
-        if (attenuation != Rgb(0.0f)) state_.throughput *= glm::exp(-attenuation * hit.distance);
+        state_.throughput *= transmit(state_.media.attenuation(next.point, next.material), hit.distance);
         light_ += state_.throughput * met_emission(context_, state_, next, hit.instance);
         return true;
     }
@@ -157,7 +157,7 @@ class Path {
     /// Adds the emission that the ray meets behind sheets of glass. Sampling the lights finds it, too, and leaves a
     /// part of its weight to this ray.
     void look_through(const glm::vec3& direction, ViewedSurface& surface) {
-        while (surface.material.passes_straight() && state_.left.depth-- > 0) {
+        for (int sheet = 0; surface.material.passes_straight() && sheet < max_sheets; ++sheet) {
             const LitSurface lit(surface);
             state_.throughput *= sheet_transmittance(lit);
             ++task_.counts.specular;
@@ -192,21 +192,18 @@ class Path {
         if (only_mirrors) return;
         const int count = count_light_samples(state_);
         const LightNumbers shift{random_.next(), random_.next_2d()};
-        if (count == 1) return add_light(choose_light(context_, lit, shares, shift), 1.0f);
+        if (count == 1) return add_light(lit, choose_light(context_, lit, shares, shift), 1.0f);
         for (int i = 0; i < count; ++i) {
             const float step = static_cast<float>(i) / static_cast<float>(count);
             const LightNumbers numbers{fraction(shift.choice + step), lattice_point(i, count, shift.point)};
-            add_light(choose_light(context_, lit, shares, numbers), 1.0f / static_cast<float>(count));
+            add_light(lit, choose_light(context_, lit, shares, numbers), 1.0f / static_cast<float>(count));
         }
     }
 
-    void add_light(const ScatteredLight& direct, float share) {
+    void add_light(const LitSurface& lit, const ScatteredLight& direct, float share) {
         if (direct.radiance == Rgb(0.0f)) return;
-        Rgb arrives = direct.radiance;
+        Rgb arrives = direct.radiance * transmit_to_light(state_.media, lit, direct.shadow_ray);
         if (direct.shadowed) arrives *= find_transmittance(context_, task_, direct.shadow_ray);
-        if (const Rgb attenuation = state_.media.attenuation_inside(); attenuation != Rgb(0.0f)) {
-            arrives *= glm::exp(-attenuation * direct.shadow_ray.far);
-        }
         light_ += state_.throughput * arrives * share;
     }
 

@@ -48,6 +48,7 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
     }
     if (values.layers.sheen_color != Rgb(0.0f)) add_lobe(largest_channel(values.layers.sheen_color), 1.0f, 1.0f);
     facts.glass = values.glass.transmission > 0.0f && values.gloss.metallic < 1.0f;
+    facts.volume = facts.glass && values.glass.thickness > 0.0f;
 }
 
 /// True for any texture but normal maps.

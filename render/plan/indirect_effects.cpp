@@ -86,7 +86,7 @@ Finding find_caustics(Planning& frame) {
     if (frame.plan.skips(Effect::indirect_diffuse)) return skip(no_indirect_light);
     const float width = find_caustic_width(frame.in.settings);
     const bool blurred = frame.in.facts.any([width](const MaterialFacts& material) {
-        return width > 0.0f && (material.mirror || material.least_width < width);
+        return width > 0.0f && (material.mirror || material.volume || material.least_width < width);
     });
     return simulate_if(frame.in.facts.any(&MaterialFacts::has_specular),
                        blurred ? "mirrors, glass or gloss may pass light to Lambert surfaces; blurred, unless forced"

@@ -82,7 +82,7 @@ Rgb light_seen(const SampleScene& scene, const SamplePlace& place, const Hit& hi
     const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
     if (!material.emits) return Rgb(0.0f);
     const PixelSurface surface = make_pixel_surface(shading, scene.view, place, hit, direction, pixel);
-    return surface.material.emission * share_left(surface);
+    return surface.material.emission * share_left(scene.lighting.around, surface);
 }
 
 Rgb average_light_seen(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const glm::ivec2& pixel) {

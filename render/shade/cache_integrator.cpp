@@ -58,16 +58,14 @@ class CacheIntegrator final : public LightIntegrator {
         if (blurred_ && cached_) {
             shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_);
         }
-        shading_.emplace(
-            SampleShading{.context = context_,
-                          .noise_key = input_.noise_key,
-                          .indirect = indirect_,
-                          .cache = cached_ ? &cache_ : nullptr,
-                          .known = blurred_ ? nullptr : &known_,
-                          .blurred = blurred_,
-                          .shutter = shutter_ ? &*shutter_ : nullptr,
-                          .gloss_tolerance = input_.gloss_tolerance.empty() ? nullptr : &input_.gloss_tolerance,
-                          .uses = uses_.empty() ? nullptr : &uses_});
+        shading_.emplace(SampleShading{.context = context_,
+                                       .noise_key = input_.noise_key,
+                                       .indirect = indirect_,
+                                       .cache = cached_ ? &cache_ : nullptr,
+                                       .known = blurred_ ? nullptr : &known_,
+                                       .blurred = blurred_,
+                                       .shutter = shutter_ ? &*shutter_ : nullptr,
+                                       .uses = uses_.empty() ? nullptr : &uses_});
     }
 
     void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) override {

@@ -18,15 +18,6 @@ float strictest_around(const Image<float>& threshold, int x, int y) {
 
 }  // namespace
 
-Image<float> compute_gloss_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure) {
-    if (!(settings.error > 0.0)) return {};
-    const double scale = gloss_share * settings.error / (limits.viewing.display_white * exposure);
-    Image<float> tolerance(limits.threshold.width, limits.threshold.height);
-    for (std::size_t i = 0; i < tolerance.size(); ++i)
-        tolerance.pixels[i] = static_cast<float>(scale * static_cast<double>(limits.threshold.pixels[i]));
-    return tolerance;
-}
-
 Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure) {
     if (settings.sampling.rule == Sampling::uniform || settings.sampling.rule == Sampling::protocol) return {};
     const bool by_noise = settings.sampling.rule == Sampling::threshold;

@@ -20,13 +20,6 @@ struct VisibleLimits {
     ViewingConditions viewing;
 };
 
-/// Share of the error that is asked for by which irradiance in place of a lobe may be off, root mean square. Samples do
-/// not lower it.
-inline constexpr double gloss_share = 0.05;
-
-/// Luminance before exposure, per pixel (SampleShading::gloss_tolerance). Empty where no error is asked for.
-Image<float> compute_gloss_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure);
-
 /// The luminance that samples may err by, as they have it (before exposure).
 /// threshold: allow_noise of RenderSettings::error, times what noise of single pixels goes unseen.
 /// consecutive, variance: RenderSettings::error times the threshold.

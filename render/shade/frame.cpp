@@ -44,9 +44,8 @@ class FrameShading {
           place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)),
           exposure_(exposure),
           plan_(make_sampling_plan(options.limits, context.settings, exposure)),
-          integrator_(make_integrator({context, options, out, place_.noise_key, plan_.tolerance, gloss_tolerance_})) {
+          integrator_(make_integrator({context, options, out, place_.noise_key, plan_.tolerance})) {
         plan_.part = options.part;
-        if (options.limits) gloss_tolerance_ = compute_gloss_tolerance(*options.limits, context.settings, exposure);
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
         if (place_.centered && as_centers) first_ = &centers;
     }
@@ -266,7 +265,6 @@ class FrameShading {
     SamplePlace place_;  ///< of the first sample
     const double exposure_;
     SamplingPlan plan_;
-    Image<float> gloss_tolerance_;
     const std::unique_ptr<LightIntegrator> integrator_;
     const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
     SampleHits cast_first_;

@@ -45,7 +45,6 @@ struct IntegratorInput {
     ShadedFrame& out;
     std::uint32_t noise_key = 0;             ///< SamplePlace::noise_key
     const Image<float>& sampling_tolerance;  ///< SamplingPlan::tolerance
-    const Image<float>& gloss_tolerance;     ///< of SampleShading; empty: none
 };
 
 std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input);

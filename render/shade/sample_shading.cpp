@@ -2,7 +2,6 @@
 
 #include "render/cache/aimed_rays.h"
 #include "render/cache/record_worth.h"
-#include "render/path/glossy_light.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {
@@ -71,6 +70,7 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
     PathState state;
     state.left = {settings.light.bounces - 1, settings.light.path_depth - 1};
     state.emission = EmissionWeight::none;
+    state.media = scene.lighting.around;
     state.turned = true;
     state.known = shading.known;
     state.accuracy = shading.context.accuracy(surface.x, surface.y);
@@ -104,23 +104,15 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
 }
 
 /// Adds what the surface reflects of its irradiance.
-void add_irradiance(const PixelSurface& surface, const Rgb& irradiance, SampleLight& light) {
+/// @param left  share of light that reaches the camera
+void add_irradiance(const PixelSurface& surface, const Rgb& irradiance, const Rgb& left, SampleLight& light) {
     const LitSurface lit(surface);
-    light.indirect =
-        diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen * share_left(surface);
+    light.indirect = diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen * left;
     light[LightPart::surface] += light.indirect;
 }
 
-/// Lobes to sample, and what stands in for the others where the irradiance is known.
-SampledLobes choose_lobes(const SampleShading& shading, const PixelSurface& surface, const LitSurface& lit,
-                          const std::optional<Rgb>& irradiance) {
-    const bool tolerant = shading.gloss_tolerance != nullptr && irradiance && surface.material.has_specular();
-    const float tolerance = tolerant ? (*shading.gloss_tolerance)(surface.x, surface.y) : 0.0f;
-    return choose_sampled_lobes(lit, irradiance.value_or(Rgb(0.0f)), tolerance);
-}
-
-PathState start_beyond(const SampleShading& shading, const PixelSurface& surface) {
-    PathState beyond = start_path(shading.context.settings);
+PathState start_beyond(const SampleShading& shading, const SampleScene& scene, const PixelSurface& surface) {
+    PathState beyond = start_path(shading.context.settings, scene.lighting.around);
     --beyond.left.depth;
     beyond.roulette_after = 0;  // most lobes reflect little, and there are many samples
     beyond.survival = 40.0f;    // but those that end by chance leave bright dots, where gloss shows a lamp in gloss
@@ -136,22 +128,23 @@ ScatterSample sample_lobes(const LitSurface& lit, const LobeShares& shares, cons
                           sequence.at_2d(SampleUse::lobe_direction, i), sequence.at_1d(SampleUse::lobe_side, i));
 }
 
-/// @param irradiance  indirect; nothing where it is not known
+/// Adds all but the indirect light of the Lambert layer.
 void add_with_cache(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
-                    const PixelSurface& surface, const std::optional<Rgb>& irradiance, SampleLight& light) {
+                    const PixelSurface& surface, SampleLight& light) {
     const LightingContext& lighting = scene.lighting;
     const RenderSettings& settings = shading.context.settings;
     const LitSurface lit(surface);
-    const SampledLobes lobes = choose_lobes(shading, surface, lit, irradiance);
-    light[LightPart::surface] = surface.material.emission + lobes.radiance;
+    const LobeShares shares = share_lobes(lit, LobeSet::specular);
+    light[LightPart::surface] = surface.material.emission;
     const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
     const int count = settings.light.light_samples;
     light[LightPart::direct] =
-        sample_direct_light(lighting, task, lit, lobes.shares, sequence, {surface.sample * count, count});
-    if (lobes.shares != LobeShares{}) {
-        const ScatterSample sample = sample_lobes(lit, lobes.shares, sequence, surface.sample);
+        sample_direct_light(lighting, task, lit, shares, sequence, {surface.sample * count, count});
+    if (shares != LobeShares{}) {
+        const ScatterSample sample = sample_lobes(lit, shares, sequence, surface.sample);
         RandomStream random = path_stream(shading, surface);
-        light[LightPart::gloss] = follow_sample(lighting, task, lit, sample, start_beyond(shading, surface), random);
+        light[LightPart::gloss] =
+            follow_sample(lighting, task, lit, sample, start_beyond(shading, scene, surface), random);
     }
 }
 
@@ -161,15 +154,15 @@ RandomStream path_stream(std::uint32_t seed, std::uint32_t noise_key, const Pixe
     return RandomStream({seed ^ mask, noise_key, surface.pixel, static_cast<std::uint32_t>(surface.sample)});
 }
 
-PathState start_path(const RenderSettings& settings) {
+PathState start_path(const RenderSettings& settings, const Media& around) {
     PathState state;
+    state.media = around;
     state.left = {settings.light.bounces, settings.light.path_depth};
     return state;
 }
 
-Rgb share_left(const PixelSurface& surface) {
-    const Rgb loss = Media().attenuation(surface);
-    return loss == Rgb(0.0f) ? Rgb(1.0f) : glm::exp(-loss * surface.distance);
+Rgb share_left(const Media& around, const PixelSurface& surface) {
+    return transmit(around.attenuation(surface.point, surface.material), surface.distance);
 }
 
 void begin_light(const PixelSurface& surface, SampleLight& light) {
@@ -188,11 +181,11 @@ void shade_sample(const SampleShading& shading, const SampleScene& scene, Shadin
         irradiance = pixel.find_irradiance(light);
         if (!irradiance) irradiance = light.irradiance = look_up(shading, task, surface);
     }
-    add_with_cache(shading, scene, task, surface, irradiance, light);
-    const Rgb left = share_left(surface);
+    add_with_cache(shading, scene, task, surface, light);
+    const Rgb left = share_left(scene.lighting.around, surface);
     for (Rgb& part : light.parts) part *= left;
     if (!needs_irradiance) return;
-    add_irradiance(surface, irradiance ? *irradiance : sample_irradiance(shading, scene, task, surface), light);
+    add_irradiance(surface, irradiance ? *irradiance : sample_irradiance(shading, scene, task, surface), left, light);
 }
 
 }  // namespace aleph

@@ -36,10 +36,7 @@ struct SampleShading {
     const KnownIrradiance* known = nullptr;  ///< to paths; null: they find all light by themselves
     bool blurred = false;                    ///< the shutter is open: what `shutter` does not know is found by paths
     const ShutterLight* shutter = nullptr;   ///< null: it knows nothing
-    /// By how much luminance irradiance that stands in for a lobe may be off (glossy_light.h), per pixel; null: by
-    /// none.
-    const Image<float>* gloss_tolerance = nullptr;
-    Image<RecordUse>* uses = nullptr;  ///< records that were read; null: not asked for
+    Image<RecordUse>* uses = nullptr;        ///< records that were read; null: not asked for
 };
 
 /// Keeps the random numbers of paths apart from those of direct light and of gathers (gather_at.cpp).
@@ -51,10 +48,11 @@ RandomStream path_stream(std::uint32_t seed, std::uint32_t noise_key, const Pixe
                          std::uint32_t mask = path_seed_mask);
 
 /// A path of the settings' length that begins at a pixel's surface.
-PathState start_path(const RenderSettings& settings);
+/// @param around  the camera
+PathState start_path(const RenderSettings& settings, const Media& around);
 
-/// Share of light that reaches the camera, which may stand in what it sees from inside.
-Rgb share_left(const PixelSurface& surface);
+/// Share of light that reaches the camera through the media around it.
+Rgb share_left(const Media& around, const PixelSurface& surface);
 
 /// Sets what a sample's light tells of its surface.
 /// @param light  new

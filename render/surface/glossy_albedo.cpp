@@ -68,9 +68,4 @@ float mean_alpha(const SurfaceMaterial& material) {
     return 0.5f * (widths.x + widths.y);
 }
 
-Rgb glossy_albedo(const SurfaceMaterial& material, float cos_view) {
-    const AlbedoParts parts = ggx_albedo(mean_alpha(material), cos_view);
-    return material.gloss.f0 * parts.straight + Rgb(material.gloss.f90 * parts.grazing);
-}
-
 }  // namespace aleph

@@ -17,7 +17,4 @@ AlbedoParts ggx_albedo(float alpha, float cos_view);
 /// The widths of an anisotropic lobe count as their mean.
 float mean_alpha(const SurfaceMaterial& material);
 
-/// The glossy layer's, within .005 for an isotropic lobe.
-Rgb glossy_albedo(const SurfaceMaterial& material, float cos_view);
-
 }  // namespace aleph

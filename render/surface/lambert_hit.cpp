@@ -61,6 +61,7 @@ LambertHit make_lambert_hit(const ShadingScene& shading, const Ray& ray, const H
         const float footprint_area = cone_footprint_area(std::abs(cosine), hit.distance, solid_angle);
         met.albedo *= look_up_albedo(shading, use, mesh, hit, footprint_area, area);
     }
+    met.albedo = glm::clamp(met.albedo, 0.0f, 1.0f);  // as evaluate_material
     return met;
 }
 

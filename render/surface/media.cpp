@@ -1,8 +1,25 @@
 #include "render/surface/media.h"
 
 #include <algorithm>
+#include <cmath>
+#include <ranges>
+#include <vector>
 
 namespace aleph {
+
+namespace {
+
+constexpr int max_surfaces = 64;  // that the ray of find_media passes
+
+}  // namespace
+
+Rgb transmit(const Rgb& attenuation, float distance) {
+    Rgb left(1.0f);
+    for (int c = 0; c < 3; ++c) {
+        if (attenuation[c] > 0.0f) left[c] = std::exp(-attenuation[c] * distance);
+    }
+    return left;
+}
 
 int Media::find(int material) const {
     for (int i = size_ - 1; i >= 0; --i) {
@@ -15,9 +32,17 @@ Rgb Media::attenuation_inside() const {
     return size_ > 0 ? stack_[size_ - 1].attenuation : Rgb(0.0f);
 }
 
-Rgb Media::attenuation(const ViewedSurface& end) const {
+Rgb Media::attenuation(const SurfacePoint& end, const SurfaceMaterial& material) const {
     if (size_ > 0) return attenuation_inside();
-    return end.material.glass.volume && !end.point.front ? end.material.glass.attenuation : Rgb(0.0f);
+    return material.glass.volume && !end.front ? material.glass.attenuation : Rgb(0.0f);
+}
+
+Rgb Media::attenuation_towards(const glm::vec3& direction, const SurfacePoint& start,
+                               const SurfaceMaterial& material) const {
+    if (!material.glass.volume || glm::dot(start.geometric, direction) >= 0.0f) return attenuation(start, material);
+    Media behind = *this;
+    behind.pass(start, material);
+    return behind.attenuation_inside();
 }
 
 float Media::ratio_at(const ViewedSurface& surface) const {
@@ -30,17 +55,42 @@ float Media::ratio_at(const ViewedSurface& surface) const {
     return inner > 0.0f ? outer_ior / inner : 0.0f;
 }
 
-void Media::pass(const ViewedSurface& surface) {
-    if (surface.point.front) {
-        if (size_ < static_cast<int>(stack_.size())) {
-            stack_[size_++] = {surface.point.material, surface.material.glass.ior, surface.material.glass.attenuation};
-        }
-        return;
-    }
-    const int inside = find(surface.point.material);
+void Media::enter(const SurfacePoint& surface, const SurfaceMaterial& material) {
+    if (size_ == static_cast<int>(stack_.size())) return;
+    stack_[size_++] = {surface.material, material.glass.ior, material.glass.attenuation};
+}
+
+void Media::pass(const SurfacePoint& surface, const SurfaceMaterial& material) {
+    if (surface.front) return enter(surface, material);
+    const int inside = find(surface.material);
     if (inside == no_index) return;
     std::copy(stack_.begin() + inside + 1, stack_.begin() + size_, stack_.begin() + inside);
     --size_;
+}
+
+Media find_media(const ShadingScene& shading, RayTask& task, Ray ray, std::uint64_t& counts) {
+    Media around;
+    if (!shading.has_volumes) return around;
+    std::vector<int> entered;
+    std::vector<ViewedSurface> left;  // of the volumes around the origin, the innermost first
+    for (int surface = 0; surface < max_surfaces; ++surface) {
+        ++counts;
+        const Hit hit = task.tracer.intersect(ray);
+        if (hit.instance == no_index) break;
+        const ViewedSurface met =
+            view_surface(shading, make_surface_point(shading, hit, ray.direction), -ray.direction, {});
+        ray.origin = met.point.position - met.point.geometric * met.point.offset;
+        if (!met.material.glass.volume) continue;
+        if (met.point.front) {
+            entered.push_back(met.point.material);
+        } else if (const auto at = std::ranges::find(entered, met.point.material); at != entered.end()) {
+            entered.erase(at);
+        } else {
+            left.push_back(met);
+        }
+    }
+    for (const ViewedSurface& wall : left | std::views::reverse) around.enter(wall.point, wall.material);
+    return around;
 }
 
 }  // namespace aleph

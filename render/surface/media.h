@@ -3,9 +3,15 @@
 
 #include <array>
 
+#include "render/surface/ray_task.h"
 #include "render/surface/surface_material.h"
 
 namespace aleph {
+
+/// Share of light that is left on its way through a medium (Beer-Lambert).
+/// @param attenuation  1/m
+/// @param distance     m; may be infinite
+Rgb transmit(const Rgb& attenuation, float distance);
 
 /// Media around a ray: meshes with a volume (KHR_materials_volume) that it has entered, the innermost last.
 class Media {
@@ -21,12 +27,16 @@ class Media {
     /// 1/m, of the innermost; 0 outside.
     Rgb attenuation_inside() const;
     /// 1/m, of the ray that ends at this surface. If no mesh was entered and the surface is met from inside, the ray
-    /// started inside: the camera is in the glass.
-    Rgb attenuation(const ViewedSurface& end) const;
+    /// started inside.
+    Rgb attenuation(const SurfacePoint& end, const SurfaceMaterial& material) const;
+    /// 1/m, of a ray that leaves the surface in a direction: behind it, of the medium there.
+    Rgb attenuation_towards(const glm::vec3& direction, const SurfacePoint& start,
+                            const SurfaceMaterial& material) const;
     /// Index of refraction of the far side over the viewer's side, at a surface with a volume.
     float ratio_at(const ViewedSurface& surface) const;
     /// Goes through a surface with a volume, by the side that was hit.
-    void pass(const ViewedSurface& surface);
+    void pass(const SurfacePoint& surface, const SurfaceMaterial& material);
+    void enter(const SurfacePoint& surface, const SurfaceMaterial& material);
 
   private:
     int find(int material) const;
@@ -34,5 +44,10 @@ class Media {
     std::array<Medium, 4> stack_{};  ///< deeper nesting than this is ignored
     int size_ = 0;
 };
+
+/// The media that the origin of a ray is in: volumes whose back the ray meets before their front. They are found only
+/// if their meshes are closed, or between the origin and infinity as open as a sheet of water.
+/// @param counts  increased by the rays cast: none in a scene without volumes
+Media find_media(const ShadingScene& shading, RayTask& task, Ray ray, std::uint64_t& counts);
 
 }  // namespace aleph

@@ -76,9 +76,15 @@ void set_surroundings(ShadingScene& shading) {
     const ScenePose& pose = *shading.pose;
     shading.environment.radiance = pose.environment;
     shading.environment.rotation = glm::mat3(pose.environment_rotation);
-    shading.has_thin_glass = std::ranges::any_of(pose.materials, [](const MaterialValues& values) {
-        return values.glass.transmission > 0.0f && values.glass.thickness == 0.0f;
-    });
+    shading.has_thin_glass = shading.has_volumes = false;
+    for (std::size_t i = 0; i < pose.materials.size(); ++i) {
+        const MaterialValues& values = pose.materials[i];
+        if (!(values.glass.transmission > 0.0f)) continue;
+        const bool volume = values.glass.thickness > 0.0f;
+        shading.has_volumes |= volume;
+        // Texels of 0 are thin.
+        shading.has_thin_glass |= !volume || shading.textures->materials[i][TextureSlot::thickness].texture != no_index;
+    }
 }
 
 PosedInstance make_instance(const ShadingScene& shading, const RayScene& rays, int i) {

@@ -83,6 +83,7 @@ struct ShadingScene {
     std::vector<ShadingMaterial> materials;
     ShadingEnvironment environment;
     bool has_thin_glass = false;  ///< some material may pass light straight: shadows depend on it
+    bool has_volumes = false;     ///< some glass encloses a volume
     std::vector<int> emitting;    ///< instances whose material emits at some time
     VisibleBounds bounds;
     EffectSet skipped;               ///< left out of shading

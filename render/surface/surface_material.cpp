@@ -80,6 +80,8 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
             surface.coat.strength *= look_up(textures[TextureSlot::clearcoat]).x;
         if (is_used(textures[TextureSlot::clearcoat_roughness]))
             roughness *= look_up(textures[TextureSlot::clearcoat_roughness]).y;
+        surface.coat.strength = std::clamp(surface.coat.strength, 0.0f, 1.0f);
+        roughness = std::clamp(roughness, 0.0f, 1.0f);
         surface.coat.alpha = roughness * roughness;
     }
     if (values.layers.sheen_color != Rgb(0.0f)) {
@@ -89,7 +91,8 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
             surface.sheen.color *= Rgb(look_up(textures[TextureSlot::sheen_color]));
         if (is_used(textures[TextureSlot::sheen_roughness]))
             roughness *= look_up(textures[TextureSlot::sheen_roughness]).w;
-        surface.sheen.alpha = std::max(min_sheen_alpha, roughness * roughness);
+        surface.sheen.color = glm::clamp(surface.sheen.color, 0.0f, 1.0f);
+        surface.sheen.alpha = std::clamp(roughness * roughness, min_sheen_alpha, 1.0f);
     }
     if (values.layers.anisotropy > 0.0f) {
         float strength = values.layers.anisotropy, angle = values.layers.anisotropy_rotation;
@@ -102,7 +105,7 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
         const TangentFrame frame =
             find_tangents(point, textures[TextureSlot::anisotropy], point.front ? point.normal : -point.normal);
         if (frame.tangent != glm::vec3(0.0f)) {
-            surface.gloss.stretch = strength * strength;
+            surface.gloss.stretch = std::min(strength * strength, 1.0f);
             surface.gloss.tangent = frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle);
         }
     }
@@ -151,6 +154,15 @@ void remove_specular(SurfaceMaterial& material) {
     material.sheen.color = Rgb(0.0f);
 }
 
+/// Whether a wide lobe would let light out from inside that is totally reflected, or keep in much that is not.
+/// @param width   GGX alpha
+/// @param cosine  of the view
+bool leaks(const SurfaceMaterial& material, float width, float cosine) {
+    const float ratio = material.glass.ior_ratio;
+    if (!material.has_glass() || !(ratio < 1.0f)) return false;
+    return std::asin(ratio) - std::acos(std::min(cosine, 1.0f)) < 2.0f * width;
+}
+
 }  // namespace
 
 void blur_caustics(const ShadingScene& shading, ViewedSurface& surface) {
@@ -158,9 +170,9 @@ void blur_caustics(const ShadingScene& shading, ViewedSurface& surface) {
     if (shading.skipped.contains(Effect::caustics)) return remove_specular(material);
     const float width = shading.caustic_width;
     material.coat.alpha = std::max(material.coat.alpha, width);
-    if (material.passes_straight() || material.gloss.alpha >= width) return;
-    // Wider microfacets hide more of each other, and fewer of them are seen at grazing angles.
     const float cosine = std::abs(glm::dot(surface.point.normal, surface.view));
+    if (material.passes_straight() || material.gloss.alpha >= width || leaks(material, width, cosine)) return;
+    // Wider microfacets hide more of each other, and fewer of them are seen at grazing angles.
     const AlbedoParts narrow = ggx_albedo(mean_alpha(material), cosine);
     material.gloss.alpha = width;
     const AlbedoParts wide = ggx_albedo(mean_alpha(material), cosine);
@@ -207,7 +219,9 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
             surface.emission = base;
             return surface;
         }
-        base = glm::min(base, Rgb(1.0f));  // a texture or vertex colour may have more; no surface reflects more
+        // A texture or vertex colour may have more, or less than nothing; no surface reflects more.
+        base = glm::clamp(base, 0.0f, 1.0f);
+        for (float* share : {&metallic, &roughness, &specular, &transmission}) *share = std::clamp(*share, 0.0f, 1.0f);
         const float ior_reflectance = (values.gloss.ior - 1.0f) / (values.gloss.ior + 1.0f);
         const Rgb dielectric_f0 = glm::min(ior_reflectance * ior_reflectance * specular_color, Rgb(1.0f)) * specular;
         const float dielectric = 1.0f - metallic, opaque = dielectric * (1.0f - transmission);

@@ -1,17 +1,13 @@
 #include "render/verify/continued_error.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "engine/base/pyramid.h"
 
 namespace aleph {
 
 namespace {
-
-bool is_finite(const Rgb& c) {
-    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
-}
 
 /// Values times weights, and weights.
 struct Weighted {
@@ -28,7 +24,8 @@ void push(const Weighted& coarse, Weighted& fine) {
     const LevelSize size{fine.weights.width, fine.weights.height};
     for (Image<float>& sums : fine.sums) {
         const Image<float> beyond = expand(coarse.sums[static_cast<std::size_t>(&sums - fine.sums.data())], size);
-        for (std::size_t i = 0; i < sums.size(); ++i) sums.pixels[i] += (1.0f - fine.weights.pixels[i]) * beyond.pixels[i];
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums.pixels[i] += (1.0f - fine.weights.pixels[i]) * beyond.pixels[i];
     }
 }
 

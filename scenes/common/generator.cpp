@@ -1,10 +1,5 @@
 #include "scenes/common/generator.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <exception>
-
 #include "engine/base/color.h"
 #include "engine/image/image_file.h"
 #include "engine/load/load_scene.h"
@@ -53,21 +48,6 @@ void write_scene(const std::filesystem::path& folder, const Scene& scene, const 
         write_textures(folder / "textures", textures);
     }
     save_scene(scene, folder / "scene.json");
-}
-
-int run_generator(int argc, char** argv, const char* name, const char* writes,
-                  const std::function<void(const std::filesystem::path&)>& write) {
-    if (argc != 2) {
-        fmt::print(stderr, "usage: {} OUTPUT_FOLDER\nWrites {} there.\n", name, writes);
-        return 2;
-    }
-    try {
-        write(argv[1]);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}: {}\n", name, error.what());
-        return 1;
-    }
-    return 0;
 }
 
 }  // namespace aleph

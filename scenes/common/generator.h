@@ -1,8 +1,7 @@
 #pragma once
-// The common part of programs that write scenes. Their output is deterministic.
+// The common part of what writes scenes. Their files are deterministic.
 
 #include <filesystem>
-#include <functional>
 #include <glm/gtc/type_precision.hpp>
 #include <string>
 #include <vector>
@@ -31,12 +30,5 @@ Scene begin_scene(const std::string& name, int last_frame, double exposure, cons
 
 /// Writes scene.json and the textures (textures/NAME.png) into a folder; creates the folder if needed.
 void write_scene(const std::filesystem::path& folder, const Scene& scene, const std::vector<DrawnTexture>& textures);
-
-/// Runs a program whose only argument is the folder to write into.
-/// @param name  of the program
-/// @param writes  what it writes, for its usage message
-/// @return exit code: 0, 1 for an error, 2 for wrong use
-int run_generator(int argc, char** argv, const char* name, const char* writes,
-                  const std::function<void(const std::filesystem::path&)>& write);
 
 }  // namespace aleph

@@ -45,13 +45,13 @@ inline std::uintmax_t folder_size(const std::filesystem::path& folder) {
     return bytes;
 }
 
-/// Every file that the program writes equals the one in scenes/, and the folders hold no other scene files and
+/// Every file that make_scenes writes equals the one in scenes/, and the folders hold no other scene files and
 /// textures.
 /// @param files  number of files that the program writes
-inline void expect_generated(const std::string& program, std::size_t files) {
+inline void expect_generated(std::size_t files) {
     namespace fs = std::filesystem;
     const ScratchFolder made;
-    ASSERT_EQ(std::system(fmt::format("\"{}\" \"{}\"", program_path(program), made.path().string()).c_str()), 0);
+    ASSERT_EQ(std::system(fmt::format("\"{}\" \"{}\"", program_path("make_scenes"), made.path().string()).c_str()), 0);
     std::set<fs::path> names, kept;
     for (const auto& entry : fs::recursive_directory_iterator(made.path())) {
         if (!entry.is_regular_file()) continue;

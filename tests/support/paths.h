@@ -21,7 +21,7 @@ std::string missing_asset(const std::filesystem::path& file);
 /// Folder of the build, which holds the programs.
 std::filesystem::path build_folder();
 
-/// Path of a program of this build, e.g. "aleph" or "make_pool".
+/// Path of a program of this build, e.g. "aleph" or "make_scenes".
 std::string program_path(const std::string& name);
 
 }  // namespace aleph

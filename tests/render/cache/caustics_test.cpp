@@ -102,6 +102,23 @@ TEST(Caustics, WidenedLobesReflectAsMuchAsBefore) {
     }
 }
 
+/// Wide microfacets would let out the light that is to stay in the glass.
+TEST(Caustics, GlassSeenFromInsideReflectsAllBeyondTheCriticalAngle) {
+    Stage stage(make_ball_below_lamp());
+    stage.shading.caustic_width = 0.15f;
+    SurfaceMaterial wall = make_glass(0.0f, 1.5f, true);
+    wall.glass.ior_ratio = 1.0f / 1.5f;
+    const float critical = std::asin(wall.glass.ior_ratio);
+    const auto width_at = [&](float angle) {
+        ViewedSurface surface = make_viewed(wall, direction_of(std::cos(angle)));
+        blur_caustics(stage.shading, surface);
+        return surface.material.gloss.alpha;
+    };
+    EXPECT_EQ(width_at(0.05f), 0.15f);
+    EXPECT_EQ(width_at(critical - 0.31f), 0.15f);
+    for (const float angle : {critical - 0.29f, critical + 0.01f, 1.5f}) EXPECT_EQ(width_at(angle), 0.0f) << angle;
+}
+
 TEST(Caustics, PathsAndForcedCausticsAreNotBlurred) {
     RenderSettings paths, forced, off;
     paths.light.integrator = Integrator::path;

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "tests/support/keyed_track.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
@@ -250,6 +251,20 @@ TEST(Sequence, TheExposureOfATallPictureIsMeasuredFromFewPixels) {
         EXPECT_GT(tall, 0.1 * usual) << height;
         EXPECT_LT(tall, 10.0 * usual) << height;
     }
+}
+
+TEST(Sequence, TheExposureOfAShotThatFadesInIsThatOfALaterFrame) {
+    Scene scene = make_moving_scene();
+    const double lit = Sequence(scene, quick_settings(8, 6)).exposure();
+    for (Material& material : scene.materials) {
+        Track<glm::dvec3>& light = material.glow.color;
+        light = keyed<glm::dvec3>({0.0, scene.film.frame_rate.seconds_of(1)}, {glm::dvec3(0.0), light.values.front()});
+        light.interpolation = Interpolation::step;
+    }
+    const double faded = Sequence(scene, quick_settings(8, 6)).exposure();
+    EXPECT_GT(faded, 0.3 * lit);
+    EXPECT_LT(faded, 3.0 * lit);
+    EXPECT_NE(faded, 1.0);
 }
 
 TEST(Sequence, RefusesAScenesFaults) {

@@ -64,6 +64,22 @@ TEST(Lights, AreaAndNormalsFollowTheInstance) {
     EXPECT_EQ(emitter.cumulative_area.back(), 1.0f);
 }
 
+/// Up to a few rounding errors before the lamp: a shade 1 mm below a lamp that is 100 m away hides it.
+TEST(Lights, ShadowRaysEndCloseToTheLamp) {
+    for (const double height : {0.1, 10.0, 100.0}) {
+        Scene scene = make_lamp_scene(1.0, height);
+        add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.0, height, 0.0});
+        const Stage stage(std::move(scene));
+        const Receiver floor{glm::vec3(glm::dvec3(0.0) - stage.shading.anchor), up};
+        for (int light = 0; light < 2; ++light) {
+            const LightSample sample = sample_light(stage.shading, stage.lights, light, floor, {0.5f, 0.5f});
+            const double reach = sample.distance * sample.direction.y;
+            EXPECT_LT(reach, height) << light;
+            EXPECT_GT(reach, height * (1.0 - 3e-5)) << light;
+        }
+    }
+}
+
 TEST(Lights, DensityMeasuresTheSolidAngle) {
     // E[1 / pdf] over light samples is the visible solid angle. For a square overhead it has a closed form.
     const Stage stage(make_lamp_scene(2.0, 1.5));

@@ -168,10 +168,10 @@ TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
 }
 
 /// A floor under a lamp, with a sheet of glass between them.
-Scene make_sheet_scene(double roughness) {
+Scene make_sheet_scene(double roughness, double lamp_side = 1.0) {
     Scene scene;
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(6.0), true);
-    add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, 2.0, 0.0}, z_to_down);
+    add_mesh(scene, make_quad(lamp_side, lamp_side, lamp), {0.0, 2.0, 0.0}, z_to_down);
     scene.materials.push_back({.base_color = glm::dvec3(0.9, 0.7, 0.8),
                                .gloss = {.metallic = 0.0, .roughness = roughness},
                                .glass = {.transmission = 1.0}});
@@ -182,6 +182,12 @@ Scene make_sheet_scene(double roughness) {
 TEST(PathWeights, LightPassesAThinSheet) {
     const Stage clear(make_sheet_scene(0.0)), rough(make_sheet_scene(0.6));
     EXPECT_TRUE(clear.shading.has_thin_glass);
+    Scene textured = make_sheet_scene(0.0);
+    textured.materials[1].glass.thickness = 1.0;
+    EXPECT_FALSE(Stage(textured).shading.has_thin_glass);
+    textured.images.push_back({.floats = Image<glm::vec4>(1, 1)});
+    textured.materials[1].textures[TextureSlot::thickness].image = 0;
+    EXPECT_TRUE(Stage(textured).shading.has_thin_glass) << "texels may be 0";
     const ViewedSurface floor{
         make_point({0.2f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}, 1e-4f), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}};
     for (const Stage* stage : {&clear, &rough}) {
@@ -198,6 +204,17 @@ TEST(PathWeights, LightPassesAThinSheet) {
     const double passed = through.mean() / without.mean(), tint = luminance({0.9f, 0.7f, 0.8f});
     EXPECT_LT(passed, 0.96 * tint);  // index 1.5: 4 % is reflected, more at an angle
     EXPECT_GT(passed, 0.93 * tint);
+}
+
+/// The light sample of the last surface leaves a part of its weight to the ray, which looks through the sheet too.
+TEST(PathWeights, TheLastSurfaceSeesALargeLampThroughASheet) {
+    const Stage stage(make_sheet_scene(0.0, 8.0));
+    const ViewedSurface floor{
+        make_point({0.2f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}, 1e-4f), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}};
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        trial.near(estimate(stage, floor, trial.times(40'000), by_paths(3, 1), 1 + trial.seed),
+                   estimate(stage, floor, trial.times(40'000), by_paths(3, 2), 2 + trial.seed));
+    }));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ Mean look(const Stage& stage, const glm::dvec3& eye, const glm::dvec3& direction
     }
     const ViewedSurface surface =
         view_surface(stage.shading, make_surface_point(stage.shading, hit, towards), -towards, {});
-    const Rgb loss = Media().attenuation(surface);
+    const Rgb loss = Media().attenuation(surface.point, surface.material);
     for (int i = 0; i < count; ++i) {
         RandomStream random({1 + seed, 0, 0, static_cast<std::uint32_t>(i)});
         const Rgb light = scatter_light(stage.lighting(), task, surface, state, random);

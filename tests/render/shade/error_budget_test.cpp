@@ -41,11 +41,6 @@ TEST(ErrorBudget, SamplesKeepToTheNoiseThatGoesUnseen) {
         follow_error(settings, error);
         EXPECT_NEAR(compute_sampling_tolerance(limits, settings, 2.0)(1, 1), times * unit, 1e-7) << error;
     }
-    settings.error = 0.5;
-    const double least = 0.5 * 2.0 / limits.viewing.display_white / 4.0;
-    EXPECT_NEAR(compute_gloss_tolerance(limits, settings, 4.0)(1, 1), gloss_share * least, 1e-8);
-    settings.error = 0.0;
-    EXPECT_TRUE(compute_gloss_tolerance(limits, settings, 4.0).empty());
 }
 
 TEST(AskedError, FaintLampsCountAtAnyError) {
@@ -72,6 +67,35 @@ TEST(AskedError, FaintLampsCountAtAnyError) {
         }
     }
     EXPECT_NEAR(found / expected, 1.0, 0.01);
+}
+
+/// Its lobe sees the horizon against what is above: nothing of that may be left out, and the sky alone cannot be
+/// sampled for it. The ground is 40 m deep, seen at grazing angles.
+TEST(AskedError, GlossyGroundUnderASkyIsThatOfPaths) {
+    constexpr int width = 32, height = 24;
+    Scene scene;
+    scene.film.exposure = 1.0;
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.5));
+    scene.materials.push_back({.base_color = glm::dvec3(0.1), .gloss = {.metallic = 0.0, .roughness = 0.35}});
+    add_mesh(scene, make_quad(200.0, 200.0, 0), glm::dvec3(0.0), z_to_up);
+    add_mesh(scene, make_box(glm::dvec3(1.0), add_lambert(scene, {0.7, 0.2, 0.1})), {0.0, 0.5, -2.0});
+    add_camera(scene, {0.0, 1.0, 4.0}, {0.0, 1.0, 0.0}, 0.8);
+    RenderSettings asked{.picture = {.width = width, .height = height, .filter = PixelFilter::box}}, paths = asked;
+    follow_error(asked, 1.0);
+    paths.light.integrator = Integrator::path;
+    paths.light.bounces = asked.light.bounces;
+    paths.sampling.spp = 512;
+    paths.seed = 1;
+    paths.perception.guide = Guide::none;
+    const ShadedFrame found = Sequence(scene, asked).render(0).shaded, truth = Sequence(scene, paths).render(0).shaded;
+    Image<float> shown(width / 4, height / 4), expected(width / 4, height / 4);
+    for (const auto [x, y] : all_pixels(width, height)) {
+        shown(x / 4, y / 4) += luminance(found.color(x, y));
+        expected(x / 4, y / 4) += luminance(truth.color(x, y));
+    }
+    for (std::size_t i = 0; i < shown.size(); ++i) EXPECT_NEAR(shown.pixels[i] / expected.pixels[i], 1.0, 0.05) << i;
+    EXPECT_LT(found.error_shares.beyond, 0.01);
+    EXPECT_LT(found.counts.samples, 400u * width * height);
 }
 
 }  // namespace

@@ -162,22 +162,22 @@ TEST(Glass, MC25_NestedMedia) {
     const ViewedSurface ball_in = make_wall(1, 1.5f, true, 5.0f), ball_out = make_wall(1, 1.5f, false, 5.0f);
     // The camera stands in the block and sees its wall from inside.
     EXPECT_FLOAT_EQ(media.ratio_at(block_out), 1.0f / 1.33f);
-    EXPECT_EQ(media.attenuation(block_out), Rgb(2.0f));
-    EXPECT_EQ(media.attenuation(block_in), Rgb(0.0f));
-    media.pass(block_out);
+    EXPECT_EQ(media.attenuation(block_out.point, block_out.material), Rgb(2.0f));
+    EXPECT_EQ(media.attenuation(block_in.point, block_in.material), Rgb(0.0f));
+    media.pass(block_out.point, block_out.material);
     EXPECT_EQ(media.ior(), 1.0f);
 
     EXPECT_FLOAT_EQ(media.ratio_at(block_in), 1.33f);
-    media.pass(block_in);
+    media.pass(block_in.point, block_in.material);
     EXPECT_EQ(media.attenuation_inside(), Rgb(2.0f));
     EXPECT_FLOAT_EQ(media.ratio_at(ball_in), 1.5f / 1.33f);
     EXPECT_FLOAT_EQ(media.ratio_at(block_out), 1.0f / 1.33f);
-    media.pass(ball_in);
-    EXPECT_EQ(media.attenuation(ball_out), Rgb(5.0f));
+    media.pass(ball_in.point, ball_in.material);
+    EXPECT_EQ(media.attenuation(ball_out.point, ball_out.material), Rgb(5.0f));
     EXPECT_FLOAT_EQ(media.ratio_at(ball_out), 1.33f / 1.5f);
-    media.pass(ball_out);
+    media.pass(ball_out.point, ball_out.material);
     EXPECT_EQ(media.ior(), 1.33f);
-    media.pass(block_out);
+    media.pass(block_out.point, block_out.material);
     EXPECT_EQ(media.ior(), 1.0f);
     EXPECT_EQ(media.attenuation_inside(), Rgb(0.0f));
 }

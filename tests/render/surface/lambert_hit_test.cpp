@@ -9,13 +9,14 @@
 namespace aleph {
 namespace {
 
-/// A board of two colours at its corners, and a turned box of one colour, seen from both of their sides.
+/// A board of two colours at its corners, partly beyond what a surface can reflect, and a turned box of one colour,
+/// seen from both of their sides.
 Scene make_colored_scene() {
     Scene scene;
     const int white = add_lambert(scene, {0.9, 0.8, 0.5}, glm::dvec3(0.0), true);
     Mesh board = make_quad(2.0, 2.0, white);
     for (std::size_t i = 0; i < board.positions.size(); ++i) {
-        board.colors.push_back(i % 2 == 0 ? glm::vec4(1.0f, 0.2f, 0.1f, 1.0f) : glm::vec4(0.1f, 0.4f, 1.0f, 1.0f));
+        board.colors.push_back(i % 2 == 0 ? glm::vec4(3.0f, 0.2f, -0.1f, 1.0f) : glm::vec4(0.1f, 0.4f, 1.0f, 1.0f));
     }
     add_mesh(scene, board, {0.0, 0.0, -1.0});
     add_mesh(scene, make_box({0.5, 0.4, 0.3}, white), {0.2, 0.1, 0.0}, glm::angleAxis(0.7, glm::dvec3(0.6, 0.8, 0.0)));
@@ -59,6 +60,7 @@ TEST(LambertHit, IsTheSurfaceOfTheFullWay) {
         EXPECT_LT(glm::length(single.geometric - point.geometric), is_flat ? 1e-6f : 2e-6f);
         EXPECT_LT(glm::length(packed.geometric - point.geometric), 2e-6f);
         EXPECT_LT(glm::length(single.albedo - evaluate_material(stage.shading, point, {}).diffuse), 1e-6f);
+        EXPECT_LE(largest_channel(single.albedo), 1.0f);
         varied = varied || single.albedo.x < 0.5f;
     }
     EXPECT_GT(met[0], 20);

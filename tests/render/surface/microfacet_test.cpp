@@ -1,6 +1,7 @@
 // Lobes at their limits: widths that single precision can hardly resolve, and smooth surfaces.
 // The sheen layer: its table, its reciprocity.
 
+#include "render/surface/glossy_albedo.h"
 #include "render/surface/sheen.h"
 #include "tests/support/lobes.h"
 #include "tests/support/test.h"
@@ -173,6 +174,25 @@ TEST(Sheen, MC15_ReciprocalAndAsTheExtensionDefinesIt) {
     }
     EXPECT_EQ(evaluate_sheen(0.3f, direction_of(-0.1f), direction_of(0.5f)), 0.0f);
     EXPECT_EQ(evaluate_sheen(0.3f, direction_of(0.5f), direction_of(-0.1f)), 0.0f);
+}
+
+TEST(Microfacets, AlbedoIsTheIntegralOfTheLobe) {
+    for (const float roughness : {0.1f, 0.35f, 0.6f, 1.0f}) {
+        for (const float f0 : {0.04f, 1.0f}) {
+            for (const float cosine : {0.08f, 0.4f, 0.93f}) {
+                SurfaceMaterial material = make_metal(roughness * roughness);
+                material.gloss.f0 = Rgb(f0);
+                const ViewedSurface surface = make_viewed(material, direction_of(cosine));
+                const AlbedoParts parts = ggx_albedo(material.gloss.alpha, cosine);
+                EXPECT_TRUE(holds([&](Trial& trial) {
+                    trial.near(
+                        mean_scattered(LitSurface(surface), trial.times(4000), 5 + trial.seed, LobeSet::specular),
+                        f0 * parts.straight + parts.grazing, 0.005);
+                })) << roughness
+                    << ' ' << f0 << ' ' << cosine;
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -188,6 +188,40 @@ TEST(Texture, OnePyramidForEachPictureAndSpace) {
     EXPECT_EQ(wide.coarse[1].height, 1);
 }
 
+/// No surface reflects or passes more light than it gets, and none a negative amount.
+TEST(Texture, ValuesOutsideOfZeroToOneAreShares) {
+    for (const float value : {3.0f, -2.0f}) {
+        Scene scene;
+        scene.images.push_back({.floats = Image<glm::vec4>(1, 1, glm::vec4(value))});
+        Material material{.gloss = {.metallic = 0.5, .roughness = 0.8},
+                          .glass = {.transmission = 0.4},
+                          .layers = {.clearcoat = 0.7,
+                                     .clearcoat_roughness = 0.9,
+                                     .sheen_color = {glm::dvec3(0.6)},
+                                     .sheen_roughness = 0.9,
+                                     .anisotropy = 0.8}};
+        for (const MaterialTexture& texture : material_textures)
+            if (!is_normal_map(texture.slot)) material.textures[texture.slot].image = 0;
+        scene.materials.push_back(material);
+        add_mesh(scene, make_quad(2.0, 2.0, 0), {0.0, 0.0, -1.0});
+        const Stage stage(std::move(scene));
+        RayTask task(stage.rays);
+        const glm::vec3 forward(0.0f, 0.0f, -1.0f);
+        const Hit hit = task.tracer.intersect({glm::vec3(-stage.shading.anchor), forward});
+        ASSERT_NE(hit.instance, no_index);
+        const SurfaceMaterial m = evaluate_material(stage.shading, make_surface_point(stage.shading, hit, forward), {});
+        for (const Rgb& share : {m.diffuse, m.gloss.f0, m.glass.tint, m.sheen.color}) {
+            EXPECT_GE(std::min({share.x, share.y, share.z}), 0.0f) << value;
+            EXPECT_LE(largest_channel(share), 1.0f) << value;
+        }
+        for (const float share : {m.gloss.f90, m.gloss.alpha, m.gloss.stretch, m.glass.share, m.glass.specular,
+                                  m.coat.strength, m.coat.alpha, m.sheen.alpha}) {
+            EXPECT_GE(share, 0.0f) << value;
+            EXPECT_LE(share, 1.0f) << value;
+        }
+    }
+}
+
 /// KHR_texture_transform: offset, then rotation, then scale, as columns of what acts on (u, v, 1). Its worked example:
 /// the lower left quarter of the picture, turned clockwise by 90 degrees.
 TEST(Texture, TransformFollowsTheExtension) {

@@ -1,6 +1,4 @@
-// Writes the pictures of scenes/materials: make_materials OUTPUT_FOLDER (usually scenes). Deterministic.
-//   bricks.png, bricks_normal.png   four courses of bricks: colour, and normals in tangent space
-//   sky.exr                         an equirectangular sky with a sun, radiance in units of a white wall's
+#include "scenes/materials/textures.h"
 
 #include <cmath>
 #include <numbers>
@@ -98,21 +96,17 @@ Image<Rgb> draw_sky() {
 
 }  // namespace
 
-}  // namespace aleph
-
-int main(int argc, char** argv) {
-    using namespace aleph;
-    return run_generator(argc, argv, "make_materials", "materials/textures/", [](const std::filesystem::path& output) {
-        const std::filesystem::path folder = output / "materials" / "textures";
-        std::filesystem::create_directories(folder);
-        write_textures(folder, {draw_texture("bricks", size, size, 2, brick_color), draw_normals()});
-        const Image<Rgb> sky = draw_sky();
-        ChannelImage file;
-        for (int c = 0; c < 3; ++c) {
-            Image<float> values(sky.width, sky.height);
-            for (std::size_t i = 0; i < sky.size(); ++i) values.pixels[i] = sky.pixels[i][c];
-            file.channels.push_back({std::string(1, "RGB"[c]), std::move(values)});
-        }
-        write_exr(folder / "sky.exr", file);
-    });
+void write_materials_textures(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    write_textures(folder, {draw_texture("bricks", size, size, 2, brick_color), draw_normals()});
+    const Image<Rgb> sky = draw_sky();
+    ChannelImage file;
+    for (int c = 0; c < 3; ++c) {
+        Image<float> values(sky.width, sky.height);
+        for (std::size_t i = 0; i < sky.size(); ++i) values.pixels[i] = sky.pixels[i][c];
+        file.channels.push_back({std::string(1, "RGB"[c]), std::move(values)});
+    }
+    write_exr(folder / "sky.exr", file);
 }
+
+}  // namespace aleph
