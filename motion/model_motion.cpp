@@ -253,13 +253,9 @@ MotionField ModelMotion::compute(const PosedView& now, const PosedView& other, c
                                  OtherFrame which) {
     ALEPH_CHECK(hits.width == now.view.width && hits.height == now.view.height,
                 fmt::format("{}x{} hits, {}x{} view", hits.width, hits.height, now.view.width, now.view.height));
+    if (which == OtherFrame::none)
+        return make_motion_field(hits.width, hits.height, MotionValidity::no_counterpart);
     MotionField field = make_motion_field(hits.width, hits.height, MotionValidity::background);
-    if (which == OtherFrame::none) {
-        for (std::size_t i = 0; i < hits.size(); ++i) {
-            if (hits.pixels[i].instance != no_index) field.validity.pixels[i] = MotionValidity::no_counterpart;
-        }
-        return field;
-    }
     seen_.find(hits, now.pose.instances.size());
     PreparedMotion all = prepare_motion(scene_, now, other, which, seen_);
     add_steps(all, now, other);

@@ -12,9 +12,15 @@ namespace aleph {
 /// Motion of a frame's pixels to the next frame.
 struct MotionMaps {
     Image<float> u, v;    ///< pixels; u to the right, v upwards
-    Image<float> valid;   ///< 1 where the motion is valid
+    Image<float> valid;   ///< MotionValidity
     Image<float> object;  ///< number of the instance; empty: all are one
 };
+
+/// Whether the point seen in a pixel is at the place that the motion leads to: of a surface, or of the background, which
+/// the camera's rotation alone moves.
+inline bool moves_as_told(float valid) {
+    return valid == 1.0f || valid == 0.0f;
+}
 
 /// Reads forward.u, forward.v, motion.valid and objectId.X. Without motion nothing moves: u and v are 0.
 MotionMaps read_motion(const ChannelImage& maps);

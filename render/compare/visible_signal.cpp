@@ -62,7 +62,7 @@ Image<float> image_velocity(const MotionMaps& motion, const SurfaceTracks& track
         for (int x = 0; x < velocity.width; ++x) {
             const std::size_t i = velocity.index(x, y);
             double pixels = 0.0;
-            if (motion.valid.pixels[i] == 1.0f) {
+            if (moves_as_told(motion.valid.pixels[i])) {
                 pixels = std::hypot(motion.u.pixels[i], motion.v.pixels[i]);
             } else if (before && !std::isnan(before->pixels[i].x)) {
                 pixels = std::hypot(before->pixels[i].x - static_cast<float>(x),

@@ -30,8 +30,8 @@ Pattern grating(double cycles_per_degree, double contrast) {
 
 const Pattern flat = [](double, double) { return 0.0; };
 
-MotionMaps uniform_motion(float u, float v = 0.0f) {
-    return {Image<float>(width, height, u), Image<float>(width, height, v), Image<float>(width, height, 1.0f),
+MotionMaps uniform_motion(float u, float v = 0.0f, float valid = 1.0f) {
+    return {Image<float>(width, height, u), Image<float>(width, height, v), Image<float>(width, height, valid),
             Image<float>(width, height, 5.0f)};
 }
 
@@ -52,12 +52,13 @@ double middle(const Image<float>& map) {
 using Frames = std::function<Image<Rgb>(int frame)>;
 
 /// Means in the middle frame of a window that both sequences fill.
-Shown show(const Frames& pictures, const Frames& references, float u = 0.0f, const ViewingSettings& settings = {}) {
+Shown show(const Frames& pictures, const Frames& references, float u = 0.0f, const ViewingSettings& settings = {},
+           float valid = 1.0f) {
     VisibleDifference difference(settings);
     const int reach = filter_reach(settings.frame_rate);
     std::vector<VisibleMaps> maps;
     for (int frame = 0; frame <= 2 * reach; ++frame) {
-        for (VisibleMaps& done : difference.add(frame, {pictures(frame), references(frame)}, uniform_motion(u)))
+        for (VisibleMaps& done : difference.add(frame, {pictures(frame), references(frame)}, uniform_motion(u, 0.0f, valid)))
             maps.push_back(std::move(done));
     }
     for (VisibleMaps& done : difference.finish()) maps.push_back(std::move(done));
@@ -182,6 +183,25 @@ TEST(VisibleDifference, NoiseThatIsNewInEveryFrameFlickers) {
     EXPECT_GT(fresh.flicker, 0.5 * fresh.lasting);
     EXPECT_LT(fresh.seen, 0.75 * frozen.seen) << "the eye averages over time";
     EXPECT_NEAR(fresh.lasting, frozen.lasting / std::sqrt(11.0), 0.1 * frozen.lasting) << "a mean of 11 frames";
+}
+
+/// The background has motion, too: that of the camera's rotation. What flickers in it is averaged, and what moves along
+/// with it lasts.
+TEST(VisibleDifference, BackgroundIsFollowedAsSurfacesAre) {
+    std::mt19937 generator(7);
+    std::vector<Image<Rgb>> noise;
+    for (int frame = 0; frame <= 2 * filter_reach({}); ++frame) {
+        std::normal_distribution<double> normal(0.0, 0.05);
+        noise.push_back(picture_of([&](double, double) { return normal(generator); }));
+    }
+    const auto fresh = [&](int frame) { return noise[static_cast<std::size_t>(frame)]; };
+    for (const float u : {0.0f, 2.0f}) {
+        for (const Frames& pictures : {Frames(fresh), drifting(grating(2.0, 0.03), u)}) {
+            const Shown surface = show(pictures, still(flat), u), background = show(pictures, still(flat), u, {}, 0.0f);
+            EXPECT_EQ(background.seen, surface.seen);
+            EXPECT_EQ(background.lasting, surface.lasting);
+        }
+    }
 }
 
 TEST(VisibleDifference, NoiseOfTheReferenceIsTakenOff) {
