@@ -218,6 +218,11 @@ class SurfaceCutter {
     std::vector<std::uint32_t> vertex_of_;  ///< per corner of the surface
 };
 
+/// Whether it is the only run; then samples of other properties are all of it. Empty runs, which are left out, count.
+bool keeps_topology(const SurfaceRun& run) {
+    return !is_animated(run.present);
+}
+
 }  // namespace
 
 std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const AlembicCompound& top,
@@ -229,11 +234,11 @@ std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const Alem
     for (const SurfaceRun& run : runs) {
         RunSurface surface{.run = run,
                            .points = reader.part.point_caches[run.points].positions.front(),
-                           .normals = read_normals(reader, object, geom, run, runs.size() == 1)};
+                           .normals = read_normals(reader, object, geom, run, keeps_topology(run))};
         if (uv) {
             surface.uv = read_fitting(reader, object, *uv, run, run.begin, "its texture coordinates");
             surface.uv_scope = uv->scope;
-            if (!is_constant(*uv) && runs.size() == 1)
+            if (!is_constant(*uv) && keeps_topology(run))
                 reader.warn(object, "its texture coordinates change over time; their first state is used");
         }
         const SurfaceParts parts = read_parts(reader, object, top, run);

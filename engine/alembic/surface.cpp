@@ -11,8 +11,6 @@
 namespace aleph {
 namespace {
 
-constexpr double same_time = 1e-5;  // s; as Alembic takes times for equal
-
 std::size_t element_count(const AlembicArchive& archive, const AlembicProperty& property, std::uint64_t sample) {
     const std::vector<std::uint64_t> sizes = archive.dimensions(property, sample);
     return std::accumulate(sizes.begin(), sizes.end(), std::size_t{1}, std::multiplies<>());
@@ -113,9 +111,10 @@ Track<double> make_presence(const std::vector<SurfaceRun>& runs, std::size_t run
         track.sampling.times.push_back(time);
         track.values.push_back(value);
     };
-    if (run > 0) add(runs.front().begin, 0.0);
-    add(runs[run].begin, 1.0);
-    if (run + 1 < runs.size()) add(runs[run + 1].begin, 0.0);
+    // As alembic_floor finds samples.
+    if (run > 0) add(runs.front().begin - same_time, 0.0);
+    add(runs[run].begin - same_time, 1.0);
+    if (run + 1 < runs.size()) add(runs[run + 1].begin - same_time, 0.0);
     return track;
 }
 

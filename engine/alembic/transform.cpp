@@ -62,8 +62,11 @@ void append_defaults(OperationStack& stack) {
 void read_transform(AlembicReader& reader, int object, const AlembicCompound& top, Node& node) {
     const AlembicArchive& archive = reader.archive;
     const AlembicCompound xform = archive.properties(top, ".xform");
-    if (const AlembicProperty* inherits = xform.find_sampled(".inherits"))
+    if (const AlembicProperty* inherits = xform.find_sampled(".inherits")) {
         node.inherits = read_whole_track(reader, *inherits, Interpolation::step, [](int v) { return v ? 1.0 : 0.0; });
+        node.inherits.sampling.start -= same_time;
+        for (double& time : node.inherits.sampling.times) time -= same_time;
+    }
     const AlembicProperty* operations = xform.find_sampled(".ops");
     if (operations == nullptr) return;
 

@@ -23,7 +23,7 @@ struct Channel {
 
 void clamp_to_range(GltfReader& reader, GltfKeys& keys, const Channel& channel) {
     const GltfPropertyInfo& info = *channel.target.info;
-    if (clamp_keys(keys, info.low, info.high)) {
+    if (clamp_keys(keys, info.low, info.high, info.factor != nullptr && info.factor->takes_zero)) {
         reader.warn(channel.place, fmt::format("keys of {} leave {} to {} and are clamped",
                                                pointer_text(channel.target), info.low, info.high));
     }

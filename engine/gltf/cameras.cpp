@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "engine/gltf/reader.h"
@@ -16,7 +17,7 @@ Camera read_camera(const tinygltf::Camera& source, std::size_t index) {
     camera.orthographic = source.type == "orthographic";
     // znear and zfar are for depth buffers. Nothing is clipped here, so near_plane keeps its default.
     if (camera.orthographic) {
-        camera.half_height = source.orthographic.ymag;
+        camera.half_height = std::abs(source.orthographic.ymag);
     } else {
         camera.fov = source.perspective.yfov;
     }

@@ -161,7 +161,7 @@ fs::path resolve_file_uri(std::string_view uri, const fs::path& folder, const st
     };
     if (decoded.empty()) fail("the URI is empty");
     if (decoded[0] == '/') fail("absolute paths are not allowed");
-    if (has_scheme(decoded)) fail("only relative paths and data URIs are supported");
+    if (has_scheme(uri)) fail("only relative paths and data URIs are supported");
     for (const char c : decoded) {
         const auto byte = static_cast<unsigned char>(c);
         if (c == '\\') fail("backslashes are not allowed");

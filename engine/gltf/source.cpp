@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <set>
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
@@ -51,7 +52,8 @@ bool is_image_type(std::string_view type) {
     return type == "image/png" || type == "image/jpeg";
 }
 
-/// Checks that an image is there, also where no material uses it: whether a file loads does not depend on materials.
+/// Checks that the image of a texture is there, also where no material uses it: whether a file loads does not depend on
+/// materials. Images that extensions alone name are not read.
 void locate_image(const GltfSource& source, std::size_t i) {
     const nlohmann::json& image = source.document["images"][i];
     if (!image.contains("uri")) return;
@@ -129,8 +131,12 @@ GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
         source.buffers.push_back(load_buffer(source, i, chunks, bytes_left));
         bytes_left -= source.buffers.back().size();
     }
-    const std::size_t image_count = source.document.contains("images") ? source.document["images"].size() : 0;
-    for (std::size_t i = 0; i < image_count; ++i) locate_image(source, i);
+    std::set<std::size_t> images;
+    if (source.document.contains("textures")) {
+        for (const nlohmann::json& texture : source.document["textures"])
+            images.insert(texture["source"].get<std::size_t>());
+    }
+    for (const std::size_t image : images) locate_image(source, image);
     parse_model(source);
     return source;
 }

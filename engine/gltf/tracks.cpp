@@ -13,6 +13,13 @@ namespace {
 
 constexpr double doubtful_angle = 170.0 * std::numbers::pi / 180.0;  // radians
 
+/// The earliest time that is stored as this float: a new value that is meant for a frame holds there, though the float
+/// may lie behind the frame's time.
+double earliest_of(double time) {
+    const auto stored = static_cast<float>(time);
+    return time > 0.0 ? 0.5 * (time + static_cast<double>(std::nextafter(stored, 0.0f))) : time;
+}
+
 std::vector<double> read_times(GltfReader& reader, int accessor, const std::string& place) {
     std::vector<double> times = reader.accessors.read<double>(accessor);
     for (std::size_t i = 0; i < times.size(); ++i) {
@@ -55,15 +62,18 @@ GltfKeys read_keys(GltfReader& reader, const tinygltf::AnimationSampler& sampler
     keys.values = reader.accessors.read<double>(sampler.output);
     keys.row = row > 0 ? row : reader.accessors.components(sampler.output);
     keys.is_float = reader.accessors.is_float(sampler.output);
-    if (sampler.interpolation == "STEP") keys.interpolation = Interpolation::step;
+    if (sampler.interpolation == "STEP") {
+        keys.interpolation = Interpolation::step;
+        for (double& time : keys.times) time = earliest_of(time);
+    }
     if (sampler.interpolation == "CUBICSPLINE") keys.interpolation = Interpolation::cubic;
     return keys;
 }
 
-bool clamp_keys(GltfKeys& keys, double low, double high) {
+bool clamp_keys(GltfKeys& keys, double low, double high, bool takes_zero) {
     bool clamped = false;
     for (std::size_t i = 0; i < keys.values.size(); ++i) {
-        if (!keys.is_value(i / keys.row)) continue;
+        if (!keys.is_value(i / keys.row) || (takes_zero && keys.values[i] == 0.0)) continue;
         const double inside = std::clamp(keys.values[i], low, high);
         if (inside != keys.values[i]) clamped = true;
         keys.values[i] = inside;

@@ -32,7 +32,8 @@ GltfKeys read_keys(GltfReader& reader, const tinygltf::AnimationSampler& sampler
                    std::size_t row = 0);
 
 /// Brings values (not tangents) within a property's range. @return whether any was outside
-bool clamp_keys(GltfKeys& keys, double low, double high);
+/// @param takes_zero  0 stays, as it has a meaning of its own
+bool clamp_keys(GltfKeys& keys, double low, double high, bool takes_zero = false);
 
 /// A track over `keys` whose values are make(row's numbers, row index).
 template <class T, class Make>

@@ -76,6 +76,7 @@ void add_framing_camera(Scene& scene) {
         shift(other.parent);
         shift(other.camera);
     }
+    for (Skin& skin : scene.skins) std::ranges::for_each(skin.joints, shift);
     for (Include& include : scene.source.includes) shift(include.node);
     scene.nodes.insert(scene.nodes.begin(), std::move(node));
     scene.cameras.insert(scene.cameras.begin(), std::move(camera));

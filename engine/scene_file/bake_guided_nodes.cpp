@@ -128,9 +128,11 @@ class GuidedNodesBaker {
         return bake_track<glm::dquat>(motion, times, first ? *first : rotation_along_up(*along_up), charge_keys(place));
     }
 
-    /// The node's z axis points away from where its -z looks, but for a negative scale.
+    /// The node's z axis points away from where its -z looks, and its y axis up, but for negative scales.
     Aim with_scale(Aim aim, const Track<glm::dvec3>& scale, double seconds) const {
-        if (evaluate(scale, seconds).z < 0.0) aim.direction = -aim.direction;
+        const glm::dvec3 factors = evaluate(scale, seconds);
+        if (factors.z < 0.0) aim.direction = -aim.direction;
+        if (factors.y < 0.0) aim.up = -aim.up;
         return aim;
     }
 

@@ -53,14 +53,21 @@ void check_buffers(GltfCheck& check) {
 }
 
 void check_images(GltfCheck& check) {
-    for_each_object(check.root, "images", [&](const JsonRef& image, std::size_t) {
+    std::vector<bool> used(check.counts.images);  // others belong to extensions that may be ignored
+    for_each_object(check.root, "textures", [&](const JsonRef& texture, std::size_t) {
+        texture.find_index("sampler", check.counts.samplers, "sampler");
+        const std::optional<std::size_t> source = texture.find_index("source", check.counts.images, "image");
+        if (!source) texture.fail("\"source\" is missing: images from extensions are not supported");
+        used[*source] = true;
+    });
+    for_each_object(check.root, "images", [&](const JsonRef& image, std::size_t i) {
         image.find_string("name");
         const bool has_uri = image.find_string("uri").has_value();
         const bool has_view = image.find_index("bufferView", check.counts.views, "buffer view").has_value();
         if (has_uri == has_view) image.fail("needs either \"uri\" or \"bufferView\"");
         const std::optional<JsonRef> mime = image.find("mimeType");
         if (has_view && !mime) image.fail("\"mimeType\" is missing");
-        if (mime && mime->string() != "image/png" && mime->string() != "image/jpeg") {
+        if (mime && used[i] && mime->string() != "image/png" && mime->string() != "image/jpeg") {
             mime->fail(
                 fmt::format("\"{}\" is not supported, only image/png and image/jpeg", printable(mime->string())));
         }
@@ -70,12 +77,6 @@ void check_images(GltfCheck& check) {
         check_allowed(sampler, "minFilter", {9728, 9729, 9984, 9985, 9986, 9987});
         check_allowed(sampler, "wrapS", {33071, 33648, 10497});
         check_allowed(sampler, "wrapT", {33071, 33648, 10497});
-    });
-    for_each_object(check.root, "textures", [&](const JsonRef& texture, std::size_t) {
-        texture.find_index("sampler", check.counts.samplers, "sampler");
-        if (!texture.find_index("source", check.counts.images, "image")) {
-            texture.fail("\"source\" is missing: images from extensions are not supported");
-        }
     });
 }
 

@@ -18,16 +18,19 @@ void check_texture_info(const GltfCheck& check, const JsonRef& owner, std::strin
     info->expect_object();
     const JsonRef index = info->require("index");
     index.index(check.counts.textures, "texture");
-    if (const std::optional<JsonRef> set = info->find("texCoord"); set && set->integer(0, 1 << 30) > 1) {
-        set->fail("only texture coordinate sets 0 and 1 are supported");
-    }
     const ExtensionRef transform(*info, "KHR_texture_transform");
-    if (!transform) return;
-    transform->check_numbers("offset", 2);
-    transform->check_number("rotation");
-    transform->check_numbers("scale", 2);
-    if (const std::optional<JsonRef> set = transform->find("texCoord"); set && set->integer(0, 1 << 30) > 1) {
-        set->fail("only texture coordinate sets 0 and 1 are supported");
+    if (transform) {
+        transform->check_numbers("offset", 2);
+        transform->check_number("rotation");
+        transform->check_numbers("scale", 2);
+    }
+    const std::optional<JsonRef> given = info->find("texCoord");
+    const std::optional<JsonRef> other = transform ? transform->find("texCoord") : std::nullopt;
+    const std::optional<JsonRef>& set = other ? other : given;  // the extension's overrides
+    const bool is_read = key != "occlusionTexture";
+    for (const std::optional<JsonRef>* one : {&given, &other}) {
+        if (*one && (*one)->integer(0, 1 << 30) > 1 && is_read && one == &set)
+            (*one)->fail("only texture coordinate sets 0 and 1 are supported");
     }
 }
 
@@ -70,9 +73,10 @@ void check_camera(const JsonRef& camera) {
         if (const std::optional<JsonRef> aspect = lens.find("aspectRatio")) aspect->number_above(0.0);
     } else if (type.string() == "orthographic") {
         const JsonRef lens = camera.require("orthographic");
-        const JsonRef width = lens.require("xmag");
-        if (width.number() == 0.0) width.fail("must not be 0");
-        lens.require("ymag").number_above(0.0);
+        for (const char* const key : {"xmag", "ymag"}) {
+            const JsonRef size = lens.require(key);
+            if (size.number() == 0.0) size.fail("must not be 0");
+        }
         const JsonRef near = lens.require("znear");
         if (near.number() < 0.0) near.fail(fmt::format("must not be negative, found {}", near.number()));
         lens.require("zfar");

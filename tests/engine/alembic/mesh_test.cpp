@@ -136,6 +136,33 @@ TEST(AlembicMeshes, RP15_PointsMoveBetweenChanges) {
     EXPECT_EQ(evaluate(mesh_of(scene, "m", 1).present, 2.0), 1.0);
 }
 
+/// As effects are that appear and vanish: the samples of normals are not those of the one surface that is left.
+TEST(AlembicMeshes, AMeshThatIsEmptyAtFirstKeepsItsNormals) {
+    const std::vector<float> points{0, 0, 0, 1, 0, 0, 0, 1, 0}, normals{0, 0, 1, 0, 0, 1, 0, 0, 1};
+    for (const bool at_first : {false, true}) {
+        const auto order = [&]<class T>(const std::vector<T>& there) {
+            return at_first ? std::vector<std::vector<T>>{{}, there} : std::vector<std::vector<T>>{there, {}};
+        };
+        DraftObject mesh = draft_mesh("m", order(points), order(std::vector<std::int32_t>{3}),
+                                      order(std::vector<std::int32_t>{0, 1, 2}));
+        mesh.properties[0].children.push_back(
+            draft_array<float>("N", DraftProperty::f32, 3, order(normals), "geoScope=vtx"));
+        const Scene scene = load({mesh}, {0.0, 1.0});
+        EXPECT_FALSE(has_warning(scene, "normals are left out")) << at_first;
+        EXPECT_EQ(mesh_of(scene, "m").normals.size(), 3u) << at_first;
+    }
+}
+
+/// Alembic takes times for equal that differ by 1e-5 s: the period may be a float.
+TEST(AlembicMeshes, AChangeOnAFrameCountsAtTheFrame) {
+    const std::vector<float> a{0, 0, 0, 1, 0, 0, 0, 1, 0}, c{0, 0, 9, 1, 0, 9, 1, 1, 9, 0, 1, 9};
+    const double late = 1.0 + 9e-6;
+    const Scene scene = load({draft_mesh("m", {a, c}, {{3}, {4}}, {{0, 1, 2}, {0, 1, 2, 3}})}, {0.0, late});
+    EXPECT_EQ(evaluate(mesh_of(scene, "m", 0).present, 1.0), 0.0);
+    EXPECT_EQ(evaluate(mesh_of(scene, "m", 1).present, 1.0), 1.0);
+    EXPECT_EQ(evaluate(mesh_of(scene, "m", 1).present, 0.999), 0.0);
+}
+
 TEST(AlembicMeshes, AConcavePolygonIsCutInsideItsOutline) {
     // An arrow and an L, counter-clockwise seen from below, from every corner on.
     const std::vector<glm::vec3> arrow{{0, 0, 0}, {2, 0, 1}, {4, 0, 0}, {2, 0, 4}},

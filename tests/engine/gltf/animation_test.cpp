@@ -27,6 +27,24 @@ TEST_F(GltfAnimation, KF12_KF13_LinearAndStepAtKeysBetweenAndOutside) {
     EXPECT_TRUE(scene.source.warnings.empty());
 }
 
+/// The floats nearest to frames' times lie behind some of them: the new value is meant for the frame all the same.
+TEST_F(GltfAnimation, StepsOnAFrameHoldAtTheFrame) {
+    std::vector<float> times, places;
+    for (int frame = 0; frame < 300; ++frame) {
+        times.push_back(static_cast<float>(frame / 30.0));
+        places.insert(places.end(), {static_cast<float>(frame), 0.0f, 0.0f});
+    }
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "translation", times, places, "STEP");
+    const Scene scene = load(draft);
+    for (int frame = 0; frame < 300; ++frame) {
+        EXPECT_EQ(evaluate(scene.nodes[0].transform.translation, frame / 30.0).x, frame);
+        if (frame > 0) {
+            EXPECT_EQ(evaluate(scene.nodes[0].transform.translation, (frame - 1e-4) / 30.0).x, frame - 1);
+        }
+    }
+}
+
 TEST_F(GltfAnimation, RotationKeysTurnByTheShorterArc) {
     GltfDraft draft = triangle_draft();
     const float h = std::sqrt(0.5f);

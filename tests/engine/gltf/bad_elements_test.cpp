@@ -60,7 +60,7 @@ const std::vector<BadChange> bad_use = {
     BAD("CameraLensMissing", "/cameras/0", "\"perspective\" is missing", d.json["cameras"][0].erase("perspective")),
     SET("CameraFovZero", "/cameras/0/perspective/yfov", "must be above 0", 0),
     SET("CameraFovHalfTurn", "/cameras/0/perspective/yfov", "below pi", 3.15),
-    BAD("CameraMagnificationZero", "/cameras/0/orthographic/ymag", "must be above 0",
+    BAD("CameraMagnificationZero", "/cameras/0/orthographic/ymag", "must not be 0",
         d.json["cameras"][0] = {{"type", "orthographic"},
                                 {"orthographic", {{"xmag", 1}, {"ymag", 0}, {"znear", 0}, {"zfar", 1}}}}),
     BAD("CameraWidthZero", "/cameras/0/orthographic/xmag", "must not be 0",

@@ -1,4 +1,6 @@
 // glTF reader: morph targets, skins, and meshes that are copied for each node.
+#include "engine/load/warnings.h"
+#include "engine/pose/pose.h"
 #include "tests/engine/gltf/fixture.h"
 #include "tests/support/files/gltf_deform_draft.h"
 #include "tests/support/test.h"
@@ -24,6 +26,17 @@ TEST_F(GltfDeform, MorphTargetsAndTheirWeights) {
     EXPECT_EQ(load(draft).meshes[0].deformation.target_weights, (std::vector<Track<double>>{0.25, -0.5}));
     draft.json["nodes"][0]["weights"] = {1, 2};  // the node's own come first
     EXPECT_EQ(load(draft).meshes[0].deformation.target_weights, (std::vector<Track<double>>{1.0, 2.0}));
+}
+
+/// A camera that is added comes before all other nodes.
+TEST_F(GltfDeform, SkinsFollowTheSameJointsWithAnAddedCamera) {
+    Scene scene = load(skin_draft());
+    const ScenePose before = pose(scene, 0.0);
+    add_framing_camera(scene);
+    const ScenePose after = pose(scene, 0.0);
+    EXPECT_EQ(after.meshes[0].positions, before.meshes[0].positions);
+    EXPECT_EQ(scene.nodes[scene.skins[0].joints[1]].transform.translation,
+              Track<glm::dvec3>(glm::dvec3(0.0, 1.0, 0.0)));
 }
 
 TEST_F(GltfDeform, AnimatedWeightsAreOneTrackEach) {

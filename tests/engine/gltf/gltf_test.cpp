@@ -140,7 +140,7 @@ TEST_F(Gltf, Cameras) {
         {{"type", "perspective"},
          {"name", "lens"},
          {"perspective", {{"yfov", 0.75}, {"znear", 0.5}, {"aspectRatio", 2}}}},
-        {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2.5}, {"znear", 0}, {"zfar", 100}}}}};
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", -3}, {"ymag", -2.5}, {"znear", 0}, {"zfar", 100}}}}};
     draft.json["nodes"].push_back({{"camera", 1}});
     draft.json["nodes"][0]["camera"] = 0;
     draft.json["scenes"][0]["nodes"] = {0, 1};

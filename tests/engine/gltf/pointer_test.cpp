@@ -90,6 +90,16 @@ TEST_F(GltfPointerTest, ColoursAndIor) {
     EXPECT_EQ(half.lights[0].intensity, Rgb(1.0f, 0.0f, 0.0f));
 }
 
+/// KHR_materials_ior: 0 stands for full reflection.
+TEST_F(GltfPointerTest, AnIorOfZeroIsNoSmallOne) {
+    GltfDraft draft = draft_with_everything();
+    draft.animate_pointer("/materials/0/extensions/KHR_materials_ior/ior", {0, 1, 2}, {0, 0.5f, 2}, "STEP");
+    const Scene scene = load(draft);
+    EXPECT_EQ(pose(scene, 0.5).materials[0].gloss.ior, 0.0f);
+    EXPECT_EQ(pose(scene, 1.5).materials[0].gloss.ior, 1.0f);
+    EXPECT_TRUE(has_warning(scene, "clamped"));
+}
+
 TEST_F(GltfPointerTest, NodesWeightsAndVisibility) {
     GltfDraft draft = draft_with_everything();
     draft.animate_pointer("/nodes/1/translation", {0, 1}, {0, 0, 0, 2, 0, 0});

@@ -199,12 +199,27 @@ TEST_F(GltfSurface, ImagesFromFilesAndDataUris) {
 TEST_F(GltfSurface, OcclusionTexturesGiveOneWarningAndAreNotDecoded) {
     GltfDraft draft = triangle_draft();
     add_texture(draft);
-    const Json material = {{"occlusionTexture", {{"index", 0}}}};
+    const Json material = {{"occlusionTexture", {{"index", 0}, {"texCoord", 2}}}};
     draft.json["materials"] = {material, material};
     const Scene scene = load(draft);
     EXPECT_EQ(scene.source.warnings.size(), 1u);
     EXPECT_EQ(count_warnings(scene, "materials: occlusion textures (2) are not used"), 1);
     EXPECT_TRUE(scene.images.empty());
+}
+
+/// EXT_texture_webp and KHR_texture_basisu beside a PNG: glTF 2.0, 3.12, lets readers ignore what is not required.
+TEST_F(GltfSurface, ImagesOfOptionalExtensionsAreNotRead) {
+    for (const auto& [extension, type] :
+         {std::pair("EXT_texture_webp", "image/webp"), {"KHR_texture_basisu", "image/ktx2"}}) {
+        GltfDraft draft = triangle_draft();
+        add_texture(draft);
+        draft.json["images"].push_back({{"uri", "absent.bin"}, {"mimeType", type}});
+        draft.json["textures"][0]["extensions"][extension] = {{"source", 1}};
+        draft.json["extensionsUsed"] = {extension};
+        draft.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+        const Scene scene = load(draft);
+        EXPECT_EQ(scene.images.size(), 1u);
+    }
 }
 
 TEST_F(GltfSurface, AlphaModesAndCutoff) {
@@ -230,7 +245,7 @@ TEST_F(GltfSurface, TextureTransformsOfEveryTexture) {
         return Json{{"index", 0}, {"extensions", {{"KHR_texture_transform", more}}}};
     };
     Json moved = info(0.25, {{"texCoord", 1}, {"rotation", 0.5}});
-    moved["texCoord"] = 0;  // overridden by the transform's
+    moved["texCoord"] = 5;  // overridden by the transform's
     draft.json["materials"] = {
         {{"pbrMetallicRoughness",
           {{"baseColorTexture", moved}, {"metallicRoughnessTexture", info(0.5, {{"scale", {2, -3}}})}}},

@@ -77,6 +77,13 @@ TEST(LookAt, PointsMayMoveAndScalesMayMirror) {
     EXPECT_EQ(scene.nodes.size(), 1u);
 }
 
+TEST(LookAt, UpStaysUpWhereYIsMirrored) {
+    const Scene scene = read(R"(, "nodes": [{"name": "eye", "scale": [1, -1, 1], "look_at": [1, 0.5, -3]}])");
+    const glm::dmat4 world = world_at(scene, "eye", 0.0);
+    expect_near(view_of(world), glm::normalize(glm::dvec3(1.0, 0.5, -3.0)), exact);
+    EXPECT_GT(world[1].y, 0.9);
+}
+
 TEST(LookAt, OneKeyWhereNothingMoves) {
     const Scene scene =
         read(R"(, "frames": [0, 1000000000], "nodes": [{"name": "eye", "translation": [0, 2, 2], "look_at": "ball"},
