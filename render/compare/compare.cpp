@@ -68,25 +68,19 @@ ThresholdDifference compare_with_threshold(const ChannelImage& a, const ChannelI
     return {measure_error(error, *threshold), error.display_white};
 }
 
-/// Pixels that `share` limits.
-std::size_t counted_pixels(const CompareResult& result, const CompareSettings& settings) {
-    if (result.threshold) return result.threshold->beyond;
-    return settings.standard_errors ? result.luminance->far : result.beyond;
-}
-
 std::vector<std::string> exceeded_limits(const CompareResult& result, const CompareSettings& settings) {
     std::vector<std::string> exceeded;
     const auto limit = [&](const char* name, double value, double most) {
         if (!(value <= most)) exceeded.emplace_back(name);
     };
-    limit("share", result.percent(counted_pixels(result, settings)), settings.share);
+    limit("share", result.percent(result.threshold ? result.threshold->beyond : result.counted), settings.share);
     limit("max_error", result.all.max_abs, settings.max_error);
     double rms = 0.0;
     for (const ChannelDifference& channel : result.channels) rms = std::max(rms, channel.difference.rms);
     limit("max_rms", rms, settings.max_rms);
     if (result.luminance) {
         const LuminanceDifference& luminance = *result.luminance;
-        limit("max_relative_mse", luminance.relative_mse - luminance.noise_mse, settings.max_relative_mse);
+        limit("max_relative_mse", luminance.without_noise(), settings.max_relative_mse);
         limit("max_bias", 100.0 * std::abs(luminance.bias), settings.max_bias);
     }
     return exceeded;
@@ -104,8 +98,10 @@ void refuse_limits_without_luminance(const CompareResult& result, const CompareS
 
 }  // namespace
 
-CompareResult compare_images(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings,
+CompareResult compare_images(const ChannelImage& first, const ChannelImage& second, const CompareSettings& settings,
                              const ChannelImage* aleph_map) {
+    const bool decode = is_encoded(first) != is_encoded(second);
+    const ChannelImage a = decode ? decode_colour(first) : first, b = decode ? decode_colour(second) : second;
     const std::vector<ChannelPair> pairs = match_channels(a, b, settings.channels);
     CompareResult result;
     result.width = pairs.front().b->width;
@@ -125,6 +121,7 @@ CompareResult compare_images(const ChannelImage& a, const ChannelImage& b, const
     }
     refuse_limits_without_luminance(result, settings);
     if (aleph_map) result.threshold = compare_with_threshold(a, b, *aleph_map);
+    result.counted = settings.standard_errors ? result.luminance->far : result.beyond;
     result.exceeded = exceeded_limits(result, settings);
     result.same = !result.a.any() && !result.b.any() && result.exceeded.empty();
     return result;

@@ -65,6 +65,7 @@ struct CompareResult {
     std::optional<Difference> colour;              ///< over R, G and B, where they are compared
     NonFinite a, b;                                ///< over the compared channels
     std::size_t beyond = 0;                        ///< pixels beyond the tolerance in any channel
+    std::size_t counted = 0;                       ///< pixels that `share` limits where no Aleph map is given
     std::optional<LuminanceDifference> luminance;  ///< where both pictures have R, G and B
     std::optional<ThresholdDifference> threshold;  ///< if a map was given
     std::vector<std::string> exceeded;             ///< limits that are exceeded: "share", "max_error", ...
@@ -79,7 +80,7 @@ struct CompareResult {
 /// Compares `a` with the reference `b`. The same: no NaN or infinity in either (not even in both), at most `share`
 /// percent of the pixels beyond the tolerance or, where an Aleph map is given, beyond its threshold, and no other limit
 /// exceeded. compare_channels.h says which channels count.
-/// 8-bit pictures count as sRGB for luminance.
+/// 8-bit pictures count as sRGB for luminance, and beside a picture that is linear.
 /// @param aleph_map  holds `threshold.Y` in cd/m2, or null
 /// @throws InputError if sizes or channels differ, a named channel is missing, or a limit needs R, G and B or
 /// `variance.Y` that are not there

@@ -50,9 +50,22 @@ Image<Rgb> join_channels(const ChannelImage& image, const std::string& prefix) {
     return colour;
 }
 
+bool is_encoded(const ChannelImage& image) {
+    return image.metadata.contains("encoding");
+}
+
+ChannelImage decode_colour(ChannelImage image) {
+    if (image.metadata.erase("encoding") == 0) return image;
+    for (Channel& channel : image.channels) {
+        if (channel.name == "A") continue;
+        for (float& value : channel.values.pixels) value = srgb_to_linear(value);
+    }
+    return image;
+}
+
 Image<Rgb> linear_colour(const ChannelImage& image) {
     Image<Rgb> colour = join_channels(image, "");
-    if (!image.metadata.contains("encoding")) return colour;
+    if (!is_encoded(image)) return colour;
     for (Rgb& c : colour.pixels) c = {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)};
     return colour;
 }

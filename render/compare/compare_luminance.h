@@ -1,6 +1,7 @@
 #pragma once
 // Luminance of two pictures: what a viewer compares.
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,10 @@ std::optional<double> find_number(const ChannelImage& image, const std::string& 
 /// The channels R, G and B whose names begin with a prefix, or nothing if one is missing.
 Image<Rgb> join_channels(const ChannelImage& image, const std::string& prefix);
 
+/// Whether its values are sRGB, as those of 8-bit files are.
+bool is_encoded(const ChannelImage& image);
+/// With linear values, but for alpha.
+ChannelImage decode_colour(ChannelImage image);
 /// Linear R, G, B of a picture, or nothing if it has none. 8-bit pictures count as sRGB.
 Image<Rgb> linear_colour(const ChannelImage& image);
 
@@ -40,6 +45,9 @@ struct LuminanceDifference {
     bool has_variance = false;  ///< of either picture
     /// Pixels with |Y_a - Y_b| > tolerance + relative |Y_b| + standard_errors * standard error of the difference.
     std::size_t far = 0;
+
+    /// relative_mse without the noise of b; with it where that is not known.
+    double without_noise() const { return std::isfinite(noise_mse) ? relative_mse - noise_mse : relative_mse; }
 };
 
 /// Differences that `LuminanceDifference::far` allows.

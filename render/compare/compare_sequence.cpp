@@ -57,7 +57,7 @@ SequenceSummary SequenceComparison::summary() const {
         ++summary.frames;
         summary.different += !frame.same;
         summary.pixels += result.pixels();
-        summary.beyond += result.beyond;
+        summary.beyond += result.counted;
         summary.a.nan += result.a.nan;
         summary.a.inf += result.a.inf;
         summary.b.nan += result.b.nan;

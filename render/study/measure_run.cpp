@@ -47,7 +47,7 @@ MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth
         measure_viewer(error, truth.thresholds.at(static_cast<std::size_t>(metric.viewer)), suffix, all);
     }
     const LuminanceDifference difference = compare_luminance(picture, reference, {});
-    all["relative_mse"] = difference.relative_mse - difference.noise_mse;
+    all["relative_mse"] = difference.without_noise();
     all["bias"] = 100.0 * difference.bias;
     const ChannelImage indirect = indirect_of(picture), true_indirect = indirect_of(reference);
     if (!indirect.channels.empty() && !true_indirect.channels.empty())

@@ -129,9 +129,11 @@ std::vector<SceneSearch> summarize_search(const PreparedStudy& prepared, const S
         summary.scene = scene.name;
         std::vector<SearchedPoint> fixed, own;
         for (const VariantResult& variant : variants_of_scene(results, scene.name)) {
+            const std::optional<CostPoint> point = find_point(variant);
+            if (!point) continue;  // pictures from elsewhere, or noise, take no seconds
             const bool searched =
                 std::ranges::find(prepared.candidates, variant.name, &StudyVariant::name) != prepared.candidates.end();
-            (searched ? fixed : own).push_back({variant.name, variant.settings, find_point(variant).value()});
+            (searched ? fixed : own).push_back({variant.name, variant.settings, *point});
         }
         std::vector<CostPoint> points;
         for (const SearchedPoint& point : fixed) points.push_back(point.point);

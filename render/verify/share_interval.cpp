@@ -28,8 +28,9 @@ VerifiedShare estimate_share(std::span<const BlockCount> blocks) {
     for (const BlockCount& block : blocks) squares += std::pow(block.counted - share * block.pixels, 2.0);
     const double deviation = n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) / (pixels / n) : 1.0;
     const double half = student_95(blocks.size() - 1) * deviation;
-    const double missed = 3.0 / n * (counted > 0.0 ? largest : 1.0);
-    return {share, std::max(0.0, share - half), std::min(1.0, std::max(share + half, missed))};
+    const double kinds = std::min(1.0, 3.0 / n);
+    const double missed = kinds * (counted > 0.0 ? largest : 1.0), spared = share * (1.0 - kinds);
+    return {share, std::max(0.0, std::min(share - half, spared)), std::min(1.0, std::max(share + half, missed))};
 }
 
 }  // namespace aleph

@@ -28,6 +28,8 @@ void check_numbers(const CompareSettings& s) {
 
 int compare(CompareOptions options) {
     check_numbers(options.settings);
+    if (!options.seen.empty() && options.settings.standard_errors)
+        throw InputError("", "--standard-errors", "judges in place of the tolerance, as --seen does: give one of them");
     if (!options.seen.empty()) options.settings.tolerance = unlimited;  // visible differences judge in its place
     if (options.seen.empty() && !options.seen_out.empty())
         throw InputError("", "--seen-out", "needs --seen with the reference's maps");

@@ -172,7 +172,7 @@ void print_columns(const std::optional<ThresholdDifference>& threshold, const st
 void print_frame(const FrameComparison& frame) {
     const CompareResult& result = frame.result;
     fmt::print("  {:>6} {:>10.4g} {:>10.4g}", frame.frame, result.all.max_abs, result.all.rms);
-    print_columns(result.threshold, frame.visible, result.percent(result.beyond));
+    print_columns(result.threshold, frame.visible, result.percent(result.counted));
     std::string note = frame.same ? "" : "different";
     if (const std::string limits = exceeded_options(result); !limits.empty()) note += " (" + limits + ")";
     if (result.a.any() || result.b.any()) note += ", " + describe_not_finite(result);

@@ -37,8 +37,9 @@ JunitCase make_junit_case(const std::string& name, const FrameComparison& compar
     if (result.threshold)
         add(fmt::format("{:.3g} % of the pixels are beyond their threshold", result.threshold->percent_beyond()));
     if (!visible && !result.threshold)
-        add(fmt::format("{:.3g} % of the pixels are beyond the tolerance, allowed {:g} %",
-                        result.percent(result.beyond), settings.share));
+        add(fmt::format("{:.3g} % of the pixels are beyond the tolerance{}, allowed {:g} %",
+                        result.percent(result.counted), settings.standard_errors ? " and standard errors" : "",
+                        settings.share));
     if (const std::string options = exceeded_options(result); !options.empty()) add("exceeded: " + options);
     const auto worst = std::ranges::max_element(
         result.channels, {}, [](const ChannelDifference& channel) { return channel.difference.max_abs; });

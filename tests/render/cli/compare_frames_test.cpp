@@ -129,7 +129,8 @@ TEST(CompareFrames, WrongKindsAreRefused) {
         {{s.a, s.b, "--max-rms", "-1"}, "--max-rms"},
         {{s.a, s.b, "--share", "101"}, "--share lies in 0 to 100"},
         {{picture, s.b + "/notes.txt"}, "notes.txt"},
-        {{s.a, s.b, "--standard-errors", "3"}, "variance.Y"}};
+        {{s.a, s.b, "--standard-errors", "3"}, "variance.Y"},
+        {{s.a, s.b, "--standard-errors", "3", "--seen", s.maps}, "give one of them"}};
     for (const auto& [arguments, part] : cases) {
         expect_answer(run_command({"compare"}, arguments), 2, part);
     }

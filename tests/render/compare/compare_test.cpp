@@ -199,6 +199,17 @@ TEST(Compare, EncodedPicturesAreMadeLinearForLuminance) {
     EXPECT_NEAR(compare_images(a, b, {}, &map).threshold->worst, 50.289, 0.01);  // sRGB 188 is .50289 linear
 }
 
+TEST(Compare, AnEncodedPictureBesideALinearOneIsDecoded) {
+    ChannelImage a = grey_image(1, 1, 188.0f / 255.0f);
+    a.metadata["encoding"] = std::string("sRGB");
+    const ChannelImage b = grey_image(1, 1, 0.50289f);
+    EXPECT_TRUE(compare_images(a, b, {1e-4, 0.0, 0.0, {}}).same);
+    EXPECT_TRUE(compare_images(b, a, {1e-4, 0.0, 0.0, {}}).same);
+    ChannelImage c = grey_image(1, 1, 0.50289f);
+    c.metadata["encoding"] = std::string("sRGB");
+    EXPECT_FALSE(compare_images(a, c, {1e-4, 0.0, 0.0, {}}).same) << "both are encoded: as they are stored";
+}
+
 TEST(Compare, DifferencePictureShowsWhereAndMarksNan) {
     ChannelImage b = grey_image(3, 1, 0.5f), a = b;
     a.channels[0].values(0, 0) = 0.75f;

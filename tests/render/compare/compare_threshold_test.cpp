@@ -143,6 +143,32 @@ TEST(CompareNoise, StandardErrorsReplaceTheChannels) {
     EXPECT_THROW(compare_images(grey_image(4, 4, 0.5f), grey_image(4, 4, 0.5f), settings), InputError);
 }
 
+/// What is subtracted of the relative MSE is noise that is known.
+TEST(CompareNoise, ABrokenVarianceLiftsNoLimit) {
+    ChannelImage b = noisy(8, 8, 0.5f, 0.01f, 8);
+    ChannelImage a = grey_image(8, 8, 1.0f);
+    CompareSettings settings{.tolerance = 9.0};
+    settings.max_relative_mse = 0.01;
+    for (const float broken : {float_infinity, float_nan}) {
+        for (Channel& channel : b.channels)
+            if (channel.name == "variance.Y") channel.values(3, 3) = broken;
+        EXPECT_FALSE(compare_images(a, b, settings).same) << broken;
+    }
+    ChannelImage black = grey_image(8, 8, 0.0f), dark = grey_image(8, 8, 0.001f);
+    add_channel(black, "variance.Y", 1e-6f);
+    EXPECT_TRUE(compare_images(dark, black, {.tolerance = 0.01}).same) << "no limit is asked for";
+}
+
+TEST(CompareNoise, PixelsBeyondStandardErrorsAreThoseThatCount) {
+    const ChannelImage b = noisy(40, 30, 0.5f, 0.01f, 8), a = noisy(40, 30, 0.5f, 0.01f, 9);
+    CompareSettings settings;
+    settings.standard_errors = 2.0;
+    const CompareResult result = compare_images(a, b, settings);
+    EXPECT_EQ(result.counted, result.luminance->far);
+    EXPECT_LT(result.counted, result.beyond);
+    EXPECT_EQ(compare_images(a, b).counted, compare_images(a, b).beyond);
+}
+
 TEST(CompareNoise, NothingIsCertainOfABrokenVariance) {
     const ChannelImage a = grey_image(4, 1, 0.9f);
     ChannelImage b = grey_image(4, 1, 0.5f);

@@ -125,19 +125,21 @@ TEST(SearchStudy, ComparesWithinAScene) {
     results.variants = {variant_of("asked", {{"a", {1.0, 2.0}}, {"a", {3.0, 6.0}}, {"b", {1.0, 1.0}}}),
                         variant_of("fixed 1", {{"a", {4.0, 16.0}}, {"a", {4.0, 16.0}}}),
                         variant_of("fixed 2", {{"a", {16.0, 1.0}}, {"a", {16.0, 1.0}}, {"b", {5.0, 8.0}}}),
-                        variant_of("fixed 3", {{"b", {0.5, 4.0}}})};
+                        variant_of("fixed 3", {{"b", {0.5, 4.0}}}), variant_of("pictures", {{"a", {0.0, 3.0}}})};
+    results.variants.back().frames[0].metrics.erase("processor_seconds");
     const std::vector<SceneSearch> summaries = summarize_search(prepared, results);
     ASSERT_EQ(summaries.size(), 2u);
     ASSERT_EQ(summaries[0].front.size(), 2u);
     EXPECT_EQ(summaries[0].front[0].variant, "fixed 1") << "the study's own variants beat none of them away";
     EXPECT_EQ(summaries[0].front[1].variant, "fixed 2");
+    EXPECT_EQ(summaries[0].against.size(), 1u) << "pictures from elsewhere have no cost";
     EXPECT_EQ(summaries[0].against[0].own.point.cost, 2.0) << "mean of its frames in a";
     EXPECT_NEAR(summaries[0].against[0].fixed.cost, 8.0, 1e-12) << "halfway from 16 % to 1 %";
     ASSERT_EQ(summaries[1].front.size(), 1u);
     EXPECT_EQ(summaries[1].front[0].variant, "fixed 3");
     EXPECT_EQ(summaries[1].against[0].fixed.bound, FrontCost::Bound::more);
     const std::vector<VariantResult> a = variants_of_scene(results, "a");
-    ASSERT_EQ(a.size(), 3u);
+    ASSERT_EQ(a.size(), 4u);
     EXPECT_TRUE(a[0].on_front);
     EXPECT_FALSE(a[1].on_front) << "the study's own variant beats it";
     EXPECT_TRUE(a[2].on_front);

@@ -37,6 +37,12 @@ TEST(ShareInterval, WhereNothingWasFoundIsThatOfTheRuleOfThree) {
     EXPECT_EQ(estimate_share(std::vector<BlockCount>(2, {256, 0})).high, 1.0);
 }
 
+TEST(ShareInterval, WhereAllWasSeenFewBlocksDoNotSayThatItIsEverywhere) {
+    EXPECT_NEAR(estimate_share(std::vector<BlockCount>(4, {256, 256})).low, 0.25, 1e-12);
+    EXPECT_NEAR(estimate_share(std::vector<BlockCount>(30, {256, 256})).low, 0.9, 1e-12);
+    EXPECT_EQ(estimate_share(std::vector<BlockCount>(30, {256, 256})).high, 1.0);
+}
+
 TEST(ShareInterval, OfOneBlockOrNoneSaysNothing) {
     for (const std::size_t count : {0u, 1u}) {
         const VerifiedShare share = estimate_share(std::vector<BlockCount>(count, {256, 128}));
