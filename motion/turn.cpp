@@ -145,13 +145,13 @@ void TurnFinder::find(int camera_node, double begin, double end) {
         carriers.push_back(node);
         carries_camera_[node] = 1;
         const Node& carrier = scene_.nodes[node];
-        node = is_detached(carrier, begin, end) ? no_index : carrier.parent;
+        node = is_detached(carrier, begin, end) ? space_of(scene_, carrier) : carrier.parent;
     }
     for (const int n : plan_.nodes) {
         const Node& node = scene_.nodes[n];
-        const bool detached = node.parent == no_index || is_detached(node, begin, end);
-        total_[n] = (detached ? 0.0 : total_[node.parent]) + turn_of_node(node, begin, end);
-        shared_[n] = carries_camera_[n] != 0 ? total_[n] : (detached ? 0.0 : shared_[node.parent]);
+        const int above = is_detached(node, begin, end) ? space_of(scene_, node) : node.parent;
+        total_[n] = (above == no_index ? 0.0 : total_[above]) + turn_of_node(node, begin, end);
+        shared_[n] = carries_camera_[n] != 0 ? total_[n] : (above == no_index ? 0.0 : shared_[above]);
     }
     background_ = camera_node == no_index ? 0.0 : total_[camera_node];
     for (const int node : carriers) carries_camera_[node] = 0;

@@ -77,7 +77,10 @@ void add_framing_camera(Scene& scene) {
         shift(other.camera);
     }
     for (Skin& skin : scene.skins) std::ranges::for_each(skin.joints, shift);
-    for (Include& include : scene.source.includes) shift(include.node);
+    for (Include& include : scene.source.includes) {
+        shift(include.node);
+        shift(include.content);
+    }
     scene.nodes.insert(scene.nodes.begin(), std::move(node));
     scene.cameras.insert(scene.cameras.begin(), std::move(camera));
     scene.source.warnings.push_back(

@@ -71,7 +71,7 @@ void append_file(Scene& scene, int index, const std::string& place, const LoadRe
         throw InputError(scene.source.file, place + "/animation",
                          fmt::format("{} has no animations to choose from", format.description));
     }
-    const int parent = add_axes_node(scene, index);
+    const int parent = scene.source.includes[index].content = add_axes_node(scene, index);
     format.append({request.path.parent_path() / include.path, parent, index, request.limits,
                    include.animations ? &*include.animations : nullptr},
                   scene);
@@ -91,6 +91,9 @@ void load_includes(Scene& scene, const std::vector<std::string>& places, const L
             ++same;
         }
         if (same < i) {
+            const int space = scene.source.includes[same].content;
+            scene.source.includes[i].content =
+                space < included[same].begin ? include.node : space + begin - included[same].begin;
             append_copy(scene, included[same].begin, included[same].end, include.node, i);
         } else {
             append_file(scene, i, places[i], request);

@@ -118,6 +118,7 @@ void validate_nodes(const Scene& scene) {
         at.check_index(node.camera, scene.cameras.size(), "camera");
         at.check_index(node.light, scene.lights.size(), "light");
         at.check_index(node.include, scene.source.includes.size(), "include");
+        at.check_index(space_of(scene, node), i + 1, "node of the include's content");
     }
 }
 

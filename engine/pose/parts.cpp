@@ -60,11 +60,11 @@ void place_node(const Scene& scene, int index, double seconds, ScenePose& posed)
     ALEPH_CHECK(node.parent < index, fmt::format("node {} has parent {}", index, node.parent));
     const glm::dmat4 local = matrix_at(node.transform, seconds);
     const double visible = evaluate_whole(node.visible, seconds);
-    const bool root = node.parent == no_index;
-    const bool detached = root || evaluate_whole(node.inherits, seconds) == 0.0;
-    const auto n = static_cast<std::size_t>(index), parent = static_cast<std::size_t>(node.parent);
-    posed.world[n] = detached ? local : posed.world[parent] * local;
-    posed.visible[n] = visible >= 2.0 || (visible != 0.0 && (root || posed.visible[parent] != 0));
+    const int space = space_of(scene, node);
+    const int above = evaluate_whole(node.inherits, seconds) == 0.0 ? space : node.parent;
+    posed.world[index] = above == no_index ? local : posed.world[above] * local;
+    const int shown_by = visible >= 2.0 ? space : node.parent;
+    posed.visible[index] = visible != 0.0 && (shown_by == no_index || posed.visible[shown_by] != 0);
 }
 
 ScenePose place_nodes(const Scene& scene, double seconds) {

@@ -56,7 +56,8 @@ std::vector<std::uint8_t> list_ever_shown(const Scene& scene) {
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
         const double visible = most(node.visible);
-        nodes[n] = visible >= 2.0 || (visible != 0.0 && (node.parent == no_index || nodes[node.parent] != 0));
+        const int shown_by = visible >= 2.0 ? space_of(scene, node) : node.parent;
+        nodes[n] = visible != 0.0 && (shown_by == no_index || nodes[shown_by] != 0);
     }
     std::vector<std::uint8_t> shown;
     for (const Instance& instance : list_instances(scene)) {

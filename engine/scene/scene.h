@@ -60,7 +60,7 @@ struct Node {
     std::string name{};
     int parent = no_index;
     LocalTransform transform{};
-    Track<double> inherits{1.0};  ///< step; where 0 the parent's transform does not apply (Alembic's `.inherits`)
+    Track<double> inherits{1.0};  ///< step; where 0 that of space_of applies, not the parent's (Alembic's `.inherits`)
 
     /// 0: hidden, with everything below; 1: as its parent; 2: shown even below a hidden parent (Alembic's explicit 1).
     /// Interpolation is step or nearest.
@@ -116,6 +116,7 @@ struct Include {
     std::map<std::string, std::string> materials{};  ///< of the file by name, to the scene's own that take their place
     double scale = 1.0;                              ///< metres per unit of the file
     Up up = Up::y;                                   ///< the file's axis that points up
+    int content = no_index;  ///< node that stands for the file's space, once it is read; none: the world
 
     bool operator==(const Include&) const = default;
 };
@@ -192,5 +193,11 @@ struct Scene {
 
     bool operator==(const Scene&) const = default;
 };
+
+/// The node that stands for the space of the file that a node comes from: what does not inherit from its parent is in
+/// that space. no_index: the world.
+inline int space_of(const Scene& scene, const Node& node) {
+    return node.include == no_index ? no_index : scene.source.includes[node.include].content;
+}
 
 }  // namespace aleph

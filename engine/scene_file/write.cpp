@@ -283,6 +283,7 @@ std::string write_scene_text(const Scene& scene, const std::string& file) {
     }
     own.source.file.clear();
     own.source.warnings.clear();
+    for (Include& include : own.source.includes) include.content = no_index;  // known once its file is read
     Scene again = read_scene_text(text, file).scene;
     again.source.warnings.clear();
     if (again != own) {

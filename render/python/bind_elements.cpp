@@ -108,16 +108,18 @@ void bind_nodes_and_meshes(py::module_& module) {
         .def_property(
             "material",
             [](const Element<Mesh>& e) { return element_or_none(e.scene, &Scene::materials, e.get().material); },
-            [](const Element<Mesh>& e, const Element<Material>& material) {
-                if (material.scene != e.scene) throw InputError("", "Mesh.material", "it is of another scene");
-                e.get().material = static_cast<int>(material.index);
+            [](const Element<Mesh>& e, const std::optional<Element<Material>>& material) {
+                if (material && material->scene != e.scene)
+                    throw InputError("", "Mesh.material", "it is of another scene");
+                e.get().material = material ? static_cast<int>(material->index) : no_index;
             },
             "Its material; None: white and rough.");
     add_track<&Mesh::present>(mesh, "present", "0 where it is not there; step.");
 
     auto node = bind_elements<Node>(module, "Node", "Nodes",
                                     "A node of the scene. From its space to its parent's: `matrix` where set, else "
-                                    "translation * rotation * scale. Each may be a Track.");
+                                    "translation * rotation * scale. Each may be a Track. A node of an Alembic archive "
+                                    "has transform operations instead, until one of these is assigned.");
     node.def_property_readonly(
             "parent", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::nodes, e.get().parent); },
             "The node above; None at the top.")
@@ -150,6 +152,7 @@ void bind_nodes_and_meshes(py::module_& module) {
         [](const Element<Node>& e, const py::object& value) {
             const std::string place = fmt::format("Node '{}': rotation", e.get().name);
             LocalTransform& transform = e.get().transform;
+            transform.operations.reset();
             if (!py::isinstance<py::tuple>(value) || py::len(value) != 2) {
                 transform.rotation = track_from_python<glm::dquat>(value, place);
                 transform.axis_rotation.reset();
@@ -173,6 +176,7 @@ void bind_nodes_and_meshes(py::module_& module) {
             auto& matrix = e.get().transform.matrix;
             if (value.is_none()) return matrix.reset();
             matrix = track_from_python<glm::dmat4>(value, place);
+            e.get().transform.operations.reset();
         },
         "An affine (4, 4) matrix for column vectors in place of translation, rotation and scale; None: it has these.");
 }

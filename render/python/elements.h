@@ -101,6 +101,8 @@ void add_track(py::class_<Element<E>>& element, const char* name, const char* do
         [unit, kind, property = std::string(name)](const Element<E>& e, const py::object& value) {
             const std::string place = fmt::format("{} '{}': {}", kind, e.get().name, property);
             at<path...>(e.get()) = track_from_python<Value>(value, place, unit);
+            if constexpr ((std::is_same_v<decltype(path), LocalTransform Node::*> || ...))
+                e.get().transform.operations.reset();
         },
         doc);
 }

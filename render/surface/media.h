@@ -45,8 +45,8 @@ class Media {
     int size_ = 0;
 };
 
-/// The media that the origin of a ray is in: volumes whose back the ray meets before their front. They are found only
-/// if their meshes are closed, or between the origin and infinity as open as a sheet of water.
+/// The media that the origin of a ray is in: volumes whose back the ray meets before their front. Their meshes have to
+/// be closed, or to lie before the whole sky as a sheet of water does.
 /// @param counts  increased by the rays cast: none in a scene without volumes
 Media find_media(const ShadingScene& shading, RayTask& task, Ray ray, std::uint64_t& counts);
 

@@ -50,6 +50,25 @@ def test_rotations(ball):
     assert node.matrix is None
 
 
+def test_what_is_assigned_replaces_an_archives_operations():
+    for assign in ("matrix", "translation"):
+        scene = aleph.load(ROOT / "tests/assets/abc/xform_uniform.abc")
+        arm = scene.nodes["arm"]
+        before = scene.world("arm", 3)
+        if assign == "matrix":
+            arm.matrix = np.diag([2, 2, 2, 1])
+        else:
+            arm.translation = [9, 9, 9]
+        assert not np.allclose(scene.world("arm", 3), before)
+
+
+def test_a_mesh_may_have_no_material():
+    scene = aleph.load(ROOT / "scenes/cornell/scene.json")
+    mesh = scene.meshes[0]
+    mesh.material = None
+    assert mesh.material is None
+
+
 def test_materials_and_cameras(ball):
     red = ball.materials["red"]
     red.roughness, red.base_color = 0.25, aleph.Track(ball.seconds([0, 8]), [[1, 0, 0], [0, 1, 0]])

@@ -13,13 +13,13 @@ constexpr double picture_aspect = 4.0 / 3.0;
 constexpr double far_plane = 1e4;  // m
 
 /// A range of 0 is unlimited; between keys only a number can stand for it.
-constexpr double unlimited_range = 1e30;  // m
+constexpr double unlimited_range = 1e9;  // m
 
 OrderedJson write_camera(GltfWriter& writer, const Camera& camera, const std::string& place) {
     OrderedJson written;
     if (!camera.name.empty()) written["name"] = camera.name;
     const Track<double>& track = camera.orthographic ? camera.half_height : camera.fov;
-    const double first = key_value(track, 0);
+    const double first = first_value(track);
     if (camera.orthographic) {
         written["type"] = "orthographic";
         written["orthographic"] = {{"xmag", first * picture_aspect},
@@ -39,7 +39,7 @@ OrderedJson write_camera(GltfWriter& writer, const Camera& camera, const std::st
 /// Writes a number, and its keys if it changes.
 void add_number(GltfWriter& writer, OrderedJson& owner, const char* key, const Track<double>& track,
                 const std::string& place) {
-    owner[key] = key_value(track, 0);
+    owner[key] = first_value(track);
     if (is_animated(track)) writer.animate(place + "/" + key, writer.keys_of(track, place));
 }
 
@@ -54,7 +54,7 @@ OrderedJson write_light(GltfWriter& writer, const Light& light, const std::strin
     Track<double> intensity = light.intensity;
     const double excess = scale_to_one(color);
     for (double& value : intensity.values) value *= excess;
-    written["color"] = to_json(key_value(color, 0));
+    written["color"] = to_json(first_value(color));
     if (is_animated(color)) writer.animate(place + "/color", writer.keys_of(color, place));
     add_number(writer, written, "intensity", intensity, place);
     if (light.kind != Light::Kind::directional && (is_animated(light.range) || key_value(light.range, 0) > 0.0)) {

@@ -103,7 +103,7 @@ void MeshWriter::write_targets(const Mesh& mesh, Written& written) {
     for (std::size_t k = 0; k < deformation.targets.size(); ++k) {
         const Track<double> weight = k < deformation.target_weights.size() ? deformation.target_weights[k] : Track(0.0);
         KeyColumn& column = columns.emplace_back();
-        column.constant = {key_value(weight, 0)};
+        column.constant = {first_value(weight)};
         written.first_weights.push_back(column.constant[0]);
         if (!is_animated(weight)) continue;
         column.keys = writer_.keys_of(weight, place);

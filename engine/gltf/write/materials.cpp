@@ -24,9 +24,9 @@ class MaterialWriter {
     template <class T>
     void write_factor(OrderedJson& owner, const char* key, const Track<T>& track) {
         if constexpr (std::is_same_v<T, double>) {
-            owner[key] = key_value(track, 0);
+            owner[key] = first_value(track);
         } else {
-            owner[key] = to_json(key_value(track, 0));
+            owner[key] = to_json(first_value(track));
         }
         if (is_animated(track)) writer_.animate(owner_place_ + key, writer_.keys_of(track, place_));
     }
@@ -67,7 +67,7 @@ Material adapt(Material material) {
     const double excess = scale_to_one(glow.color);
     for (double& value : glow.strength.values) value *= excess;
     // A distance of 0 stands for no attenuation: in glTF, an infinite one.
-    constexpr double endless = 1e30;
+    constexpr double endless = 1e9;  // m
     Track<double>& distance = material.glass.attenuation_distance;
     for (double& value : distance.values)
         if (is_animated(distance) && distance.interpolation != Interpolation::cubic && !(value > 0.0)) value = endless;
@@ -78,12 +78,12 @@ void MaterialWriter::write_base_color(const Material& material, OrderedJson& cor
     const Track<glm::dvec3>& color = material.base_color;
     const Track<double>& alpha = material.opacity.alpha;
     const auto row = [](const glm::dvec3& c, double a) { return std::array{c.x, c.y, c.z, a}; };
-    core["baseColorFactor"] = row(key_value(color, 0), key_value(alpha, 0));
+    core["baseColorFactor"] = row(first_value(color), first_value(alpha));
     if (!is_animated(color) && !is_animated(alpha)) return;
     std::array<KeyColumn, 2> columns;
-    const glm::dvec3& first = key_value(color, 0);
+    const glm::dvec3 first = first_value(color);
     columns[0].constant = {first.x, first.y, first.z};
-    columns[1].constant = {key_value(alpha, 0)};
+    columns[1].constant = {first_value(alpha)};
     if (is_animated(color)) columns[0].keys = writer_.keys_of(color, place_);
     if (is_animated(alpha)) columns[1].keys = writer_.keys_of(alpha, place_);
     std::optional<WrittenKeys> keys = join_columns(columns);

@@ -57,12 +57,13 @@ class NodeWriter {
         writer_.node_of.assign(scene.nodes.size(), no_index);
         for (int n = 0; n < std::ssize(scene.nodes); ++n) {
             const Node& node = scene.nodes[n];
-            const bool is_root = node.parent == no_index || is_detached(node);
+            const bool in_world = is_detached(node) && is_animated(node.inherits);  // WrittenTransform is its world's
+            const int above = in_world ? no_index : is_detached(node) ? space_of(scene, node) : node.parent;
             const int top = write_node(n);
-            if (is_root) {
+            if (above == no_index) {
                 roots.push_back(top);
             } else {
-                adopt(writer_.node_of[node.parent], top);
+                adopt(writer_.node_of[above], top);
             }
         }
         meshes_.finish();
@@ -120,16 +121,17 @@ class NodeWriter {
     /// Hides a node, as KHR_node_visibility does: with all that is below.
     void show(int index, const Track<double>& presence) {
         if (!is_animated(presence) && presence.values[0] != 0.0) return;
-        writer_.extend(writer_.node(index), "KHR_node_visibility")["visible"] = presence.values[0] != 0.0;
+        writer_.extend(writer_.node(index), "KHR_node_visibility")["visible"] = first_value(presence) != 0.0;
         if (is_animated(presence)) writer_.animate_visibility(index, make_keys(presence));
     }
 
     /// Visible with regard to the nodes above it.
     bool is_visible(int index, double seconds) const {
-        for (int n = index; n != no_index; n = writer_.scene.nodes[n].parent) {
-            const double own = evaluate(writer_.scene.nodes[n].visible, seconds);
-            if (own >= 2.0) return true;
+        for (int n = index; n != no_index;) {
+            const Node& node = writer_.scene.nodes[n];
+            const double own = evaluate(node.visible, seconds);
             if (own == 0.0) return false;
+            n = own >= 2.0 ? space_of(writer_.scene, node) : node.parent;
         }
         return true;
     }

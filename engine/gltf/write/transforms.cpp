@@ -71,17 +71,17 @@ class AxisKeys {
 
 void write_tracks(GltfWriter& writer, const LocalTransform& local, const std::string& place,
                   WrittenTransform& written) {
-    written.translation = key_value(local.translation, 0);
-    written.scale = key_value(local.scale, 0);
+    written.translation = first_value(local.translation);
+    written.scale = first_value(local.scale);
     if (is_animated(local.translation)) written.translation_keys = writer.keys_of(local.translation, place);
     if (is_animated(local.scale)) written.scale_keys = writer.keys_of(local.scale, place);
     if (!local.axis_rotation) {
-        written.rotation = safe_normalize(key_value(local.rotation, 0));
+        written.rotation = safe_normalize(first_value(local.rotation));
         if (is_animated(local.rotation)) written.rotation_keys = writer.keys_of(local.rotation, place);
         return;
     }
     const Track<double>& angle = local.axis_rotation->angle;
-    written.rotation = rotation_at(*local.axis_rotation, sample_time(angle.sampling, 0));
+    written.rotation = rotation_at(*local.axis_rotation, first_time(angle));
     if (is_animated(angle)) written.rotation_keys = AxisKeys(writer, *local.axis_rotation, place).make();
 }
 

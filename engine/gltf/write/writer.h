@@ -1,6 +1,7 @@
 #pragma once
 // The parts of the glTF writer: each writes one kind of element. Only this folder uses them.
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -79,6 +80,17 @@ int material_of(GltfWriter& writer, int material);
 
 /// Divides colours by the largest number of the keys if that is above 1. @return what they were divided by
 double scale_to_one(Track<glm::dvec3>& color);
+
+/// s: of the first key, or 0 if that is earlier. glTF begins at 0 s.
+template <class T>
+double first_time(const Track<T>& track) {
+    return std::max(0.0, sample_time(track.sampling, 0));
+}
+/// The value that stands where there are no keys in glTF.
+template <class T>
+T first_value(const Track<T>& track) {
+    return track.key_count() == 1 ? key_value(track, 0) : evaluate(track, first_time(track));
+}
 
 /// A node's transform with respect to what it is written under, as one node or two.
 struct WrittenTransform {

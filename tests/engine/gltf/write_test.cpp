@@ -180,5 +180,38 @@ TEST(GltfWrite, LongRangesAreRefusedBeforeTheyTakeMemory) {
     EXPECT_FALSE(std::filesystem::exists(round_trip_folder / "never.glb"));
 }
 
+/// As in a shot with a run-up: what changed before 0 s keeps the value that it has then.
+TEST(GltfWrite, WhatChangedBeforeZeroKeepsItsLastValue) {
+    Scene scene = make_two_nodes();
+    const std::vector<double> early{-2.0, -1.0};
+    scene.nodes[0].transform.translation = keyed<glm::dvec3>(early, {{0, 0, 0}, {1, 2, 3}});
+    scene.nodes[0].transform.scale = keyed<glm::dvec3>({-2.0, 0.0, 1.0}, {{0.1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
+    scene.nodes[1].transform.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, keyed<double>(early, {0.0, 1.5})};
+    scene.nodes[1].visible = keyed<double>(early, {0.0, 1.0}, Interpolation::step);
+    scene.materials[0].base_color = keyed<glm::dvec3>(early, {{1, 0, 0}, {0, 1, 0}});
+    scene.lights.push_back({.intensity = keyed<double>(early, {0.0, 5.0})});
+    scene.nodes[1].light = static_cast<int>(scene.lights.size()) - 1;
+    const Exported files(scene, "write_early");
+    EXPECT_LT(difference_of(files, 1), 1e-6);
+    const ScenePose after = pose(files.after, 0.5);
+    EXPECT_TRUE(std::ranges::all_of(after.visible, [](std::uint8_t visible) { return visible != 0; }));
+    EXPECT_EQ(after.materials[0].base_color, Rgb(0.0f, 1.0f, 0.0f));
+    EXPECT_EQ(after.lights[0].intensity, Rgb(5.0f));
+}
+
+/// 0 has a meaning of its own, and no number between keys: what stands for it is in the reader's range.
+TEST(GltfWrite, UnlimitedRangesAndDistancesAreRead) {
+    Scene scene = make_two_nodes();
+    scene.lights.push_back({.range = keyed<double>({0.0, 1.0}, {0.0, 10.0}, Interpolation::step)});
+    scene.nodes[1].light = static_cast<int>(scene.lights.size()) - 1;
+    scene.materials[0].glass = {.transmission = 1.0,
+                                .thickness = 1.0,
+                                .attenuation_distance = keyed<double>({0.0, 1.0}, {0.0, 3.0}, Interpolation::step)};
+    const Exported files(scene, "write_unlimited");
+    EXPECT_GT(pose(files.after, 0.5).lights[0].range, 1e6f);
+    EXPECT_GT(pose(files.after, 0.5).materials[0].glass.attenuation_distance, 1e6f);
+    EXPECT_EQ(pose(files.after, 1.0).lights[0].range, 10.0f);
+}
+
 }  // namespace
 }  // namespace aleph

@@ -2,6 +2,7 @@
 
 #include "engine/pose/pose.h"
 #include "tests/engine/load/fixture.h"
+#include "tests/support/files/alembic_draft.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -130,6 +131,40 @@ TEST_F(IncludeOptions, WhatIsNotThereIsRefused) {
     refused(R"({"file": "two.gltf", "up": "w"})", "/include/up", "x, y or z");
     refused(R"({"animation": "right"})", "/include", "file");
     refused(R"({"file": "lost.gltf"})", "/include", "there is no file");
+}
+
+/// "free" does not inherit, and is visible on its own account: up to the archive's root, which the include moves,
+/// turns, scales and hides. Two includes, the second one copied from the first.
+TEST_F(IncludeOptions, WhatLeavesItsParentInAnArchiveStaysInTheInclude) {
+    const auto transform = [](const char* name, std::uint8_t inherits, std::int8_t visible, double x) {
+        return DraftObject{
+            name,
+            "schema=AbcGeom_Xform_v3",
+            {draft_compound(".xform", {draft_scalar<std::uint8_t>(".inherits", DraftProperty::boolean, {{inherits}}),
+                                       draft_scalar<std::uint8_t>(".ops", DraftProperty::u8, {{0x10}}),
+                                       draft_scalar<double>(".vals", DraftProperty::f64, {{x, 0.0, 0.0}})}),
+             draft_scalar<std::int8_t>("visible", DraftProperty::i8, {{visible}})},
+            {}};
+    };
+    DraftObject parent = transform("parent", 1, 0, 5.0);
+    parent.children = {transform("free", 0, 1, 2.0)};
+    OgawaDraft draft;
+    write_draft(folder_ / "leave.abc", draft.finish({parent}));
+    const Scene scene = load_scene(write_scene(R"("environment": [1, 1, 1], "nodes": [
+        {"name": "a", "translation": [100, 0, 0], "include": {"file": "leave.abc", "scale": 0.01, "up": "z"}},
+        {"name": "b", "translation": [0, 7, 0], "visible": false,
+         "include": {"file": "leave.abc", "scale": 0.01, "up": "z"}}])"));
+    const ScenePose frame = pose(scene, 0.0);
+    std::vector<std::size_t> found;
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+        if (scene.nodes[n].name == "free") found.push_back(n);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(frame.world[found[0]][3].x, 100.02, 1e-9);
+    EXPECT_NEAR(frame.world[found[0]][2].y, 0.01, 1e-9) << "z is up";
+    EXPECT_NEAR(frame.world[found[1]][3].x, 0.02, 1e-9);
+    EXPECT_NEAR(frame.world[found[1]][3].y, 7.0, 1e-9);
+    EXPECT_NE(frame.visible[found[0]], 0) << "in spite of its parent";
+    EXPECT_EQ(frame.visible[found[1]], 0) << "its include is hidden";
 }
 
 }  // namespace
