@@ -197,7 +197,8 @@ struct Scene {
 /// The node that stands for the space of the file that a node comes from: what does not inherit from its parent is in
 /// that space. no_index: the world.
 inline int space_of(const Scene& scene, const Node& node) {
-    return node.include == no_index ? no_index : scene.source.includes[node.include].content;
+    const auto include = static_cast<std::size_t>(node.include);  // a part of a scene has none
+    return include < scene.source.includes.size() ? scene.source.includes[include].content : no_index;
 }
 
 }  // namespace aleph

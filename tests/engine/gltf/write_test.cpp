@@ -183,6 +183,8 @@ TEST(GltfWrite, LongRangesAreRefusedBeforeTheyTakeMemory) {
 /// As in a shot with a run-up: what changed before 0 s keeps the value that it has then.
 TEST(GltfWrite, WhatChangedBeforeZeroKeepsItsLastValue) {
     Scene scene = make_two_nodes();
+    scene.materials.resize(1);
+    scene.meshes[0].material = 0;
     const std::vector<double> early{-2.0, -1.0};
     scene.nodes[0].transform.translation = keyed<glm::dvec3>(early, {{0, 0, 0}, {1, 2, 3}});
     scene.nodes[0].transform.scale = keyed<glm::dvec3>({-2.0, 0.0, 1.0}, {{0.1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
@@ -202,6 +204,8 @@ TEST(GltfWrite, WhatChangedBeforeZeroKeepsItsLastValue) {
 /// 0 has a meaning of its own, and no number between keys: what stands for it is in the reader's range.
 TEST(GltfWrite, UnlimitedRangesAndDistancesAreRead) {
     Scene scene = make_two_nodes();
+    scene.materials.resize(1);
+    scene.meshes[0].material = 0;
     scene.lights.push_back({.range = keyed<double>({0.0, 1.0}, {0.0, 10.0}, Interpolation::step)});
     scene.nodes[1].light = static_cast<int>(scene.lights.size()) - 1;
     scene.materials[0].glass = {.transmission = 1.0,
