@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <random>
 #include <system_error>
 
 #include "engine/base/errors.h"
@@ -60,8 +61,10 @@ void flush_to_disk(const fs::path& file, const fs::path& named) {
     if (::fsync(fd.get()) != 0) fail(named, "cannot flush to disk", errno);
 }
 
+/// Processes of other hosts and containers may have the same number.
 fs::path temporary_path(const fs::path& target) {
-    return hidden_beside(target, fmt::format("{}.part", ::getpid()));
+    static const std::uint32_t own = std::random_device()();
+    return hidden_beside(target, fmt::format("{}{:010}.part", ::getpid(), own));
 }
 
 void create_folder_of(const fs::path& path) {

@@ -59,8 +59,9 @@ fs::path write_task(const FarmJob& job, const std::vector<std::string>& parts, c
         head +
             fmt::format("# Runs one task: what its line of the list says; the first is 0. What is finished is kept.\n"
                         "cd {} || exit 1\n"
-                        "task=${{SLURM_ARRAY_TASK_ID:-${{1:?give the number of a task}}}}\n"
+                        "task=${{1:-${{SLURM_ARRAY_TASK_ID:?give the number of a task}}}}\n"
                         "part=$(sed -n \"$((task + 1))p\" {})\n"
+                        "[ -n \"$part\" ] || {{ echo \"there is no task $task\" >&2; exit 2; }}\n"
                         "exec {}\n",
                         quote(job.working.string()), quote(list.string()), task_command(job, program)));
     return script;
@@ -111,7 +112,7 @@ std::string submit_to_parallel(const FarmJob& job, const fs::path& task, std::si
         words.insert(words.end(), {"--sshlogin", fmt::format("{}", fmt::join(resources.hosts, ","))});
         words.insert(words.end(), {"--workdir", job.working.string()});
     }
-    words.insert(words.end(), {"bash", task.string()});
+    words.insert(words.end(), {"--quote", "bash", task.string()});
     return fmt::format("cd {} || exit 1\n{} ::: $(seq 0 {}) || true\nexec {}\n", quote(job.working.string()),
                        quote_words(words), parts - 1, quote_words({program, "farm", "collate", job.folder.string()}));
 }

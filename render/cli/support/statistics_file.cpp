@@ -62,7 +62,7 @@ StatisticsFile::StatisticsFile(std::filesystem::path path, const Scene& scene, c
 
 StatisticsFile::~StatisticsFile() {
     try {
-        finish();
+        if (changed_) write();
     } catch (const std::exception&) {  // only while another error is reported
     }
 }
@@ -89,6 +89,10 @@ std::string StatisticsFile::read(const Row& row) const {
 
 void StatisticsFile::note(const FrameStatistics& frame, const std::string& fingerprint) {
     if (!path_.empty()) append(format_frame_statistics(frame, fingerprint));
+}
+
+void StatisticsFile::carry(const std::string& row) {
+    if (!path_.empty()) append(row);
 }
 
 void StatisticsFile::add(std::size_t place, const FrameStatistics& frame, const std::string& fingerprint) {

@@ -41,6 +41,10 @@ class StatisticsFile {
     /// @throws OutputError
     void note(const FrameStatistics& frame, const std::string& fingerprint);
 
+    /// Notes the row of a frame that was finished before, so that a stop loses none, whether its frame comes up or not.
+    /// @throws OutputError
+    void carry(const std::string& row);
+
     /// Adds a finished frame. The first is written at once, others when that is due.
     /// @param place        of the frame among all
     /// @param fingerprint  of the frame's file
@@ -57,7 +61,7 @@ class StatisticsFile {
     /// Says what verification found; the same.
     void set_verified(const VerifiedStatistics& verified);
 
-    /// Writes what is not written yet.
+    /// Writes what is not written yet. Rows of frames that were only noted or carried go.
     /// @throws OutputError
     void finish();
 

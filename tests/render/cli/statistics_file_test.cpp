@@ -67,6 +67,24 @@ TEST_F(StatisticsFileTest, HasTheFinishedFramesAfterAnError) {
     }
 }
 
+/// A run that is stopped has not come to all frames of the runs before it.
+TEST_F(StatisticsFileTest, RowsOfFramesThatDidNotComeUpSurviveAStop) {
+    {
+        StatisticsFile file(path_, scene_, settings_, 1.0);
+        for (const int number : {5, 6}) file.add(number, frame(number), fmt::format("print {}", number));
+        file.finish();
+    }
+    const auto before = read_statistics_rows(path_);
+    ASSERT_EQ(before.size(), 2u);
+    {
+        StatisticsFile file(path_, scene_, settings_, 1.0);
+        for (const auto& [print, row] : before) file.carry(row);
+        file.add(0, frame(1), "print 1");
+        EXPECT_EQ(read_statistics_rows(path_).size(), 3u) << "as after a kill";
+    }
+    EXPECT_EQ(read_statistics_rows(path_).size(), 3u) << "after a stop";
+}
+
 TEST_F(StatisticsFileTest, RowsOfFinishedFramesSurvive) {
     const fs::path rows = folder_ / ".statistics.json.rows";
     {
@@ -77,8 +95,8 @@ TEST_F(StatisticsFileTest, RowsOfFinishedFramesSurvive) {
         std::ofstream(rows, std::ios::app) << "\n{\"frame\": 3, \"finger";
         file.note(frame(4), "four");
     }
-    EXPECT_FALSE(fs::exists(rows)) << "an orderly end";
-    EXPECT_EQ(read_statistics_rows(path_).size(), 1u);
+    EXPECT_TRUE(fs::exists(rows)) << "until all frames are there";
+    EXPECT_EQ(read_statistics_rows(path_).size(), 3u);
     StatisticsFile file(path_, scene_, settings_, 1.0);
     file.note(frame(2), "two");
     std::ofstream(rows, std::ios::app) << "\n{\"frame\": 3, \"finger";
@@ -89,6 +107,7 @@ TEST_F(StatisticsFileTest, RowsOfFinishedFramesSurvive) {
     file.keep(0, kept.at("one"));
     file.add(1, frame(2), "two");
     file.finish();
+    EXPECT_FALSE(fs::exists(rows));
     EXPECT_EQ(frames(), (std::vector<int>{1, 2, 4}));
     EXPECT_EQ(kept.at("four"), format_frame_statistics(frame(4), "four"));
     EXPECT_TRUE(read_statistics_rows(folder_ / "no such file").empty());
