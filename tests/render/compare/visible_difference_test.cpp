@@ -58,7 +58,8 @@ Shown show(const Frames& pictures, const Frames& references, float u = 0.0f, con
     const int reach = filter_reach(settings.frame_rate);
     std::vector<VisibleMaps> maps;
     for (int frame = 0; frame <= 2 * reach; ++frame) {
-        for (VisibleMaps& done : difference.add(frame, {pictures(frame), references(frame)}, uniform_motion(u, 0.0f, valid)))
+        for (VisibleMaps& done :
+             difference.add(frame, {pictures(frame), references(frame)}, uniform_motion(u, 0.0f, valid)))
             maps.push_back(std::move(done));
     }
     for (VisibleMaps& done : difference.finish()) maps.push_back(std::move(done));
@@ -170,13 +171,19 @@ TEST(VisibleDifference, DisplayThatHoldsFramesBlursWhatIsFollowed) {
     EXPECT_NEAR(held / sharp, expected, 0.15 * expected);
 }
 
-TEST(VisibleDifference, NoiseThatIsNewInEveryFrameFlickers) {
-    std::mt19937 generator(3);
+/// Of a window that a sequence fills, new in every frame.
+std::vector<Image<Rgb>> noise_of_frames(std::uint32_t seed) {
+    std::mt19937 generator(seed);
     std::vector<Image<Rgb>> noise;
     for (int frame = 0; frame <= 2 * filter_reach({}); ++frame) {
         std::normal_distribution<double> normal(0.0, 0.05);
         noise.push_back(picture_of([&](double, double) { return normal(generator); }));
     }
+    return noise;
+}
+
+TEST(VisibleDifference, NoiseThatIsNewInEveryFrameFlickers) {
+    const std::vector<Image<Rgb>> noise = noise_of_frames(3);
     const Shown fresh = show([&](int frame) { return noise[static_cast<std::size_t>(frame)]; }, still(flat));
     const Shown frozen = show([&](int) { return noise[0]; }, still(flat));
     EXPECT_LT(frozen.flicker, 1e-3);
@@ -188,12 +195,7 @@ TEST(VisibleDifference, NoiseThatIsNewInEveryFrameFlickers) {
 /// The background has motion, too: that of the camera's rotation. What flickers in it is averaged, and what moves along
 /// with it lasts.
 TEST(VisibleDifference, BackgroundIsFollowedAsSurfacesAre) {
-    std::mt19937 generator(7);
-    std::vector<Image<Rgb>> noise;
-    for (int frame = 0; frame <= 2 * filter_reach({}); ++frame) {
-        std::normal_distribution<double> normal(0.0, 0.05);
-        noise.push_back(picture_of([&](double, double) { return normal(generator); }));
-    }
+    const std::vector<Image<Rgb>> noise = noise_of_frames(7);
     const auto fresh = [&](int frame) { return noise[static_cast<std::size_t>(frame)]; };
     for (const float u : {0.0f, 2.0f}) {
         for (const Frames& pictures : {Frames(fresh), drifting(grating(2.0, 0.03), u)}) {
