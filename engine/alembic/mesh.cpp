@@ -218,7 +218,7 @@ class SurfaceCutter {
     std::vector<std::uint32_t> vertex_of_;  ///< per corner of the surface
 };
 
-/// Whether it is the only run; then samples of other properties are all of it. Empty runs, which are left out, count.
+/// Returns whether the surface has this one topology throughout: then samples of its other properties are all of it.
 bool keeps_topology(const SurfaceRun& run) {
     return !is_animated(run.present);
 }

@@ -18,7 +18,7 @@ inline float largest_channel(const Rgb& c) {
     return std::max({c.x, c.y, c.z});
 }
 
-/// Whether all three channels are finite; or coordinates, which have the same type.
+/// Returns whether all three channels, or coordinates, are finite.
 inline bool is_finite(const Rgb& c) {
     return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
 }

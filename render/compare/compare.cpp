@@ -96,12 +96,25 @@ void refuse_limits_without_luminance(const CompareResult& result, const CompareS
     }
 }
 
+/// Two pictures with values of one kind: where only one is encoded, it is decoded.
+struct Comparable {
+    Comparable(const ChannelImage& first, const ChannelImage& second)
+        : decoded(is_encoded(first) == is_encoded(second)
+                      ? std::nullopt
+                      : std::optional(decode_colour(is_encoded(first) ? first : second))),
+          a(decoded && is_encoded(first) ? *decoded : first),
+          b(decoded && is_encoded(second) ? *decoded : second) {}
+    Comparable(const Comparable&) = delete;
+
+    const std::optional<ChannelImage> decoded;
+    const ChannelImage &a, &b;
+};
+
 }  // namespace
 
 CompareResult compare_images(const ChannelImage& first, const ChannelImage& second, const CompareSettings& settings,
                              const ChannelImage* aleph_map) {
-    const bool decode = is_encoded(first) != is_encoded(second);
-    const ChannelImage a = decode ? decode_colour(first) : first, b = decode ? decode_colour(second) : second;
+    const auto& [decoded, a, b] = Comparable(first, second);
     const std::vector<ChannelPair> pairs = match_channels(a, b, settings.channels);
     CompareResult result;
     result.width = pairs.front().b->width;
@@ -127,7 +140,8 @@ CompareResult compare_images(const ChannelImage& first, const ChannelImage& seco
     return result;
 }
 
-Image<Rgb> difference_picture(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings) {
+Image<Rgb> difference_picture(const ChannelImage& first, const ChannelImage& second, const CompareSettings& settings) {
+    const auto& [decoded, a, b] = Comparable(first, second);
     const std::vector<ChannelPair> pairs = match_channels(a, b, settings.channels);
     const std::vector<ChannelPair> colour = colour_pairs(pairs);
     Image<Rgb> picture(pairs.front().b->width, pairs.front().b->height, Rgb(0.0f));

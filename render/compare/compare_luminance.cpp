@@ -55,7 +55,7 @@ bool is_encoded(const ChannelImage& image) {
 }
 
 ChannelImage decode_colour(ChannelImage image) {
-    if (image.metadata.erase("encoding") == 0) return image;
+    image.metadata.erase("encoding");
     for (Channel& channel : image.channels) {
         if (channel.name == "A") continue;
         for (float& value : channel.values.pixels) value = srgb_to_linear(value);

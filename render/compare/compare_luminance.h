@@ -15,9 +15,9 @@ std::optional<double> find_number(const ChannelImage& image, const std::string& 
 /// The channels R, G and B whose names begin with a prefix, or nothing if one is missing.
 Image<Rgb> join_channels(const ChannelImage& image, const std::string& prefix);
 
-/// Whether its values are sRGB, as those of 8-bit files are.
+/// Returns whether its values are sRGB, as those of 8-bit files are.
 bool is_encoded(const ChannelImage& image);
-/// With linear values, but for alpha.
+/// Makes all channels but alpha of an encoded picture linear.
 ChannelImage decode_colour(ChannelImage image);
 /// Linear R, G, B of a picture, or nothing if it has none. 8-bit pictures count as sRGB.
 Image<Rgb> linear_colour(const ChannelImage& image);

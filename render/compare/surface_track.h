@@ -16,8 +16,8 @@ struct MotionMaps {
     Image<float> object;  ///< number of the instance; empty: all are one
 };
 
-/// Whether the point seen in a pixel is at the place that the motion leads to: of a surface, or of the background, which
-/// the camera's rotation alone moves.
+/// Returns whether the point seen in a pixel is at the place that the motion leads to: of a surface, or of the
+/// background, which the camera's rotation alone moves.
 inline bool moves_as_told(float valid) {
     return valid == 1.0f || valid == 0.0f;
 }

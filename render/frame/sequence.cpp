@@ -38,11 +38,10 @@ double find_full_exposure(const Scene& scene, RenderSettings settings, const std
 
 /// From a small quick estimate of the first frame; where that is black, of the first of some later ones that is not.
 double find_exposure(const Shot& shot, FrameScene& scene) {
-    constexpr std::int64_t steps = 8;  // over the shot
     const MeasuredSize size(shot.settings.picture);
     const auto [first, last] = shot.range;
-    for (std::int64_t step = 0; step <= steps; ++step) {
-        const std::int64_t frame = first + (last - first) * step / steps;
+    const std::int64_t between = std::max<std::int64_t>(1, (last - first) / 8);
+    for (std::int64_t frame = first; frame <= last; frame += between) {
         scene.pose(shot.scene.film.frame_rate.seconds_of(frame), shot.camera(frame), size.columns, size.rows);
         scene.prepare();
         RayCounts counts;

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
-#include <vector>
 
 namespace aleph {
 
 namespace {
 
 constexpr int max_surfaces = 64;  // that the ray of find_media passes
+
+Media::Medium make_medium(const SurfacePoint& surface, const SurfaceMaterial& material) {
+    return {surface.material, material.glass.ior, material.glass.attenuation};
+}
 
 }  // namespace
 
@@ -56,40 +58,50 @@ float Media::ratio_at(const ViewedSurface& surface) const {
 }
 
 void Media::enter(const SurfacePoint& surface, const SurfaceMaterial& material) {
+    if (size_ < static_cast<int>(stack_.size())) stack_[size_++] = make_medium(surface, material);
+}
+
+bool Media::leave(int material) {
+    const int inside = find(material);
+    if (inside == no_index) return false;
+    std::copy(stack_.begin() + inside + 1, stack_.begin() + size_, stack_.begin() + inside);
+    --size_;
+    return true;
+}
+
+void Media::enclose(const SurfacePoint& surface, const SurfaceMaterial& material) {
     if (size_ == static_cast<int>(stack_.size())) return;
-    stack_[size_++] = {surface.material, material.glass.ior, material.glass.attenuation};
+    std::copy_backward(stack_.begin(), stack_.begin() + size_, stack_.begin() + size_ + 1);
+    stack_[0] = make_medium(surface, material);
+    ++size_;
 }
 
 void Media::pass(const SurfacePoint& surface, const SurfaceMaterial& material) {
-    if (surface.front) return enter(surface, material);
-    const int inside = find(surface.material);
-    if (inside == no_index) return;
-    std::copy(stack_.begin() + inside + 1, stack_.begin() + size_, stack_.begin() + inside);
-    --size_;
+    if (surface.front) {
+        enter(surface, material);
+    } else {
+        leave(surface.material);
+    }
 }
 
 Media find_media(const ShadingScene& shading, RayTask& task, Ray ray, std::uint64_t& counts) {
     Media around;
     if (!shading.has_volumes) return around;
-    std::vector<int> entered;
-    std::vector<ViewedSurface> left;  // of the volumes around the origin, the innermost first
+    Media entered;  // on the way
     for (int surface = 0; surface < max_surfaces; ++surface) {
         ++counts;
         const Hit hit = task.tracer.intersect(ray);
         if (hit.instance == no_index) break;
-        const ViewedSurface met =
+        const auto [point, material, view] =
             view_surface(shading, make_surface_point(shading, hit, ray.direction), -ray.direction, {});
-        ray.origin = met.point.position - met.point.geometric * met.point.offset;
-        if (!met.material.glass.volume) continue;
-        if (met.point.front) {
-            entered.push_back(met.point.material);
-        } else if (const auto at = std::ranges::find(entered, met.point.material); at != entered.end()) {
-            entered.erase(at);
-        } else {
-            left.push_back(met);
+        ray.origin = point.position - point.geometric * point.offset;
+        if (!material.glass.volume) continue;
+        if (point.front) {
+            entered.enter(point, material);
+        } else if (!entered.leave(point.material)) {
+            around.enclose(point, material);
         }
     }
-    for (const ViewedSurface& wall : left | std::views::reverse) around.enter(wall.point, wall.material);
     return around;
 }
 

@@ -36,7 +36,12 @@ class Media {
     float ratio_at(const ViewedSurface& surface) const;
     /// Goes through a surface with a volume, by the side that was hit.
     void pass(const SurfacePoint& surface, const SurfaceMaterial& material);
+    /// Adds the innermost medium.
     void enter(const SurfacePoint& surface, const SurfaceMaterial& material);
+    /// Adds the outermost one.
+    void enclose(const SurfacePoint& surface, const SurfaceMaterial& material);
+    /// Removes a medium. @return whether it was there
+    bool leave(int material);
 
   private:
     int find(int material) const;

@@ -154,7 +154,7 @@ void remove_specular(SurfaceMaterial& material) {
     material.sheen.color = Rgb(0.0f);
 }
 
-/// Whether a wide lobe would let light out from inside that is totally reflected, or keep in much that is not.
+/// Returns whether a wide lobe would let light out from inside that is totally reflected, or keep in much that is not.
 /// @param width   GGX alpha
 /// @param cosine  of the view
 bool leaks(const SurfaceMaterial& material, float width, float cosine) {

@@ -26,12 +26,10 @@ void check_texture_info(const GltfCheck& check, const JsonRef& owner, std::strin
     }
     const std::optional<JsonRef> given = info->find("texCoord");
     const std::optional<JsonRef> other = transform ? transform->find("texCoord") : std::nullopt;
-    const std::optional<JsonRef>& set = other ? other : given;  // the extension's overrides
-    const bool is_read = key != "occlusionTexture";
-    for (const std::optional<JsonRef>* one : {&given, &other}) {
-        if (*one && (*one)->integer(0, 1 << 30) > 1 && is_read && one == &set)
-            (*one)->fail("only texture coordinate sets 0 and 1 are supported");
-    }
+    const std::int64_t own = given ? given->integer(0, 1 << 30) : 0;
+    const std::int64_t used = other ? other->integer(0, 1 << 30) : own;
+    if (used > 1 && key != "occlusionTexture")
+        (other ? other : given)->fail("only texture coordinate sets 0 and 1 are supported");
 }
 
 /// Types, and ranges beyond which no value near is meant; the reader clamps factors.

@@ -157,5 +157,19 @@ TEST_F(FarmTest, WhatCannotBeDividedIsRefused) {
     EXPECT_FALSE(fs::exists(out_ / "farm/task.1.sh"));
 }
 
+TEST_F(FarmTest, ATaskThatIsNotInTheListMakesNothing) {
+    ASSERT_EQ(run(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "2"})).code, 0);
+    EXPECT_EQ(run_task(99), 2);
+    EXPECT_EQ(status().substr(0, 9), "frames: 0");
+}
+
+/// GNU parallel gives its words to a shell once more.
+TEST_F(FarmTest, ParallelRunsInFoldersOfAnyName) {
+    if (std::system("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "GNU parallel is not installed";
+    const fs::path out = folder_ / "a b$c'd`e";
+    ASSERT_EQ(run(with({"farm", "parallel"}, {"-o", out / "", "--tasks", "2", "--submit"})).code, 0);
+    EXPECT_EQ(names_in(out).size(), 10u + 1u) << "frames, and the folder of the job";
+}
+
 }  // namespace
 }  // namespace aleph

@@ -143,7 +143,7 @@ TEST(CompareNoise, StandardErrorsReplaceTheChannels) {
     EXPECT_THROW(compare_images(grey_image(4, 4, 0.5f), grey_image(4, 4, 0.5f), settings), InputError);
 }
 
-/// What is subtracted of the relative MSE is noise that is known.
+/// Only noise that is known is subtracted of the relative MSE.
 TEST(CompareNoise, ABrokenVarianceLiftsNoLimit) {
     ChannelImage b = noisy(8, 8, 0.5f, 0.01f, 8);
     ChannelImage a = grey_image(8, 8, 1.0f);

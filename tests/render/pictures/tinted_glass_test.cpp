@@ -1,4 +1,4 @@
-// What media take of light on its way: to lamps through rough walls, to the hits of gathers, and to a camera inside.
+// Media take light on its way: to lamps through rough walls, to the hits of gathers, and to a camera inside.
 
 #include "render/cache/gather.h"
 #include "render/frame/sequence.h"
@@ -65,33 +65,59 @@ TEST(TintedGlass, ChannelsWithoutLossPassFromAnyDistance) {
     EXPECT_FLOAT_EQ(transmit(Rgb(0.5f), 3.0f).x, std::exp(-1.5f));
 }
 
+/// Mean radiance over the hemisphere above the origin, as a gather finds it.
+double gather_at_origin(const Stage& stage) {
+    RayTask task(stage.rays);
+    GatherScratch scratch;
+    const auto found = gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}),
+                                         {choose_strata(1024), {1, 2, 3, 4}}, scratch, {.depth = 8});
+    return found.irradiance.x / std::numbers::pi;
+}
+
 /// A ball of ior 1 about a point turns no light.
-TEST(TintedGlass, GathersInsideLoseLightOnTheWayToTheirHits) {
+TEST(TintedGlass, GathersInsideLoseLightOnTheWayOut) {
     constexpr double radius = 2.0;
+    Scene scene;
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
+    add_mesh(scene, make_faceted_sphere(radius, 96, add_medium(scene, 0.0, 1.0, true)));
     const double left = std::pow(0.5, radius / half_way);
-    for (const bool walls : {false, true}) {  // light from outside, and from white walls within the medium
+    EXPECT_NEAR(gather_at_origin(Stage(std::move(scene))), left, 0.01 * left);
+}
+
+/// A point light and a gather at the centre of a white ball within the medium: light goes to the wall and back.
+TEST(TintedGlass, GathersInsideLoseLightOnTheWayToWallsAndFromThemToLamps) {
+    constexpr double radius = 2.0, albedo = 0.5, intensity = 8.0;
+    const double expected =
+        albedo / std::numbers::pi * intensity / (radius * radius) * std::pow(0.5, 2.0 * radius / half_way);
+    for (const double specular : {0.0, 1e-3}) {  // plain Lambert surfaces have code of their own
         Scene scene;
-        scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(walls ? 0.0 : 1.0));
-        const int medium = add_medium(scene, 0.0, 1.0, true);
-        add_mesh(scene, make_faceted_sphere(walls ? 10.0 * radius : radius, 96, medium));
-        const Stage stage(std::move(scene));
-        RayTask task(stage.rays);
-        GatherScratch scratch;
-        if (!walls) {
-            const auto found =
-                gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}),
-                                  {choose_strata(1024), {1, 2, 3, 4}}, scratch, {.depth = 8});
-            EXPECT_NEAR(found.irradiance.x / std::numbers::pi, left, 0.01 * left);
-        }
-        std::uint64_t rays = 0;
-        const glm::vec3 up(0.0f, 1.0f, 0.0f);
-        EXPECT_FLOAT_EQ(find_media(stage.shading, task, {glm::vec3(0.0f), up}, rays).attenuation_inside().x,
-                        std::log(2.0f) / static_cast<float>(half_way));
-        EXPECT_EQ(find_media(stage.shading, task, {glm::vec3(0.0f, 50.0f, 0.0f), -up}, rays).attenuation_inside().x,
-                  0.0f)
-            << "the ray enters the ball and leaves it";
-        EXPECT_EQ(rays, 1u + 1u + 3u);
+        const int white = add_lambert(scene, glm::dvec3(albedo), glm::dvec3(0.0), true);
+        scene.materials[white].gloss.specular = specular;
+        add_mesh(scene, make_faceted_sphere(10.0, 48, add_medium(scene, 0.0, 1.0, true)));
+        add_mesh(scene, make_faceted_sphere(radius, 96, white));
+        add_light(scene, Light::Kind::point, glm::dvec3(intensity), glm::dvec3(0.0));
+        EXPECT_NEAR(gather_at_origin(Stage(std::move(scene))), expected, 0.01 * expected) << specular;
     }
+}
+
+TEST(TintedGlass, MediaAroundAPointAreThoseThatARayLeaves) {
+    Scene scene;
+    add_mesh(scene, make_faceted_sphere(2.0, 48, add_medium(scene, 0.0, 1.5, true)));
+    add_mesh(scene, make_faceted_sphere(20.0, 48, add_medium(scene, 0.0, 1.33, false)));
+    const Stage stage(std::move(scene));
+    RayTask task(stage.rays);
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    const auto find = [&](float height, const glm::vec3& direction, std::uint64_t expected_rays) {
+        std::uint64_t rays = 0;
+        const Media media = find_media(stage.shading, task, {glm::vec3(0.0f, height, 0.0f), direction}, rays);
+        EXPECT_EQ(rays, expected_rays) << height;
+        return media;
+    };
+    const Media both = find(0.0f, up, 3);
+    EXPECT_EQ(both.ior(), 1.5f) << "the innermost";
+    EXPECT_FLOAT_EQ(both.attenuation_inside().x, std::log(2.0f) / static_cast<float>(half_way));
+    EXPECT_EQ(find(5.0f, -up, 4).ior(), 1.33f) << "the ray enters the ball and leaves it";
+    EXPECT_EQ(find(50.0f, -up, 5).ior(), 1.0f);
 }
 
 TEST(TintedGlass, CameraInsideSeesLampsThroughTheMedium) {
