@@ -97,8 +97,7 @@ FrameWriter::FrameWriter(const FrameJob& job, const SceneOptions& options, const
       request_(request),
       statistics_(options.stats, job.scene, job.settings, job.exposure,
                   job.budget ? std::optional(job.budget->statistics) : std::nullopt) {
-    if (options.resume && !options.stats.empty()) rows_ = read_statistics_rows(options.stats);
-    for (const auto& [fingerprint, row] : rows_) statistics_.carry(row);
+    if (options.resume && !options.stats.empty()) rows_ = statistics_.take_over();
 }
 
 void FrameWriter::make_all() {

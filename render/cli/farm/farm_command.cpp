@@ -101,7 +101,7 @@ int write_job(const FarmOptions& options, const std::string& scheduler) {
     try_output(job.folder / "job.json");
     if (fs::exists(job.folder / "job.json")) job.rounds = read_farm_job(job.folder).rounds;
     const fs::path submit = write_farm_scripts(job, parts, this_program());
-    std::cout << fmt::format("{} tasks; bash {}\n", parts.size(), submit.string());
+    std::cout << fmt::format("{} tasks; {}\n", parts.size(), quote_words({"bash", submit.string()}));
     return options.submit ? run_words({"bash", submit.string()}) : static_cast<int>(exit_done);
 }
 

@@ -91,8 +91,10 @@ void StatisticsFile::note(const FrameStatistics& frame, const std::string& finge
     if (!path_.empty()) append(format_frame_statistics(frame, fingerprint));
 }
 
-void StatisticsFile::carry(const std::string& row) {
-    if (!path_.empty()) append(row);
+std::map<std::string, std::string> StatisticsFile::take_over() {
+    std::map<std::string, std::string> rows = read_statistics_rows(path_);
+    for (const auto& [fingerprint, row] : rows) append(row);
+    return rows;
 }
 
 void StatisticsFile::add(std::size_t place, const FrameStatistics& frame, const std::string& fingerprint) {

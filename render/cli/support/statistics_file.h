@@ -41,9 +41,10 @@ class StatisticsFile {
     /// @throws OutputError
     void note(const FrameStatistics& frame, const std::string& fingerprint);
 
-    /// Notes the row of a frame that was finished before, so that a stop loses none, whether its frame comes up or not.
+    /// Reads the rows of earlier runs, and notes them: a stop then loses none, whether its frame comes up or not.
+    /// @return by fingerprint, as read_statistics_rows
     /// @throws OutputError
-    void carry(const std::string& row);
+    std::map<std::string, std::string> take_over();
 
     /// Adds a finished frame. The first is written at once, others when that is due.
     /// @param place        of the frame among all
@@ -61,7 +62,7 @@ class StatisticsFile {
     /// Says what verification found; the same.
     void set_verified(const VerifiedStatistics& verified);
 
-    /// Writes what is not written yet. Rows of frames that were only noted or carried go.
+    /// Writes what is not written yet. Rows of frames that were only noted or taken over go.
     /// @throws OutputError
     void finish();
 
