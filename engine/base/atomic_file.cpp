@@ -31,11 +31,8 @@ std::string reason(const char* what, int error) {
 fs::path checked_target(const fs::path& path) {
     if (!path.has_filename()) throw OutputError(printable(path.string(), 4096), "this is a folder, not a file name");
     std::error_code error;
-    fs::path target = path;
-    if (fs::is_symlink(fs::symlink_status(path, error))) {
-        target = fs::weakly_canonical(path, error);
-        if (error) fail(path, "cannot follow the link", error.value());
-    }
+    const fs::path target = follow_links(path);
+    if (fs::is_symlink(target, error)) fail(path, "cannot follow the link", ELOOP);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     const bool is_folder = fs::is_directory(folder, error);
     if (error && error != std::errc::no_such_file_or_directory) fail(path, "cannot use its folder", error.value());
@@ -75,6 +72,17 @@ void create_folder_of(const fs::path& path) {
 }
 
 }  // namespace
+
+fs::path follow_links(fs::path path) {
+    constexpr int most_links = 40;  // as the system has it
+    std::error_code error;
+    for (int i = 0; i < most_links && fs::is_symlink(path, error); ++i) {
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) break;
+        path = path.parent_path() / target;
+    }
+    return path;
+}
 
 fs::path hidden_beside(const fs::path& path, std::string_view suffix) {
     constexpr std::size_t longest = 255, kept = 150;

@@ -14,6 +14,9 @@ namespace aleph {
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
+/// The file that a path means: symbolic links in its last part are followed, those to missing files too.
+std::filesystem::path follow_links(std::filesystem::path path);
+
 /// The file `.NAME.SUFFIX` beside `path`. A name that would be too long for a file system is shortened, so that a
 /// number made from all of it tells it apart.
 std::filesystem::path hidden_beside(const std::filesystem::path& path, std::string_view suffix);

@@ -61,16 +61,17 @@ void write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOu
 
 void remove_unfinished(const std::filesystem::path& file) {
     std::error_code ignored;
-    std::filesystem::remove(partial_file(file), ignored);
+    if (read_picture_text(partial_file(file), fingerprint_key)) std::filesystem::remove(partial_file(file), ignored);
     std::filesystem::remove(checkpoint_file(file), ignored);
 }
 
-void write_partial(const std::filesystem::path& file, const Image<Rgb>& color) {
+void write_partial(const std::filesystem::path& file, const Image<Rgb>& color, const std::string& fingerprint) {
     const std::filesystem::path partial = partial_file(file);
+    const PictureTexts texts{{fingerprint_key, fingerprint}};
     if (output_format(file) == OutputFormat::png)
-        write_png(partial, color);
+        write_png(partial, color, texts);
     else
-        write_exr(partial, make_color_image(color));
+        write_exr(partial, with_texts(make_color_image(color), texts));
 }
 
 }  // namespace aleph

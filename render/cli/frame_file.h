@@ -15,10 +15,10 @@ namespace aleph {
 void write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
                  bool importance, const std::string& fingerprint);
 
-/// Writes the picture so far beside the frame's file, as "name.0020.partial.exr".
+/// Writes the picture so far beside the frame's file, as "name.0020.partial.exr", with the frame's fingerprint.
 /// @throws OutputError
-void write_partial(const std::filesystem::path& file, const Image<Rgb>& color);
-/// Removes the picture so far and the state of a frame that is finished.
+void write_partial(const std::filesystem::path& file, const Image<Rgb>& color, const std::string& fingerprint);
+/// Removes the picture so far, unless it is a file of somebody else, and the state of a frame that is finished.
 void remove_unfinished(const std::filesystem::path& file);
 
 }  // namespace aleph

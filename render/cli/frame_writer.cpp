@@ -175,7 +175,7 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
     watched.partial.is_wanted = [&] { return std::exchange(wants_picture, false); };
     watched.partial.show = [&](const Image<Rgb>& color) {
         try {
-            write_partial(file, color);
+            write_partial(file, color, fingerprint);
         } catch (const OutputError& e) {  // the frame itself goes on
             std::cerr << "aleph: warning: " << e.what() << "\n";
         }

@@ -16,6 +16,7 @@
 #include "render/cli/film.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/support/output_path.h"
+#include "render/cli/support/render_signals.h"
 #include "render/cli/write_frames.h"
 #include "render/compare/visible_difference.h"
 #include "render/images/image_sequence.h"
@@ -119,13 +120,6 @@ PreparedImages prepare_images(const MapsOptions& options) {
     return images;
 }
 
-/// Every frame has the other one that its motion needs.
-void check_frames(const PreparedImages& images) {
-    if (images.with_motion) return;
-    for (const int frame : images.prepared.frames)
-        find_other_frame(images.files, images.prepared.scene.film.cuts, frame);
-}
-
 /// All that the maps of every frame depend on.
 std::string identity_of(const PreparedScene& prepared, const MapsOptions& options) {
     const auto& [color, motion, depth] = options.layers;
@@ -136,8 +130,8 @@ std::string identity_of(const PreparedScene& prepared, const MapsOptions& option
 
 void write_image_maps(const MapsOptions& options) {
     const PreparedImages images = prepare_images(options);
-    check_frames(images);
     const PreparedScene& prepared = images.prepared;
+    if (!images.with_motion) refuse_gaps(images.files, prepared.scene.film.cuts, prepared.frames);
     prepare_frames_output(prepared, options.common, maps_request);
     const ThreadLimit limit(find_threads(options.common.threads));
     ImageSequence sequence(prepared.scene, images.files, prepared.settings, options.layers);
@@ -264,6 +258,9 @@ void add_maps_command(CLI::App& app, Command& command) {
             if (options->exposure) options->common.settings["exposure"] = *options->exposure;
         }
         command = [options] {
+            // --resume goes on after a signal that comes while pictures or a scene are loaded.
+            std::optional<RenderSignals> signals;
+            if (options->common.resume) signals.emplace();
             const FilmFolder folder = choose_film(options->common, maps_request);
             if (!options->images.empty()) {
                 write_image_maps(*options);

@@ -14,6 +14,7 @@
 #include "render/cli/film.h"
 #include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/output_path.h"
+#include "render/cli/support/render_signals.h"
 #include "render/cli/watch.h"
 #include "render/cli/write_frames.h"
 #include "render/output/map_preview.h"
@@ -159,7 +160,9 @@ PreviewFrames make_sheet_alone(PreparedScene& prepared, const SceneOptions& opti
     PreviewFrames frames(prepared, options.camera, motion);
     Progress progress("preview", static_cast<double>(prepared.frames.size()), progress_look(options.quiet));
     FrameRequest request = preview_request;
+    const RenderSignals signals;
     request.progress = [&](double, const char*) {
+        signals.stop_if_asked();
         if (options.watch != nullptr && options.watch->is_changed()) throw SceneChanged();
     };
     double done = 0.0;

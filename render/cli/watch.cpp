@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <thread>
 
 #include "engine/base/errors.h"
@@ -22,13 +23,9 @@ bool is_of_file(const InputError& error) {
     return !error.file().empty() && !error.file().starts_with("--");
 }
 
-void stop_if_asked(const RenderSignals& signals) {
-    if (signals.received() != 0) throw Stopped("stopped", 128 + signals.received());
-}
-
 void wait_for_change(SceneWatch& watch, const RenderSignals& signals) {
     while (!watch.is_changed()) {
-        stop_if_asked(signals);
+        signals.stop_if_asked();
         std::this_thread::sleep_for(between_looks);
     }
 }
@@ -66,10 +63,13 @@ void add_watch_options(CLI::App& app, WatchOptions& options) {
 }
 
 void run_maybe_watched(const WatchOptions& asked, SceneOptions& options, const std::function<void()>& run) {
+    // From here on, so that none is lost between two renders, and --resume goes on after one that comes while a scene
+    // is loaded.
+    std::optional<RenderSignals> signals;
+    if (asked.watch || options.resume) signals.emplace();
     if (!asked.watch) return run();
     SceneWatch watch(options.scene, asked.viewer);
     options.watch = &watch;
-    const RenderSignals signals;  // from here on, so that none is lost between two renders
     for (;;) {
         try {
             run();
@@ -82,12 +82,12 @@ void run_maybe_watched(const WatchOptions& asked, SceneOptions& options, const s
             std::cerr << fmt::format("aleph: watching {} file{}; Ctrl-C ends\n", watch.size(),
                                      watch.size() == 1 ? "" : "s")
                       << std::flush;
-        wait_for_change(watch, signals);
+        wait_for_change(watch, *signals);
         if (!options.quiet)
             std::cerr << fmt::format("aleph: {} has changed\n", printable(watch.changed().string(), 400));
         // An editor may write a file in several steps, or remove it before the new one is there.
         std::this_thread::sleep_for(between_looks);
-        stop_if_asked(signals);
+        signals->stop_if_asked();
     }
 }
 

@@ -21,8 +21,8 @@ namespace aleph {
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
                            const std::string& cache) {
     if (!options.film.empty()) film_rate(options, prepared.frames, prepared.scene.film.frame_rate);
-    const std::filesystem::path path = output_path(options.output, prepared.name, prepared.frames.front());
-    if (request.maps && request.frame && output_format(path) == OutputFormat::png) {
+    const auto frames = output_paths(options.output, prepared.name, prepared.frames);
+    if (request.maps && request.frame && output_format(frames.front()) == OutputFormat::png) {
         throw InputError("--output", printable(options.output), "PNG cannot hold the channels of maps; write .exr");
     }
     std::vector<OutputFile> outputs;
@@ -31,13 +31,9 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
         !cache.empty() && std::filesystem::path(cache).has_filename() && !std::filesystem::is_directory(cache);
     if (keeps_file) outputs.push_back({cache, "--cache"});
     if (!options.film.empty()) outputs.push_back({options.film, "--output"});
-    for (const int frame : prepared.frames)
-        outputs.push_back({output_path(options.output, prepared.name, frame), "--output"});
+    for (const std::filesystem::path& frame : frames) outputs.push_back({frame, "--output"});
     refuse_overwriting(prepared.read, outputs);
-    prepare_output(options.output, prepared.name, prepared.frames);
-    if (!options.film.empty()) try_output(options.film);
-    if (!options.stats.empty()) try_output(options.stats);
-    if (keeps_file) try_output(cache);
+    for (const OutputFile& output : outputs) try_output(output.path);
 }
 
 FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const FramePrints& prints) {

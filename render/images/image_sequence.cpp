@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
@@ -42,23 +43,30 @@ bool is_cut(const std::vector<std::int64_t>& cuts, std::int64_t frame) {
 }  // namespace
 
 OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int64_t>& cuts, std::int64_t frame) {
-    const auto own = files.find(frame);
-    if (own == files.end()) refuse_missing(files, frame);
-    const bool backward = std::next(own) == files.end();
-    if (backward && own == files.begin()) return OtherFrame::none;
-    const auto other = backward ? std::prev(own) : std::next(own);
-    const auto& [first, second] = backward ? std::pair(other, own) : std::pair(own, other);
-    if (is_cut(cuts, second->first)) return OtherFrame::none;
-    if (second->first != first->first + 1) {
-        const std::int64_t from = first->first + 1, to = second->first - 1;
+    if (!files.contains(frame)) refuse_missing(files, frame);
+    const auto is_one_shot = [&](std::int64_t first) { return files.contains(first + 1) && !is_cut(cuts, first + 1); };
+    if (is_one_shot(frame)) return OtherFrame::next;
+    const auto later = files.upper_bound(frame);
+    if (later != files.end() && is_cut(cuts, later->first)) return OtherFrame::none;
+    return files.contains(frame - 1) && is_one_shot(frame - 1) ? OtherFrame::previous : OtherFrame::none;
+}
+
+void refuse_gaps(const FrameFiles& files, const std::vector<std::int64_t>& cuts, const std::vector<int>& frames) {
+    const std::set<std::int64_t> asked(frames.begin(), frames.end());
+    for (const int frame : frames) {
+        const auto own = files.find(frame);
+        if (own == files.end()) refuse_missing(files, frame);
+        const auto next = std::next(own);
+        if (next == files.end() || next->first == own->first + 1 || is_cut(cuts, next->first)) continue;
+        if (!asked.contains(next->first)) continue;
+        const std::int64_t from = own->first + 1, to = next->first - 1;
         throw InputError(
             "", "--images",
             fmt::format("{} missing between {} and {}; add what is missing, choose a stretch without gaps with "
                         "--frames, or say --cuts {} if a new shot begins there",
                         from == to ? fmt::format("frame {} is", from) : fmt::format("frames {} to {} are", from, to),
-                        display_name(first->second), display_name(second->second), second->first));
+                        display_name(own->second), display_name(next->second), next->first));
     }
-    return backward ? OtherFrame::previous : OtherFrame::next;
 }
 
 struct ImageSequence::State {

@@ -13,11 +13,15 @@
 
 namespace aleph {
 
-/// The frame that `frame` is compared with for its motion: the next one, or the previous one at the last frame; none
-/// across a cut, and for a single frame.
-/// @param cuts  frames that begin a new shot. Frame numbers may have gaps there and nowhere else.
-/// @throws InputError naming the missing files: `frame`'s own, or those up to the next frame that exists
+/// The frame that `frame` is compared with for its motion: the next one, or the previous one at the last frame and
+/// before a gap; none across a cut, and for a frame without neighbours.
+/// @param cuts  frames that begin a new shot
+/// @throws InputError: there is no such frame
 OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int64_t>& cuts, std::int64_t frame);
+
+/// Refuses gaps between the frames that are asked for, unless a new shot begins behind them.
+/// @throws InputError naming the missing files
+void refuse_gaps(const FrameFiles& files, const std::vector<std::int64_t>& cuts, const std::vector<int>& frames);
 
 /// Maps of frames in files. In ascending order of frames every picture is read once.
 class ImageSequence {

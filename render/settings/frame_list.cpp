@@ -95,11 +95,16 @@ std::vector<std::int64_t> parse_cuts(std::string_view text) {
 }
 
 std::string format_frame_list(const std::vector<int>& frames) {
+    const auto distance = [&](std::size_t i) { return std::int64_t{frames[i + 1]} - frames[i]; };
     std::string text;
     for (std::size_t first = 0, last = 0; first < frames.size(); first = ++last) {
-        while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
+        const std::int64_t step = first + 1 < frames.size() ? distance(first) : 0;
+        while (step > 0 && last + 1 < frames.size() && distance(last) == step) ++last;
+        if (step > 1 && last == first + 1) last = first;  // two frames are no row
         if (!text.empty()) text += ',';
-        text += first == last ? fmt::format("{}", frames[first]) : fmt::format("{}-{}", frames[first], frames[last]);
+        text += fmt::format("{}", frames[first]);
+        if (last > first) text += fmt::format("-{}", frames[last]);
+        if (last > first && step > 1) text += fmt::format("x{}", step);
     }
     return text;
 }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <functional>
 
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
@@ -35,7 +36,9 @@ class StartedProgram {
   public:
     /// @param words  what follows `aleph`
     /// @param log    file for standard error
-    StartedProgram(std::vector<std::string> words, std::filesystem::path log) : log_(std::move(log)) {
+    /// @param before  called in the new process, before the program begins
+    StartedProgram(std::vector<std::string> words, std::filesystem::path log, const std::function<void()>& before = {})
+        : log_(std::move(log)) {
         words.insert(words.begin(), program_path("aleph"));
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());
@@ -47,6 +50,7 @@ class StartedProgram {
             ::fcntl(alive[1], F_SETFD, 0);
             ::dup2(::open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
             std::signal(SIGINT, SIG_DFL);
+            if (before) before();
             ::execv(argv.front(), argv.data());
             ::_exit(127);
         }

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <tuple>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
@@ -56,6 +57,36 @@ std::vector<std::string> list_arguments(const FarmOptions& options) {
     return words;
 }
 
+/// Refuses options that the command of the tasks does not have.
+/// @throws InputError (the option)
+void refuse_other_options(const FarmOptions& options, const std::string& command) {
+    const SceneOptions& scene = options.scene;
+    const std::tuple<const char*, bool, const char*> given[] = {
+        {"--fps", !scene.fps.empty(), "render, maps"},
+        {"--camera", !scene.camera.empty(), "render, maps"},
+        {"--load-memory", scene.limits.memory != LoadLimits().memory, "render, maps"},
+        {"--stats", !scene.stats.empty(), "render, maps"},
+        {"--cache", !options.cache.empty(), "render"},
+        {"--checkpoint", !options.checkpoint.empty(), "render"},
+        {"--aovs", options.aovs, "render"},
+        {"--importance", scene.importance, "maps"},
+    };
+    for (const auto& [option, is_given, commands] : given) {
+        if (is_given && std::string_view(commands).find(command) == std::string_view::npos)
+            throw InputError("", option, fmt::format("`aleph {}` has no such option, only {}", command, commands));
+    }
+}
+
+/// A list has one task on each line, and a comment of Slurm's ends with its line.
+/// @throws InputError
+void refuse_line_breaks(const FarmJob& job) {
+    std::vector<std::string> words = job.arguments;
+    words.insert(words.end(), {job.output, job.working.string(), job.folder.string()});
+    for (const std::string& word : words) {
+        if (word.find('\n') != std::string::npos) throw InputError("", printable(word, 400), "a name has a line break");
+    }
+}
+
 /// Runs a command; its exit code.
 int run_words(const std::vector<std::string>& words) {
     std::cout.flush();
@@ -69,8 +100,9 @@ std::vector<std::string> prepare_job(const FarmOptions& options, FarmJob& job) {
     job.stats = options.scene.stats;
     job.working = fs::current_path();
     job.arguments = list_arguments(options);
-    if (is_study(options.scene.scene)) {
-        job.command = "study";
+    job.command = is_study(options.scene.scene) ? "study" : options.command;
+    refuse_other_options(options, job.command);
+    if (job.command == "study") {
         if (job.output.empty()) job.output = study_folder(options.scene.scene).string();
         if (!options.scene.frames.empty())
             job.arguments.insert(job.arguments.end(), {"--frames", options.scene.frames});
@@ -79,14 +111,13 @@ std::vector<std::string> prepare_job(const FarmOptions& options, FarmJob& job) {
         for (int i = 1; i <= options.tasks; ++i) parts.push_back(fmt::format("{}/{}", i, options.tasks));
         return parts;
     }
-    job.command = options.command;
     if (job.output.empty()) throw InputError("", "--output", "name the files of the frames, or their folder");
     job.frames = options.scene.frames;
     const PreparedScene prepared = prepare_scene(parse_frame_command(job).options);
-    const fs::path first = output_path(job.output, prepared.name, prepared.frames.front());
-    prepare_output(job.output, prepared.name, prepared.frames);
+    const std::vector<fs::path> files = output_paths(job.output, prepared.name, prepared.frames);
+    for (const fs::path& file : files) try_output(file);
     job.frames = format_frame_list(prepared.frames);
-    job.folder = fs::absolute(first).parent_path() / "farm";
+    job.folder = fs::absolute(files.front()).parent_path() / "farm";
     return divide_frames(prepared.frames, options.tasks);
 }
 
@@ -98,6 +129,7 @@ int write_job(const FarmOptions& options, const std::string& scheduler) {
     job.resources = options.resources;
     job.tasks = options.tasks;
     const std::vector<std::string> parts = prepare_job(options, job);
+    refuse_line_breaks(job);
     try_output(job.folder / "job.json");
     if (fs::exists(job.folder / "job.json")) job.rounds = read_farm_job(job.folder).rounds;
     const fs::path submit = write_farm_scripts(job, parts, this_program());

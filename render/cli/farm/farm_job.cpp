@@ -62,7 +62,11 @@ void write_farm_job(const FarmJob& job) {
                     {"command", job.command},     {"arguments", job.arguments}, {"frames", job.frames},
                     {"output", job.output},       {"stats", job.stats},         {"working", job.working.string()},
                     {"rounds", job.rounds}};
-    write_file(job.folder / job_file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    try {
+        write_file(job.folder / job_file, json.dump(2) + "\n");
+    } catch (const Json::type_error&) {
+        throw InputError(printable(job.folder.string(), 400), "", "a name or a path is not UTF-8");
+    }
 }
 
 FarmJob read_farm_job(const fs::path& folder) {

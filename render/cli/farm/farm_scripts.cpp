@@ -67,6 +67,13 @@ fs::path write_task(const FarmJob& job, const std::vector<std::string>& parts, c
     return script;
 }
 
+/// Slurm replaces % and what follows in names of logs, and takes %% for a %.
+std::string in_slurm_pattern(const fs::path& file) {
+    std::string text;
+    for (const char c : file.string()) text += c == '%' ? "%%" : std::string(1, c);
+    return text;
+}
+
 /// Lines of an sbatch script.
 std::string slurm_head(const FarmJob& job, std::size_t tasks) {
     const FarmResources& resources = job.resources;
@@ -81,7 +88,7 @@ std::string slurm_head(const FarmJob& job, std::size_t tasks) {
     add("--requeue");
     add("--open-mode=append");
     add(fmt::format("--signal=B:TERM@{}", seconds_to_stop));
-    add(fmt::format("--output=\"{}-%a.log\"", file_of(job, "task", "").string()));
+    add(fmt::format("--output=\"{}-%a.log\"", in_slurm_pattern(file_of(job, "task", ""))));
     return head;
 }
 
@@ -99,7 +106,8 @@ std::string submit_to_slurm(const FarmJob& job, const fs::path& task, std::size_
         "tasks=$(sbatch --parsable {})\n"
         "collate=$(sbatch --parsable --dependency=afterany:\"$tasks\"{} --output={} {})\n"
         "echo \"submitted {} tasks as job $tasks, and job $collate, which collates them\"\n",
-        quote(task.string()), options, quote(file_of(job, "collate", ".log").string()), quote(collate.string()), parts);
+        quote(task.string()), options, quote(in_slurm_pattern(file_of(job, "collate", ".log"))),
+        quote(collate.string()), parts);
 }
 
 std::string submit_to_parallel(const FarmJob& job, const fs::path& task, std::size_t parts,
@@ -127,12 +135,12 @@ std::string quote_words(const std::vector<std::string>& words) {
 
 fs::path write_farm_scripts(FarmJob& job, const std::vector<std::string>& parts, const std::string& program) {
     ++job.rounds;
+    write_farm_job(job);
     const bool slurm = job.scheduler == "slurm";
     const fs::path submit = file_of(job, "submit", ".sh");
     const fs::path task = write_task(job, parts, slurm ? slurm_head(job, parts.size()) : "", program);
     const auto submit_to = slurm ? submit_to_slurm : submit_to_parallel;
     write_script(submit, submit_to(job, task, parts.size(), program));
-    write_farm_job(job);
     return submit;
 }
 

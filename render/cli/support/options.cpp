@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
@@ -24,11 +27,17 @@ int report(std::ostream& errors, const std::string& message, int code) {
     return code;
 }
 
-/// @throws OutputError where some of what was printed is lost
+/// Ends the program as its reader has ended, such as `head` that has read enough, if some of what was printed is lost.
+/// @throws OutputError where it is lost for another reason
 void flush_results() {
     const bool printed = static_cast<bool>(std::cout.flush());
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !printed)
-        throw OutputError("standard output", "cannot write the results");
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && printed) return;
+    pollfd output{STDOUT_FILENO, 0, 0};
+    if (::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0) {
+        std::signal(SIGPIPE, SIG_DFL);
+        std::raise(SIGPIPE);
+    }
+    throw OutputError("standard output", "cannot write the results");
 }
 
 /// Returns whether a text reads as an option rather than as a value. Negative numbers are values.
@@ -36,19 +45,20 @@ bool is_option(const CLI::App& app, const std::string& text) {
     return text.starts_with("--") || (text.starts_with("-") && app.get_option_no_throw(text) != nullptr);
 }
 
-/// CLI11 takes whatever follows an option for its value, so that a forgotten file name would make a file "--aovs".
+/// Refuses an empty value, as of a variable of a script that was never set. CLI11 takes whatever follows an option for
+/// its value, so that a forgotten file name would make a file "--aovs".
 /// @throws CLI::ValidationError naming the option
-void refuse_options_as_values(const CLI::App& app) {
+void refuse_missing_values(const CLI::App& app) {
     for (const CLI::Option* option : app.get_options()) {
-        if (option->get_positional()) continue;
         for (const std::string& value : option->results()) {
-            if (!is_option(app, value)) continue;
+            if (value.empty()) throw CLI::ValidationError(option_label(*option), "its value is empty");
+            if (option->get_positional() || !is_option(app, value)) continue;
             throw CLI::ValidationError(option_label(*option),
                                        fmt::format("a value is missing before {} (a file of that name is ./{})",
                                                    printable(value), printable(value)));
         }
     }
-    for (const CLI::App* subcommand : app.get_subcommands()) refuse_options_as_values(*subcommand);
+    for (const CLI::App* subcommand : app.get_subcommands()) refuse_missing_values(*subcommand);
 }
 
 /// The subcommand that was given, or that of a subcommand; else the program.
@@ -182,7 +192,7 @@ int run_program(CLI::App& app, const Command& command, int argc, const char* con
     let_last_value_count(app);
     try {
         app.parse(argc, argv);
-        refuse_options_as_values(app);
+        refuse_missing_values(app);
     } catch (const CLI::Success& e) {  // --help, --version
         const int code = app.exit(e);
         return run_command([code] { return code; }, errors);

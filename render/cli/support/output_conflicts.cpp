@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 
 namespace aleph {
@@ -26,17 +27,10 @@ std::optional<FileNumber> file_number(const fs::path& path) {
     return FileNumber(status.st_dev, status.st_ino);
 }
 
-/// The path that is written: symbolic links are followed, those to missing files too, and so is ".." behind a folder
-/// that is yet to be made.
-fs::path written_path(fs::path path) {
-    constexpr int most_links = 40;  // as the system has it
+/// The path that is written: links are followed, and so is ".." behind a folder that is yet to be made.
+fs::path written_path(const fs::path& path) {
     std::error_code error;
-    for (int i = 0; i < most_links && fs::is_symlink(path, error); ++i) {
-        const fs::path target = fs::read_symlink(path, error);
-        if (error) break;
-        path = path.parent_path() / target;
-    }
-    const fs::path whole = fs::absolute(path, error);
+    const fs::path whole = fs::absolute(follow_links(path), error);
     const fs::path plain = fs::weakly_canonical(whole, error);
     return error ? whole.lexically_normal() : plain;
 }

@@ -6,7 +6,6 @@
 #include <optional>
 #include <system_error>
 
-#include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "render/settings/frame_pattern.h"
@@ -71,12 +70,15 @@ fs::path output_path(const std::string& pattern, const std::string& scene_name, 
     return path.parent_path() / name;
 }
 
-void prepare_output(const std::string& pattern, const std::string& scene_name, const std::vector<int>& frames) {
+std::vector<fs::path> output_paths(const std::string& pattern, const std::string& scene_name,
+                                   const std::vector<int>& frames) {
     const fs::path path = full_pattern(pattern, scene_name);
     if (!find_number_field(path.filename().string(), "--output") && frames.size() > 1) {
         refuse_pattern(pattern, fmt::format("{} frames need a number in the name, as in name.####.exr", frames.size()));
     }
-    for (const int frame : frames) try_output(output_path(pattern, scene_name, frame));
+    std::vector<fs::path> paths;
+    for (const int frame : frames) paths.push_back(output_path(pattern, scene_name, frame));
+    return paths;
 }
 
 }  // namespace aleph

@@ -23,9 +23,9 @@ std::filesystem::path output_path(const std::string& pattern, const std::string&
 /// The format that the extension of an output_path means.
 OutputFormat output_format(const std::filesystem::path& path);
 
-/// Called before anything is computed. Refuses a pattern without a number for several frames. Creates the folder of the
-/// files, with its parents, and tries every file (try_output).
-/// @throws InputError (place "--output"), OutputError
-void prepare_output(const std::string& pattern, const std::string& scene_name, const std::vector<int>& frames);
+/// The files of several frames. Refuses a pattern without a number for more than one.
+/// @throws InputError (place "--output")
+std::vector<std::filesystem::path> output_paths(const std::string& pattern, const std::string& scene_name,
+                                                const std::vector<int>& frames);
 
 }  // namespace aleph

@@ -44,6 +44,11 @@ int RenderSignals::received() const {
     return received_signal;
 }
 
+void RenderSignals::stop_if_asked() const {
+    if (received() != 0)
+        throw Stopped(received() == SIGINT ? "stopped by SIGINT" : "stopped by SIGTERM", 128 + received());
+}
+
 bool RenderSignals::take_status_request() {
     const bool requested = status_requests != 0;
     status_requests = 0;

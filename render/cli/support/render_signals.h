@@ -29,6 +29,8 @@ class RenderSignals {
 
     /// SIGTERM or SIGINT, whichever arrived first, or 0.
     int received() const;
+    /// @throws Stopped with the exit code of a program that the signal ended, if one has arrived
+    void stop_if_asked() const;
     /// Returns whether SIGUSR1 has arrived since this was called last.
     bool take_status_request();
 

@@ -139,6 +139,24 @@ TEST(Output, OU06_ExistingFileIsReplacedAndLinksAreFollowed) {
     write_file(folder / "link.txt", "three");
     EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
     EXPECT_EQ(read_bytes(folder / "a.txt"), "three");
+    fs::create_symlink("new.txt", folder / "dangling.txt");
+    write_file(folder / "dangling.txt", "four");
+    EXPECT_TRUE(fs::is_symlink(folder / "dangling.txt"));
+    EXPECT_EQ(read_bytes(folder / "new.txt"), "four");
+    fs::create_symlink("round.txt", folder / "round.txt");
+    EXPECT_NE(output_error([&] { write_file(folder / "round.txt", "five"); }).find("cannot follow the link"),
+              std::string::npos);
+}
+
+TEST(Output, OU06_WhatCannotBeWrittenIsFoundBefore) {
+    const ScratchFolder folder;
+    try_output(folder / "new/deep/a.exr");
+    EXPECT_TRUE(fs::is_empty(folder / "new/deep"));
+    std::ofstream(folder / "file") << "x";
+    fs::create_directory(folder / "new/b.exr");
+    for (const fs::path& path : {folder / "file/a.exr", folder / "new/b.exr", folder / (std::string(260, 'n') + ".exr"),
+                                 fs::path("/dev/null/a.exr")})
+        EXPECT_THROW(try_output(path), OutputError) << path;
 }
 
 constexpr std::size_t big = std::size_t{16} << 20;

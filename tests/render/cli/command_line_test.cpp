@@ -63,6 +63,8 @@ TEST(CommandLine, HelpVersionAndUsage) {
     for (const char* words : {"--help", "compare --help"}) EXPECT_THAT(printed_by_aleph(words), HasSubstr("compare"));
     expect_answer(run_aleph({}), 2, "farm; aleph --help");
     expect_answer(run_aleph({"fly"}), 2, "fly (commands: ");
+    expect_answer(run_aleph({"render", "a.json", "--frames", ""}), 2, "--frames: its value is empty");
+    expect_answer(run_aleph({"render", ""}), 2, "scene: its value is empty");
 }
 
 TEST(CommandLine, CompareTellsSameFromDifferent) {

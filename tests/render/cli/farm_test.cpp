@@ -15,10 +15,10 @@ namespace aleph {
 namespace {
 
 TEST(FrameList, IsWrittenAsItIsRead) {
-    for (const char* text : {"7", "1-4", "1-3,7,9-10", "-5--3,-1-2", "4,3,2"})
+    for (const char* text : {"7", "1-4", "1-3,7,9-10", "-5--3,-1-2", "4,3,2", "1-9x4", "1,5-6,20-40x10,7"})
         EXPECT_EQ(format_frame_list(parse_frame_list(text)), text);
     EXPECT_EQ(format_frame_list({}), "");
-    EXPECT_EQ(format_frame_list(parse_frame_list("1-9x4")), "1,5,9");
+    EXPECT_EQ(format_frame_list({1, 5, INT_MIN, INT_MAX}), "1,5,-2147483648,2147483647");
 }
 
 TEST(Farm, TasksHaveAllFramesOnceInOrder) {
@@ -142,6 +142,12 @@ TEST_F(FarmTest, MapsAndStudiesAreDividedToo) {
     EXPECT_TRUE(fs::exists(study / "report.html"));
 }
 
+TEST_F(FarmTest, SlurmWritesLogsInFoldersOfAnyName) {
+    ASSERT_EQ(run(with({"farm", "slurm"}, {"-o", out_ / "50%a/", "--tasks", "2"})).code, 0);
+    EXPECT_THAT(read_bytes(out_ / "50%a/farm/task.1.sh"), HasSubstr("/50%%a/farm/task.1-%a.log"));
+    EXPECT_THAT(read_bytes(out_ / "50%a/farm/submit.1.sh"), HasSubstr("/50%%a/farm/collate.1.log"));
+}
+
 TEST_F(FarmTest, WhatCannotBeDividedIsRefused) {
     const auto refused = [&](const Words& words, const std::string& part) { expect_answer(run(words), 2, part); };
     refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "0"}), "--tasks: expected 1 to");
@@ -149,6 +155,12 @@ TEST_F(FarmTest, WhatCannotBeDividedIsRefused) {
     refused(with({"farm", "slurm"}, {"-o", out_ / "one.exr", "--tasks", "2"}), "need a number in the name");
     refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "2", "--taks", "3"}),
             "there is no option --taks; did you mean \"--tasks\"");
+    refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "2", "--importance"}),
+            "--importance: `aleph render` has no such option, only maps");
+    refused(with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "2", "--aovs", "--command", "maps"}),
+            "--aovs: `aleph maps` has no such option, only render");
+    refused(with({"farm", "slurm"}, {"-o", out_ / "a\nb/", "--tasks", "2"}), "a name has a line break");
+    refused(with({"farm", "slurm"}, {"-o", out_ / "a\xff/", "--tasks", "2"}), "a name or a path is not UTF-8");
     refused({"farm"}, "commands: slurm, parallel, status, collate; aleph farm --help describes them");
     refused({"farm", "status", folder_.path().string()}, "there is no job of `aleph farm` in this folder");
     fs::create_directories(out_ / "farm");

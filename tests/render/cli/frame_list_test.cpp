@@ -12,6 +12,7 @@ namespace aleph {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 using Frames = std::vector<int>;
@@ -115,23 +116,13 @@ TEST(OutputPath, RefusesOtherFormatsAndStandardOutput) {
     EXPECT_EQ(output_format("x.Png"), OutputFormat::png);
 }
 
-TEST(OutputPath, PrepareMakesFoldersAndTriesFiles) {
-    const ScratchFolder folder;
-    const auto prepare = [&](const std::string& pattern) {
-        prepare_output((folder / pattern).string(), "pool", {1, 2});
-    };
-    prepare("out");
-    prepare("new/deep/a.####.exr");
-    EXPECT_TRUE(std::filesystem::is_empty(folder / "out"));
-    EXPECT_TRUE(std::filesystem::is_empty(folder / "new/deep"));
-    std::ofstream(folder / "file") << "x";
-    EXPECT_THROW(prepare("file/a.####.exr"), OutputError);
-    EXPECT_THROW(prepare(std::string(250, 'n') + ".####.exr"), OutputError);
-    std::filesystem::create_directory(folder / "out/a.0002.exr");
-    EXPECT_THROW(prepare("out/a.####.exr"), OutputError) << "the last frame's name is a folder's";
-    if (std::filesystem::exists("/proc/self")) {
-        EXPECT_THROW(prepare_output("/proc/a.exr", "pool", {1}), OutputError) << "nobody can write there";
-    }
+TEST(OutputPath, SeveralFramesNeedANumber) {
+    EXPECT_THAT(output_paths("a.#.exr", "pool", {1, 2}), ElementsAre("a.1.exr", "a.2.exr"));
+    EXPECT_THAT(output_paths("a.exr", "pool", {1}), ElementsAre("a.exr"));
+    EXPECT_THAT(find_refusal([&] {
+                    output_paths("a.exr", "pool", {1, 2});
+                }).message,
+                HasSubstr("2 frames need a number in the name"));
 }
 
 }  // namespace

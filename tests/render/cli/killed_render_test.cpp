@@ -64,6 +64,17 @@ TEST_F(KilledRender, OU07_StoppedBySignalsItLeavesWholeFramesAndNothingElse) {
     }
 }
 
+TEST_F(KilledRender, ASignalBeforeTheFirstFrameIsResumedToo) {
+    for (const Words& words : {words("1-5000", folder_ / "out/f.####.exr", {"--resume"}),
+                               Words{"maps", folder_ / "scene.json", "-o", folder_ / "out/m.####.exr", "--resume"}}) {
+        FolderEvents events(folder_ / "out");
+        StartedProgram program(words, folder_ / "log");
+        ASSERT_TRUE(events.wait(IN_CREATE, 1, program)) << "the trial of a name";
+        program.send(SIGTERM);
+        expect_answer(program.wait(), 75, "stopped by SIGTERM");
+    }
+}
+
 TEST_F(KilledRender, ASecondInterruptEndsItAtOnce) {
     FolderEvents events(folder_ / "out");
     // The frame takes longer than the test: one stage of a million samples.
@@ -227,6 +238,12 @@ TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
     EXPECT_NE(read_bytes(state), first) << "it went on";
     EXPECT_EQ(run(resumed).code, 0);
     expect_whole();
+}
+
+TEST_F(KilledRender, APictureOfSomebodyElseIsKept) {
+    std::ofstream(folder_ / "out/f.partial.exr") << "theirs";
+    ASSERT_EQ(run(words("1", folder_ / "out/f.exr")).code, 0);
+    EXPECT_EQ(read_bytes(folder_ / "out/f.partial.exr"), "theirs");
 }
 
 TEST_F(KilledRender, WhatCannotBeResumedIsSaid) {

@@ -23,11 +23,10 @@ TEST(MapsImages, GapsAreRefusedByName) {
     const std::string out = frames.out();
     expect_refusal({"--images", frames.pattern(), "-o", out},
                    {"frame 3 is missing", "f.0002.exr", "f.0004.exr", "--cuts 4"});
-    expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "2"}, {"frame 3 is missing"});
     expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "1-3"}, {"frame 3 is"});
     expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "9"}, {"frame 9 is not there", "from 1 to 4"});
     EXPECT_FALSE(fs::exists(out));
-    EXPECT_EQ(frames.run({"--frames", "1"}).code, 0);
+    for (const char* stretch : {"1", "1-2", "4"}) EXPECT_EQ(frames.run({"--frames", stretch}).code, 0) << stretch;
     EXPECT_EQ(frames.run({"--cuts", "4"}).code, 0);
 }
 
@@ -93,10 +92,25 @@ TEST(MapsImages, TheOtherFrameOfAFrame) {
     EXPECT_EQ(find_other_frame(files, cuts, 1), OtherFrame::next);
     EXPECT_EQ(find_other_frame(files, cuts, 3), OtherFrame::none);
     EXPECT_EQ(find_other_frame(files, cuts, 11), OtherFrame::previous);
-    EXPECT_THROW(find_other_frame(files, {}, 3), InputError);
+    EXPECT_EQ(find_other_frame(files, {}, 3), OtherFrame::previous) << "before a gap";
+    EXPECT_EQ(find_other_frame(files, {}, 10), OtherFrame::next) << "behind a gap";
+    EXPECT_EQ(find_other_frame({{1, "f"}, {5, "f"}}, {}, 1), OtherFrame::none);
+    EXPECT_EQ(find_other_frame(files, {2, 3}, 2), OtherFrame::none);
     EXPECT_THROW(find_other_frame(files, cuts, 4), InputError);
     EXPECT_THROW(find_other_frame({}, cuts, 4), InputError);
     EXPECT_EQ(find_other_frame({{5, "f"}}, {}, 5), OtherFrame::none);
+}
+
+TEST(MapsImages, AGapIsRefusedWhereFramesOfBothSidesAreAsked) {
+    FrameFiles files;
+    for (const int frame : {1, 2, 3, 10, 11}) files[frame] = "f";
+    EXPECT_NO_THROW(refuse_gaps(files, {}, {1, 2, 3}));
+    EXPECT_NO_THROW(refuse_gaps(files, {10}, {1, 2, 3, 10, 11}));
+    EXPECT_THAT(find_refusal([&] {
+                    refuse_gaps(files, {}, {1, 2, 3, 10, 11});
+                }).message,
+                HasSubstr("frames 4 to 9 are missing"));
+    EXPECT_THROW(refuse_gaps(files, {}, {4}), InputError);
 }
 
 }  // namespace

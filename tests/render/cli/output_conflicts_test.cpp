@@ -86,6 +86,11 @@ TEST_F(Conflicts, NoFileIsWrittenTwice) {
     expect_render_refused({"-o", out, "--stats", file("new.json"), "--cache", file("dangling.json")}, "written twice");
 }
 
+TEST_F(Conflicts, ANumberIsMissingInTheNameOfSeveralFrames) {
+    expect_answer(run_command({"render", file("sc.json"), "--frames", "1-2", "-o", file("a.exr")}), 2,
+                  "2 frames need a number in the name");
+}
+
 TEST_F(Conflicts, NoPictureThatIsComparedIsReplaced) {
     const std::string a = file("tex.png"), b = file("other.png");
     expect_refused({"compare", a, b, "--diff", a}, "--diff");
