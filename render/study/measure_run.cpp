@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/compare/compare_luminance.h"
-#include "render/compare/compare_threshold.h"
 #include "render/study/reference_picture.h"
 
 namespace aleph {
@@ -63,6 +62,59 @@ ReferenceQuality measure_reference(const FrameTruth& truth) {
     const ThresholdFigures figures = measure_error(none, truth.thresholds.front());
     if (!figures.noise) return {};
     return {figures.percent(figures.noise->expected), figures.noise->percentile_99};
+}
+
+double find_ideal_samples(const Image<float>& seen, const Image<float>& samples) {
+    std::vector<double> needed;
+    needed.reserve(seen.size());
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        needed.push_back(std::max(1.0, samples.pixels[i] * std::pow(static_cast<double>(seen.pixels[i]), 2.0)));
+    const auto kept = needed.begin() + static_cast<std::ptrdiff_t>((99 * needed.size() + 99) / 100);
+    if (kept != needed.end()) std::ranges::nth_element(needed, kept);
+    needed.erase(kept, needed.end());
+    return mean_of(needed).value;
+}
+
+std::vector<MetricValues> measure_visible(std::span<const JudgingFrame> frames, const FramePictures& pictures) {
+    std::vector<MetricValues> errors;
+    std::vector<Image<float>> samples;  // of frames that are not finished
+    std::optional<VisibleDifference> difference;
+    const auto take = [&](const std::vector<VisibleMaps>& finished) {
+        for (const VisibleMaps& maps : finished) {
+            VisibleCount count;
+            count.add(maps, frames[errors.size()].maps.find("saliency.Y"));
+            Image<float>& taken = samples[errors.size()];
+            const VisibleShares shares = count.shares();
+            MetricValues& out = errors.emplace_back(MetricValues{
+                {"share_seen", shares.seen}, {"share_flicker", shares.flicker}, {"share_lasting", shares.lasting}});
+            if (shares.noticed) out["share_noticed"] = *shares.noticed;
+            if (same_size(taken, maps.seen)) out["ideal_samples"] = find_ideal_samples(maps.seen, taken);
+            taken = {};
+        }
+    };
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (i == 0 || frames[i].scene != frames[i - 1].scene) {
+            if (difference) take(difference->finish());
+            difference.emplace(read_viewing(frames[i].maps));
+        }
+        const auto [picture, other] = pictures(i);
+        const ChannelImage reference = with_exposure_of(other, picture);
+        const Image<float>* const taken = picture.find("samples.Y");
+        samples.push_back(taken == nullptr ? Image<float>() : *taken);
+        take(difference->add(frames[i].frame, read_pair(picture, reference), read_motion(frames[i].maps)));
+    }
+    if (difference) take(difference->finish());
+    return errors;
+}
+
+void add_seed_metrics(const std::vector<JudgingFrame>& frames, const std::vector<std::string>& other,
+                      std::vector<FrameResult>& results) {
+    const std::vector<MetricValues> errors = measure_visible(
+        frames, [&](std::size_t i) { return std::pair(read_image(results.at(i).picture), read_image(other.at(i))); });
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        results.at(i).metrics["seed_seen"] = {errors[i].at("share_seen"), std::nullopt};
+        results.at(i).metrics["seed_flicker"] = {errors[i].at("share_flicker"), std::nullopt};
+    }
 }
 
 }  // namespace aleph

@@ -12,7 +12,6 @@
 #include "render/study/reference_picture.h"
 #include "render/study/run_store.h"
 #include "render/study/threshold_noise.h"
-#include "render/study/visible_metrics.h"
 
 namespace aleph {
 
@@ -228,13 +227,10 @@ class StudyRunner {
             run.errors.push_back(measure_errors(read_image(run.pictures[i]), truths[i], prepared_.metrics));
         std::size_t first = 0;
         for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();
-        const std::vector<VisibleErrors> errors =
-            measure_visible(std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
-                ChannelImage picture = read_image(run.pictures[i]);
-                ChannelImage reference = with_exposure_of(truths[i].reference, picture);
-                return std::pair(std::move(picture), std::move(reference));
-            });
-        for (std::size_t i = 0; i < errors.size(); ++i) add_visible_metrics(errors[i], run.errors[i]);
+        std::vector<MetricValues> seen =
+            measure_visible(std::span(results_.frames).subspan(first, run.frames.size()),
+                            [&](std::size_t i) { return std::pair(read_image(run.pictures[i]), truths[i].reference); });
+        for (std::size_t i = 0; i < seen.size(); ++i) run.errors[i].merge(seen[i]);
     }
 
     static std::string identity(const SceneWithSettings& own, const std::vector<int>& frames) {

@@ -3,7 +3,6 @@
 
 #include "render/study/measure_run.h"
 #include "render/study/reference_picture.h"
-#include "render/study/visible_metrics.h"
 #include "tests/support/grey_image.h"
 #include "tests/support/test.h"
 
