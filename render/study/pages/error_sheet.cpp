@@ -43,7 +43,6 @@ void write_error_sheet(const std::filesystem::path& path, const PreparedStudy& p
     for (std::size_t i = 0; i < results.frames.size(); ++i) {
         const JudgingFrame& frame = results.frames[i];
         for (const std::string& variant : variants) {
-            check_variant_name(prepared, variant);
             const auto found = std::ranges::find(results.variants, variant, &VariantResult::name);
             const ChannelImage picture = read_image(found->frames.at(i).picture);
             const LuminanceError error =

@@ -1,7 +1,7 @@
 #pragma once
 // The results of a study as one HTML file that opens from disk.
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -26,5 +26,33 @@ std::string make_report(std::string_view page, nlohmann::ordered_json json, cons
 /// How the maps of a report are shown, and the steps from a pixel's motion to its error: what the page lists.
 nlohmann::ordered_json report_maps();
 nlohmann::ordered_json report_walk(const StudyResults& results);
+
+enum class LayerType {
+    f16,  ///< half precision: what is looked at; above 65504 it is that
+    f32,  ///< what is read
+};
+
+/// The values of a layer as base64 of a zlib stream: little endian, channel after channel, row 0 on top; the bytes are
+/// sorted by significance, the least first, which makes them a quarter to a half shorter.
+/// @param channels  of one size
+std::string encode_layer(const std::vector<const Image<float>*>& channels, LayerType type);
+
+/// The layers of a page, up to a size.
+class ReportLayers {
+  public:
+    /// @param most_bytes  of all layers together
+    explicit ReportLayers(std::size_t most_bytes) : left_(most_bytes) {}
+
+    /// Adds a layer if it fits. @return what the page's data say of it, or null
+    nlohmann::ordered_json add(const std::vector<const Image<float>*>& channels, LayerType type);
+
+    std::size_t left_out() const { return left_out_; }
+    /// The elements of the page, in the order in which they were added.
+    const std::string& elements() const { return elements_; }
+
+  private:
+    std::size_t left_, count_ = 0, left_out_ = 0;
+    std::string elements_;
+};
 
 }  // namespace aleph
