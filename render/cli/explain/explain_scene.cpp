@@ -35,9 +35,9 @@ ordered_json describe_frames(const Scene& scene) {
             {"cuts", scene.film.cuts}};
 }
 
-ordered_json count_elements(const Scene& scene) {
-    std::size_t triangles = 0, instanced = 0, vertices = 0, instances = 0, animated = 0, deforming = 0, hidden = 0,
-                lights = 0, area_lights = 0;
+/// @param objects  describe_node of all nodes
+ordered_json count_elements(const Scene& scene, const ordered_json& objects) {
+    std::size_t triangles = 0, instanced = 0, vertices = 0, instances = 0, deforming = 0;
     for (const Mesh& mesh : scene.meshes) {
         triangles += mesh.triangles.size();
         vertices += mesh.positions.size();
@@ -45,15 +45,15 @@ ordered_json count_elements(const Scene& scene) {
     }
     for (const Node& node : scene.nodes) {
         instances += node.meshes.size();
-        if (is_area_light(scene, node)) ++area_lights;
-        if (node.light != no_index) ++lights;
         for (const int mesh : node.meshes) instanced += scene.meshes[mesh].triangles.size();
-        if (!list_tracks(scene, node).empty()) ++animated;
-        if (node.visible.key_count() == 1 && key_value(node.visible, 0) == 0.0) ++hidden;
     }
+    const auto count = [&](const char* key) {
+        return std::ranges::count_if(objects, [&](const ordered_json& object) { return object.contains(key); });
+    };
+    const auto area_lights = count("area_light");
     return {{"objects", scene.nodes.size()},
-            {"animated_objects", animated},
-            {"hidden_objects", hidden},
+            {"animated_objects", count("animated")},
+            {"hidden_objects", count("hidden")},
             {"meshes", scene.meshes.size()},
             {"deforming_meshes", deforming},
             {"subdivision_cages", scene.cages.size()},
@@ -63,7 +63,7 @@ ordered_json count_elements(const Scene& scene) {
             {"instanced_triangles", instanced},
             {"materials", scene.materials.size()},
             {"images", scene.images.size()},
-            {"lights", lights + area_lights},
+            {"lights", count("light") + area_lights},
             {"area_lights", area_lights},
             {"cameras", scene.cameras.size()},
             {"skins", scene.skins.size()},
@@ -202,8 +202,6 @@ ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, c
     out["frames"] = describe_frames(scene);
     describe_view(out, scene, settings, camera, frames);
     out["environment"] = describe_environment(scene);
-    out["counts"] = count_elements(scene);
-    out["bounds"] = describe_bounds(scene);
     const NodePaths paths(scene);
     ordered_json objects = ordered_json::array();
     std::vector<ordered_json> ids(scene.nodes.size(), ordered_json::array());
@@ -213,6 +211,8 @@ ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, c
         objects.push_back(describe_node(scene, i, paths));
         if (!ids[i].empty()) objects.back()["object_ids"] = ids[i];
     }
+    out["counts"] = count_elements(scene, objects);
+    out["bounds"] = describe_bounds(scene);
     ordered_json materials = describe_materials(scene);
     out["time_samplings"] = collect_samplings(objects, materials, out["environment"]);
     out["objects"] = std::move(objects);
