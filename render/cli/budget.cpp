@@ -29,16 +29,6 @@ RenderSettings settings_for_error(const Scene& scene, const SceneOptions& option
 
 }  // namespace
 
-void refuse_beside_budget(const SceneOptions& options, const std::string& cache) {
-    if (options.settings.contains("error")) {
-        throw InputError("--budget", "--error", "give one of the two: a budget chooses the error");
-    }
-    if (!cache.empty()) {
-        throw InputError("--budget", "--cache",
-                         "give one of the two: light is kept for one error, a budget chooses it");
-    }
-}
-
 void apply_budget(PreparedScene& prepared, const SceneOptions& options, Budget& budget) {
     double spent = 0.0;
     StageClock(budget.clock).add_to(spent);

@@ -16,9 +16,6 @@ struct Budget {
     StageClock clock;  ///< since the command began: loading and choosing count as well
 };
 
-/// @throws InputError (--budget) if the error is asked for as well, or a cache file, which is for one error
-void refuse_beside_budget(const SceneOptions& options, const std::string& cache);
-
 /// Measures some of the frames (cost_pilot.h) at falling errors and chooses the error. Beyond the least that a
 /// prediction needs, it goes on while all measurements are expected to take at most .15 of the budget, and while the
 /// budget is predicted to reach the last error measured.

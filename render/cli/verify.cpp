@@ -11,7 +11,6 @@ namespace aleph {
 
 namespace {
 
-constexpr std::size_t kept_pictures = std::size_t{1} << 30;  // bytes
 constexpr std::size_t least_probes = 4;
 
 std::string number(std::size_t count, const char* what) {
@@ -19,17 +18,6 @@ std::string number(std::size_t count, const char* what) {
 }
 
 }  // namespace
-
-void refuse_traced(const RenderSettings& settings) {
-    if (settings.light.integrator != Integrator::path) return;
-    throw InputError("--verify", "--integrator path",
-                     "give one of the two: frames are judged by traced paths, which tell nothing of their like; "
-                     "variance.Y of the files has the noise of each pixel");
-}
-
-PictureKeeper keep_pictures(Sequence& sequence) {
-    return {[&sequence](std::int64_t frame) { return std::move(sequence.render(frame).shaded.color); }, kept_pictures};
-}
 
 VerifiedStatistics verify_frames(VerifyRequest request, PictureKeeper& pictures, std::optional<double> estimated,
                                  const ProgressLook& look) {

@@ -13,12 +13,6 @@
 
 namespace aleph {
 
-/// @throws InputError (--verify) for frames that are path traced, as the references are that would judge them
-void refuse_traced(const RenderSettings& settings);
-
-/// Pictures of a sequence; of those that were rendered, 1 GiB is kept.
-PictureKeeper keep_pictures(Sequence& sequence);
-
 /// The frames that are checked, and for how long.
 struct VerifyRequest {
     Scene scene;

@@ -18,6 +18,12 @@
 
 namespace aleph {
 
+namespace {
+
+constexpr std::size_t kept_pictures = std::size_t{1} << 30;  // bytes, to be checked
+
+}  // namespace
+
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
                            const std::string& cache) {
     if (!options.film.empty()) film_rate(options, prepared.frames, prepared.scene.film.frame_rate);
@@ -87,7 +93,8 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
     if (verify > 0.0) judged = prepared.scene;  // with what --forbid leaves out
     Sequence sequence(std::move(prepared.scene), prepared.settings, options.camera);
     if (!cache.empty()) sequence.load_light(cache);
-    PictureKeeper pictures = keep_pictures(sequence);
+    PictureKeeper pictures([&](std::int64_t frame) { return std::move(sequence.render(frame).shaded.color); },
+                           kept_pictures);
     const auto make = [&](int frame, const FrameRequest& asked) {
         FrameOutput output = sequence.render(frame, asked);
         if (judged) pictures.keep(frame, output.shaded.color);
