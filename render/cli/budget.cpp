@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "engine/base/errors.h"
 #include "render/budget/cost_pilot.h"
 #include "render/frame/sequence.h"
 

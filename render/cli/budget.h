@@ -2,9 +2,7 @@
 // `aleph render --budget SECONDS`: the error whose frames are predicted to take that long.
 
 #include <string>
-#include <vector>
 
-#include "render/budget/cost_model.h"
 #include "render/cli/scene_options.h"
 #include "render/output/frame_files.h"
 #include "render/settings/measure.h"

@@ -1,12 +1,8 @@
 // `aleph export`: writes a scene in another format.
 
-#include <fmt/format.h>
-
-#include <iostream>
 #include <memory>
 
 #include "engine/base/atomic_file.h"
-#include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/frame_keys.h"

@@ -16,7 +16,6 @@
 #include "render/cli/support/output_path.h"
 #include "render/cli/watch.h"
 #include "render/cli/write_frames.h"
-#include "render/output/map_preview.h"
 #include "render/output/sheet.h"
 
 namespace aleph {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/parallel.h"
 #include "engine/json/load_limits.h"
 #include "render/cli/support/options.h"
 #include "render/settings/settings.h"

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/errors.h"
 #include "render/cli/support/progress.h"
 #include "render/settings/measure.h"
 #include "render/verify/probe.h"

@@ -4,13 +4,11 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "render/cli/frame_writer.h"
 #include "render/cli/scene_options.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
-#include "render/settings/measure.h"
 
 namespace aleph {
 

@@ -2,7 +2,6 @@
 // Study files: JSON, checked with scenes/studies/study.schema.json.
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 #include "render/study/study.h"

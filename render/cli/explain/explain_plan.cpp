@@ -1,9 +1,7 @@
 // The effects plan of a shot.
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 

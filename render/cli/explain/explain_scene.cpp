@@ -7,7 +7,6 @@
 #include <set>
 
 #include "engine/base/errors.h"
-#include "engine/scene/points.h"
 #include "engine/scene_file/fields.h"
 #include "render/cli/explain/explain.h"
 #include "render/frame/sequence.h"

@@ -8,7 +8,6 @@
 #include "engine/base/errors.h"
 #include "render/compare/compare_luminance.h"
 #include "render/compare/reference_passes.h"
-#include "render/images/picture_frame.h"
 #include "render/output/sheet.h"
 
 namespace aleph {
