@@ -197,25 +197,13 @@ void refuse_limits_without_luminance(const CompareResult& result, const CompareS
     }
 }
 
-/// Two pictures with values of one kind: where only one is encoded, it is decoded.
-struct Comparable {
-    Comparable(const ChannelImage& first, const ChannelImage& second)
-        : decoded(is_encoded(first) == is_encoded(second)
-                      ? std::nullopt
-                      : std::optional(decode_colour(is_encoded(first) ? first : second))),
-          a(decoded && is_encoded(first) ? *decoded : first),
-          b(decoded && is_encoded(second) ? *decoded : second) {}
-    Comparable(const Comparable&) = delete;
-
-    const std::optional<ChannelImage> decoded;
-    const ChannelImage &a, &b;
-};
-
 }  // namespace
 
-CompareResult compare_images(const ChannelImage& first, const ChannelImage& second, const CompareSettings& settings,
+CompareResult compare_images(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings,
                              const ChannelImage* aleph_map) {
-    const auto& [decoded, a, b] = Comparable(first, second);
+    // Where only one is encoded, it is decoded.
+    if (is_encoded(a) && !is_encoded(b)) return compare_images(decode_colour(a), b, settings, aleph_map);
+    if (is_encoded(b) && !is_encoded(a)) return compare_images(a, decode_colour(b), settings, aleph_map);
     const std::vector<ChannelPair> pairs = match_channels(a, b, settings.channels);
     CompareResult result;
     result.width = pairs.front().b->width;
@@ -241,8 +229,9 @@ CompareResult compare_images(const ChannelImage& first, const ChannelImage& seco
     return result;
 }
 
-Image<Rgb> difference_picture(const ChannelImage& first, const ChannelImage& second, const CompareSettings& settings) {
-    const auto& [decoded, a, b] = Comparable(first, second);
+Image<Rgb> difference_picture(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings) {
+    if (is_encoded(a) && !is_encoded(b)) return difference_picture(decode_colour(a), b, settings);
+    if (is_encoded(b) && !is_encoded(a)) return difference_picture(a, decode_colour(b), settings);
     const std::vector<ChannelPair> pairs = match_channels(a, b, settings.channels);
     const std::vector<ChannelPair> colour = colour_pairs(pairs);
     Image<Rgb> picture(pairs.front().b->width, pairs.front().b->height, Rgb(0.0f));

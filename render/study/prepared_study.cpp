@@ -10,7 +10,7 @@
 #include "engine/scene/scene_hash.h"
 #include "render/settings/frame_list.h"
 #include "render/study/effects_ledger.h"
-#include "render/study/search_candidates.h"
+#include "render/study/search_study.h"
 #include "render/study/threshold_noise.h"
 
 namespace aleph {

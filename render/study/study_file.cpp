@@ -6,7 +6,7 @@
 #include "engine/json/schema.h"
 #include "engine/json/text.h"
 #include "render/settings/frame_pattern.h"
-#include "render/study/search_candidates.h"
+#include "render/study/search_study.h"
 
 namespace aleph {
 

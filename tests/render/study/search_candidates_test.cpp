@@ -1,6 +1,6 @@
 // Which settings a search tries, and how its rounds grow.
 
-#include "render/study/search_candidates.h"
+#include "render/study/search_study.h"
 
 #include <fmt/ranges.h>
 
