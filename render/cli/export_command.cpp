@@ -57,8 +57,7 @@ constexpr const char* footer =
 void add_export_command(CLI::App& app, Command& command) {
     CLI::App* sub = app.add_subcommand("export", "write a scene as glTF, for other programs");
     const auto options = std::make_shared<ExportOptions>();
-    add_text(*sub, "scene", "SCENE", options->scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
-        ->required();
+    add_scene_argument(*sub, options->scene);
     add_text(*sub, "-o,--output", "FILE", options->output,
              "file to write: " + list_endings(scene_formats(), FormatUse::save))
         ->required();

@@ -112,12 +112,7 @@ int explain(const ExplainOptions& options) {
         print_json(explain_moment(scene, options.at));
         return exit_done;
     }
-    RenderSettings settings;
-    apply_settings(settings, scene.source.settings, options.scene);
-    SettingMap given = options.settings;
-    if (options.fingerprint) add_default_error(scene.source.settings, given);
-    set_scene_numbers(scene, given, "--set");
-    apply_settings(settings, given, "");
+    const RenderSettings settings = join_settings(scene, options.settings, options.fingerprint);
     std::vector<int> frames = options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);
     std::ranges::sort(frames);
     if (options.fingerprint) {
@@ -139,9 +134,7 @@ int explain(const ExplainOptions& options) {
 void add_explain_command(CLI::App& app, Command& command) {
     CLI::App* explain_app = app.add_subcommand("explain", "describe a scene without rendering it");
     const auto options = std::make_shared<ExplainOptions>();
-    add_text(*explain_app, "scene", "SCENE", options->scene,
-             "scene file: " + list_endings(scene_formats(), FormatUse::load))
-        ->required();
+    add_scene_argument(*explain_app, options->scene);
     explain_app->add_flag("--json", options->json, "print everything as JSON");
     explain_app->add_flag(
         "--fingerprint", options->fingerprint,
