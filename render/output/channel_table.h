@@ -10,10 +10,10 @@ namespace aleph {
 /// Channels that are described together.
 struct ChannelInfo {
     std::vector<std::string> names;
-    std::string help;        ///< for --help: a line or two
-    std::string content;     ///< what the values are; whether the exposure factor is in them
-    std::string range;       ///< unit, range and sign
-    std::string background;  ///< the value where nothing is hit
+    std::string help;                            ///< for --help: a line or two
+    std::string content;                         ///< what the values are; whether the exposure factor is in them
+    std::string range;                           ///< unit, range and sign
+    std::string background = "as for surfaces";  ///< the value where nothing is hit
 };
 
 /// All channels that files can have, in the order in which help shows them.

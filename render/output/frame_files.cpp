@@ -29,12 +29,6 @@ void add(ChannelImage& file, const std::string& name, Image<float> values) {
     if (!values.empty()) file.channels.push_back({name, std::move(values)});
 }
 
-void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& color) {
-    for (int c = 0; c < 3; ++c) {
-        add(file, prefix + "RGB"[c], pick(color, [c](const Rgb& v) { return v[c]; }));
-    }
-}
-
 std::uint32_t scramble(std::uint32_t block) {
     return std::rotl(block * 0xcc9e2d51u, 15) * 0x1b873593u;
 }
@@ -200,6 +194,12 @@ Image<float> make_importance(const Image<float>& aleph) {
     Image<float> importance(aleph.width, aleph.height);
     for (std::size_t i = 0; i < aleph.size(); ++i) importance.pixels[i] = 1.0f / aleph.pixels[i];
     return importance;
+}
+
+void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& color) {
+    for (int c = 0; c < 3; ++c) {
+        add(file, prefix + "RGB"[c], pick(color, [c](const Rgb& v) { return v[c]; }));
+    }
 }
 
 ChannelImage make_color_image(const Image<Rgb>& color) {

@@ -48,6 +48,8 @@ struct VerifiedStatistics {
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure);
 
+/// Adds the channels R, G and B with a prefix; none of an empty picture.
+void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& color);
 /// The channels R, G and B alone.
 ChannelImage make_color_image(const Image<Rgb>& color);
 

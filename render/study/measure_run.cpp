@@ -25,25 +25,25 @@ void measure_viewer(const LuminanceError& error, const Image<float>& threshold, 
 /// The indirect light of a picture as R, G and B; no channels if it has none.
 ChannelImage indirect_of(const ChannelImage& picture) {
     ChannelImage out{{}, picture.metadata};
-    constexpr std::array names = {"R", "G", "B"};
-    for (std::size_t c = 0; c < names.size(); ++c) {
-        const Image<float>* channel = picture.find(indirect_channels[c]);
+    for (const char* name : {"R", "G", "B"}) {
+        const Image<float>* channel = picture.find(std::string(indirect_layer) + name);
         if (channel == nullptr) return {};
-        out.channels.push_back({names[c], *channel});
+        out.channels.push_back({name, *channel});
     }
     return out;
 }
 
 }  // namespace
 
-MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth, const std::vector<Metric>& metrics) {
-    const ChannelImage reference = with_exposure_of(truth.reference, picture);
+MetricValues measure_errors(const ChannelImage& picture, const ChannelImage& truth,
+                            const std::vector<Image<float>>& thresholds, const std::vector<Metric>& metrics) {
+    const ChannelImage reference = with_exposure_of(truth, picture);
     MetricValues all;
     const LuminanceError error = compute_luminance_error(picture, reference);
     for (const Metric& metric : metrics) {
         const std::string suffix = metric.name.substr(std::min(metric.name.find('.'), metric.name.size()));
         if (metric.viewer < 0 || all.contains("mean_error" + suffix)) continue;
-        measure_viewer(error, truth.thresholds.at(static_cast<std::size_t>(metric.viewer)), suffix, all);
+        measure_viewer(error, thresholds.at(static_cast<std::size_t>(metric.viewer)), suffix, all);
     }
     const LuminanceDifference difference = compare_luminance(picture, reference, {});
     all["relative_mse"] = difference.without_noise();
@@ -57,9 +57,8 @@ MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth
     return all;
 }
 
-ReferenceQuality measure_reference(const FrameTruth& truth) {
-    const LuminanceError none = compute_luminance_error(truth.reference, truth.reference);
-    const ThresholdFigures figures = measure_error(none, truth.thresholds.front());
+ReferenceQuality measure_reference(const ChannelImage& reference, const Image<float>& threshold) {
+    const ThresholdFigures figures = measure_error(compute_luminance_error(reference, reference), threshold);
     if (!figures.noise) return {};
     return {figures.percent(figures.noise->expected), figures.noise->percentile_99};
 }

@@ -13,12 +13,6 @@
 
 namespace aleph {
 
-/// Reference and thresholds that the pictures of one frame are judged by.
-struct FrameTruth {
-    ChannelImage reference;                ///< R, G, B, variance.Y, and indirect.R/G/B where it has them
-    std::vector<Image<float>> thresholds;  ///< cd/m2, of each viewer
-};
-
 /// How noisy the reference itself is: the share that noise alone makes beyond the threshold, percent, and the 99th
 /// percentile of its standard error in thresholds, both of the first viewer.
 struct ReferenceQuality {
@@ -39,11 +33,15 @@ struct JudgingFrame {
 };
 
 /// The metrics of errors; those that do not apply (indirect light of a traced picture) are absent.
-/// @param picture  R, G, B, and indirect.R/G/B where it has them
+/// @param picture     R, G, B, and indirect.R/G/B where it has them
+/// @param truth       the same, and variance.Y
+/// @param thresholds  cd/m2, of each viewer
 /// @throws InputError if sizes differ
-MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth, const std::vector<Metric>& metrics);
+MetricValues measure_errors(const ChannelImage& picture, const ChannelImage& truth,
+                            const std::vector<Image<float>>& thresholds, const std::vector<Metric>& metrics);
 
-ReferenceQuality measure_reference(const FrameTruth& truth);
+/// @param threshold  of the first viewer
+ReferenceQuality measure_reference(const ChannelImage& reference, const Image<float>& threshold);
 
 /// Makes the two pictures of frame i that are compared: one and its reference, which gets the exposure of the first.
 using FramePictures = std::function<std::pair<ChannelImage, ChannelImage>(std::size_t i)>;

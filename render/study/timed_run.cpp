@@ -1,5 +1,6 @@
 #include "render/study/timed_run.h"
 
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -8,7 +9,6 @@
 #include "render/output/frame_files.h"
 #include "render/plan/effects_json.h"
 #include "render/settings/measure.h"
-#include "render/study/processor_time.h"
 #include "render/study/reference_picture.h"
 
 namespace aleph {
@@ -50,6 +50,12 @@ FrameRun describe_frame(const FrameStatistics& statistics, bool copied) {
 
 }  // namespace
 
+double processor_seconds() {
+    timespec used{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
 std::vector<FrameRun> render_run(const Scene& scene, const RenderSettings& settings, const std::vector<int>& frames,
                                  const SaveFrame& save, const std::function<void(double)>& progress) {
     std::vector<FrameRun> runs;
@@ -74,7 +80,7 @@ std::vector<FrameRun> render_run(const Scene& scene, const RenderSettings& setti
         run.wall_seconds = wall;
         run.samples = static_cast<double>(output.statistics.counts.samples) / pixels;
         ChannelImage picture = make_frame_image(output, true, sequence.scene(), settings, sequence.exposure());
-        add_indirect(picture, output.shaded);
+        add_color(picture, indirect_layer, output.shaded.indirect);
         save(frame, picture);
         runs.push_back(std::move(run));
     }

@@ -26,6 +26,10 @@ struct FrameRun {
     bool timed = true;  ///< false: another program made it, and what it took is not known
 };
 
+/// Seconds of a processor that the program has used so far, in all its threads: less disturbed by other programs than
+/// the time of a clock.
+double processor_seconds();
+
 /// Receives the picture of each frame of a run.
 using SaveFrame = std::function<void(std::int64_t frame, const ChannelImage& picture)>;
 

@@ -28,9 +28,16 @@ std::vector<Metric> all_metrics(int viewers) {
     return list_metrics(study);
 }
 
-FrameTruth truth_of(ChannelImage reference, double variance) {
+const std::vector<Image<float>> thresholds = {Image<float>(10, 10, 2.0f), Image<float>(10, 10, 0.5f)};
+
+ChannelImage truth_of(ChannelImage reference, double variance) {
     reference.channels.push_back({"variance.Y", Image<float>(10, 10, static_cast<float>(variance))});
-    return {std::move(reference), {Image<float>(10, 10, 2.0f), Image<float>(10, 10, 0.5f)}};
+    return reference;
+}
+
+MetricValues measure_errors(const ChannelImage& picture, const ChannelImage& truth,
+                            const std::vector<Metric>& metrics) {
+    return measure_errors(picture, truth, thresholds, metrics);
 }
 
 TEST(MeasureErrors, KnownDifferences) {
@@ -54,10 +61,10 @@ TEST(MeasureErrors, KnownDifferences) {
 
 TEST(MeasureErrors, NoiseOfTheReferenceIsTakenOff) {
     const double variance = 1e-4;  // standard error 1 cd/m2: half of a threshold
-    const FrameTruth truth = truth_of(grey(0.5f), variance);
+    const ChannelImage truth = truth_of(grey(0.5f), variance);
     const MetricValues values = measure_errors(grey(0.5f), truth, all_metrics(1));
     EXPECT_LT(values.at("relative_mse"), 0.0) << "less than the noise would make";
-    const ReferenceQuality quality = measure_reference(truth);
+    const ReferenceQuality quality = measure_reference(truth, thresholds.front());
     EXPECT_NEAR(quality.percentile_99, 0.5, 0.01);
     EXPECT_NEAR(quality.share_by_noise, 4.55, 0.01) << "beyond 2 standard deviations";
 }
