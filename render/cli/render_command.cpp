@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "render/cli/budget.h"
 #include "render/cli/commands.h"
 #include "render/cli/film.h"

@@ -19,8 +19,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrameRun, frame, processor_seconds, wall_seco
 
 namespace {
 
-using nlohmann::json;
-
 /// Names of files, which variants may not fit.
 std::string digest(const RunName& name) {
     return hash_bytes(fmt::format("{}\n{}\n{}\n{}", program_build(), name.identity, name.scene, name.seed))
@@ -52,22 +50,23 @@ std::optional<std::vector<FrameRun>> RunStore::find(const RunName& name, const s
     const Bytes bytes = read_regular_file(path, path.string(), "");
     std::vector<FrameRun> runs;
     try {
-        json::parse(bytes.begin(), bytes.end()).at("frames").get_to(runs);
+        nlohmann::json::parse(bytes.begin(), bytes.end()).at("frames").get_to(runs);
     } catch (const nlohmann::json::exception&) {
         throw InputError(path.string(), "",
                          "is no finished run of a study; remove it, and the study will make it again");
     }
-    const bool complete = std::ranges::equal(runs, frames, {}, &FrameRun::frame) &&
-                          std::ranges::all_of(runs, [](const FrameRun& run) { return json::accept(run.plan); });
+    const bool complete =
+        std::ranges::equal(runs, frames, {}, &FrameRun::frame) &&
+        std::ranges::all_of(runs, [](const FrameRun& run) { return nlohmann::json::accept(run.plan); });
     return complete ? std::optional(std::move(runs)) : std::nullopt;
 }
 
 void RunStore::save(const RunName& name, const std::vector<FrameRun>& frames) const {
-    const json run{{"scene", name.scene},
-                   {"variant", name.variant},
-                   {"seed", name.seed},
-                   {"repeat", name.repeat},
-                   {"frames", frames}};
+    const nlohmann::json run{{"scene", name.scene},
+                             {"variant", name.variant},
+                             {"seed", name.seed},
+                             {"repeat", name.repeat},
+                             {"frames", frames}};
     write_file(file(name), run.dump(1) + "\n");
 }
 
