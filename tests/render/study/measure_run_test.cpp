@@ -105,7 +105,9 @@ TEST(ReferencePicture, IsTheMeanOfItsPassesWithItsVariance) {
 TEST(ReferencePicture, FollowsTheExposure) {
     ChannelImage mean;
     for (const float value : {1.0f, 3.0f}) add_pass(mean, grey_picture({value}));
-    const ChannelImage brighter = with_exposure(mean, 2.0);
+    ChannelImage other;
+    other.metadata["exposureFactor"] = 2.0;
+    const ChannelImage brighter = with_exposure_of(mean, other);
     EXPECT_NEAR(brighter.find("R")->pixels[0], 4.0, 1e-6);
     EXPECT_NEAR(brighter.find("variance.Y")->pixels[0], 4.0 * mean.find("variance.Y")->pixels[0], 1e-6);
 }
