@@ -17,14 +17,6 @@ namespace aleph {
 /// begin shots.
 std::vector<int> choose_planned_frames(const Scene& scene);
 
-/// The effects plan of these frames, in ascending order: for each effect, frames one after the other with the same
-/// decision, with the largest bound and its reason.
-nlohmann::ordered_json explain_plan(Sequence& sequence, const std::vector<int>& frames);
-
-/// @param plan    explain_plan
-/// @param frames  of which it is
-std::string plan_text(const nlohmann::ordered_json& plan, const nlohmann::ordered_json& frames);
-
 /// Frames, camera, exposure, environment, counts, bounds, objects, time samplings, materials, images, unused elements,
 /// warnings.
 /// @param camera  name, or empty for the scene's own choice
