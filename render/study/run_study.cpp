@@ -10,7 +10,6 @@
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
 #include "render/study/reference_picture.h"
-#include "render/study/run_store.h"
 #include "render/study/threshold_noise.h"
 
 namespace aleph {
