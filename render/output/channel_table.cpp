@@ -1,7 +1,5 @@
 #include "render/output/channel_table.h"
 
-#include <fmt/format.h>
-
 namespace aleph {
 
 const std::vector<ChannelInfo>& channel_table() {
@@ -154,10 +152,6 @@ const std::vector<ChannelInfo>& channel_table() {
          "0"},
     };
     return table;
-}
-
-std::string describe_channel(const ChannelInfo& info) {
-    return fmt::format("{}; {}; background: {}", info.content, info.range, info.background);
 }
 
 }  // namespace aleph

@@ -19,7 +19,4 @@ struct ChannelInfo {
 /// All channels that files can have, in the order in which help shows them.
 const std::vector<ChannelInfo>& channel_table();
 
-/// "motion to the next frame; pixels, ...; background: 0", for the attribute "channel:NAME" of EXR files.
-std::string describe_channel(const ChannelInfo& info);
-
 }  // namespace aleph

@@ -72,7 +72,9 @@ void add_cryptomatte(ChannelImage& file, const Image<Hit>& hits, const Scene& sc
 void add_descriptions(ChannelImage& file) {
     for (const ChannelInfo& info : channel_table()) {
         for (const std::string& name : info.names) {
-            if (file.find(name) != nullptr) file.metadata["channel:" + name] = describe_channel(info);
+            if (file.find(name) == nullptr) continue;
+            file.metadata["channel:" + name] =
+                fmt::format("{}; {}; background: {}", info.content, info.range, info.background);
         }
     }
 }

@@ -1,4 +1,4 @@
-#include "render/study/pages/error_sheet.h"
+#include "render/study/pages/pages.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "perception/vision/band_frequencies.h"
-#include "render/study/pages/report_page.h"
+#include "render/study/pages/pages.h"
 
 namespace aleph {
 

@@ -1,4 +1,4 @@
-#include "render/study/pages/report_page.h"
+#include "render/study/pages/pages.h"
 
 #include <Imath/half.h>
 #include <OpenImageIO/strutil.h>

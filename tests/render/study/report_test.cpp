@@ -8,8 +8,7 @@
 
 #include "engine/gltf/files.h"
 #include "engine/image/image_file.h"
-#include "render/study/pages/report_page.h"
-#include "render/study/pages/viewer_page.h"
+#include "render/study/pages/pages.h"
 #include "tests/render/expect_fields.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"

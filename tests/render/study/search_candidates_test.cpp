@@ -4,7 +4,7 @@
 
 #include <fmt/ranges.h>
 
-#include "render/study/study_file.h"
+#include "render/study/study.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -1,11 +1,14 @@
 #pragma once
-// The results of a study as one HTML file that opens from disk.
+// The results of a study for people: as HTML files that open from disk, and as a picture.
 
-#include <nlohmann/json.hpp>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "render/study/run_study.h"
+#include "render/study/study_files.h"
 
 namespace aleph {
 
@@ -54,5 +57,29 @@ class ReportLayers {
     std::size_t left_, count_ = 0, left_out_ = 0;
     std::string elements_;
 };
+
+/// The bundled page with a place for data; empty where the program was built without it.
+std::string_view viewer_template();
+
+/// The viewer test of a study as one HTML file: do people see what the models of vision say? (Yee 2000, 7.1, asked a
+/// panel of viewers.) Each trial shows the reference and a variant, one after the other, and asks which had the errors.
+/// The page has the frames of the study's scenes, in their order, as 8-bit sRGB pictures, with the viewing conditions
+/// of each scene. The level of a variant is the factor of its noise, or its value of the first sweep with numbers;
+/// without one there is none, and no function is fitted.
+/// @param page  viewer_template()
+/// @throws InputError if a picture of a run cannot be read
+std::string make_viewer_test(std::string_view page, const PreparedStudy& prepared, const StudyResults& results,
+                             const StudyContext& context);
+
+/// @throws InputError (--errors) if no variant has this name
+void check_variant_name(const PreparedStudy& prepared, const std::string& variant);
+
+/// A row per frame: for each variant its picture, and for each viewer the error of its luminance in visible thresholds,
+/// .1 to 10.
+/// @param path      PNG, or JPEG if it ends in .jpg
+/// @param variants  names of variants (check_variant_name)
+/// @throws OutputError
+void write_error_sheet(const std::filesystem::path& path, const PreparedStudy& prepared, const StudyResults& results,
+                       const std::vector<std::string>& variants);
 
 }  // namespace aleph
