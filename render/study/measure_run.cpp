@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/compare/compare_luminance.h"
+#include "render/compare/compare_sequence.h"
 #include "render/study/reference_picture.h"
 
 namespace aleph {

@@ -7,8 +7,8 @@
 #include <functional>
 #include <span>
 
+#include "engine/image/image_file.h"
 #include "perception/vision/band_frequencies.h"
-#include "render/compare/compare_sequence.h"
 #include "render/study/study_results.h"
 
 namespace aleph {

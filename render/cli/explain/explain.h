@@ -24,6 +24,13 @@ std::vector<int> choose_planned_frames(const Scene& scene);
 nlohmann::ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, const std::string& camera,
                                      const std::vector<int>& frames);
 
+/// For each object path at one time: `world` (16 numbers, row by row, v' = M v), `visible`, `bounds` of its own meshes
+/// in the world (null without meshes) and, for meshes, `points`: their count and the first six in object space.
+nlohmann::ordered_json explain_moment(const Scene& scene, double seconds);
+
+/// @param frames  of which the plan is
+std::string plan_text(const nlohmann::ordered_json& plan, const nlohmann::ordered_json& frames);
+
 /// @param max_objects  number of objects listed; 0: all
 std::string explain_text(const nlohmann::ordered_json& explained, std::size_t max_objects);
 

@@ -19,9 +19,9 @@
 
 namespace aleph {
 
-namespace {
-
 using nlohmann::ordered_json;
+
+namespace {
 
 struct ExplainOptions {
     std::string scene, camera, frames;
@@ -69,8 +69,8 @@ ordered_json describe_points(const Scene& scene, const ScenePose& posed_scene, c
     return {{"count", count}, {"first", std::move(first)}};
 }
 
-/// For each object path at one time: `world` (16 numbers, row by row, v' = M v), `visible`, `bounds` of its own meshes
-/// in the world (null without meshes) and, for meshes, `points`: their count and the first six in object space.
+}  // namespace
+
 ordered_json explain_moment(const Scene& scene, double seconds) {
     const ScenePose posed_scene = pose(scene, seconds);
     const NodePaths paths(scene);
@@ -87,6 +87,8 @@ ordered_json explain_moment(const Scene& scene, double seconds) {
     }
     return {{"seconds", seconds}, {"objects", std::move(objects)}};
 }
+
+namespace {
 
 Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
     try {

@@ -172,7 +172,8 @@ std::string bound_text(const ordered_json& bound) {
     return fmt::format("{} cd/m2, {} thresholds", number(bound["luminance"]), number(bound["thresholds"]));
 }
 
-/// @param frames  of which the plan is
+}  // namespace
+
 std::string plan_text(const ordered_json& plan, const ordered_json& frames) {
     if (plan.empty()) return {};
     std::string text = fmt::format("\neffects plan, of frame{} {}\n", frames.size() == 1 ? "" : "s", frames.dump());
@@ -190,8 +191,6 @@ std::string plan_text(const ordered_json& plan, const ordered_json& frames) {
     }
     return text;
 }
-
-}  // namespace
 
 std::string explain_text(const ordered_json& explained, std::size_t max_objects) {
     std::string text = fmt::format("{}\n", printable(explained["file"].get<std::string>(), 300));
