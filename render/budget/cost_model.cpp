@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+
+#include "engine/base/errors.h"
 
 namespace aleph {
 
@@ -53,23 +54,6 @@ double extrapolate_light(std::vector<LightSeconds> light, double LightSeconds::*
     return large.*seconds * std::pow(large.pixels, std::clamp(exponent, least_exponent, most_exponent));
 }
 
-bool is_time(double seconds) {
-    return seconds >= 0.0 && std::isfinite(seconds);
-}
-
-void check(const PilotSeconds& pilot, double error) {
-    if (pilot.parts.empty()) throw std::invalid_argument("a cost needs a pilot");
-    if (!(error > 0.0) || !std::isfinite(error)) throw std::invalid_argument("the error of a cost is not above 0");
-    bool valid = is_time(pilot.start) && is_time(pilot.before) && pilot.share > 0.0 && is_time(pilot.keyframes);
-    for (const PartSeconds& part : pilot.parts) {
-        valid &= part.error > 0.0 && std::isfinite(part.error) && is_time(part.fill) && is_time(part.shade);
-    }
-    for (const LightSeconds& light : pilot.light) {
-        valid &= light.pixels > 0.0 && is_time(light.fill) && is_time(light.keyframes);
-    }
-    if (!valid) throw std::invalid_argument("a pilot's error or seconds are out of range");
-}
-
 }  // namespace
 
 // Means of four fits: build/study_cost scenes/cornell/scene.json@15 scenes/pool/scene.json@20
@@ -81,7 +65,7 @@ CostCoefficients fitted_coefficients() {
 
 CostParts predict_seconds(const PilotSeconds& pilot, const CostRatios& ratios, const CostCoefficients& coefficients,
                           double error) {
-    check(pilot, error);
+    ALEPH_CHECK(!pilot.parts.empty(), "a cost needs a pilot");
     const std::vector<PartSeconds> parts = sort_parts(pilot.parts);
     const double light = find_growth(parts, &PartSeconds::fill, coefficients.light_exponent, error) / pilot.share;
     const double shade =

@@ -59,8 +59,6 @@ struct CostParts {
 /// Predicted seconds at an error. No part falls where the error does. Above the largest error of the pilot nothing
 /// falls.
 /// @param error  above 0
-/// @throws std::invalid_argument for a pilot without parts, and for an error or a time that is not finite or out of
-/// range
 CostParts predict_seconds(const PilotSeconds& pilot, const CostRatios& ratios, const CostCoefficients& coefficients,
                           double error);
 

@@ -20,6 +20,22 @@ constexpr int most_every = 8;
 constexpr double light_growth = 4.0;  // seconds, from one small picture to the next
 constexpr double part_growth = 2.0;   // seconds, from one error to the next
 
+/// How many lighting keyframes the frames read, jumps of the light not counted.
+/// @param scene  of the Sequence, whose cuts include changes of the camera
+std::size_t count_keyframes(const Scene& scene, const RenderSettings& settings,
+                            const std::vector<std::int64_t>& frames) {
+    const bool has_indirect =
+        settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
+    if (settings.cache.light_step == 0 || settings.light.integrator != Integrator::cache || !has_indirect) return 0;
+    const LightingKeyframes keyframes{frame_range(scene), scene.film.cuts, settings.cache.light_step, {}};
+    std::set<std::int64_t> read;
+    for (const std::int64_t frame : frames) {
+        const KeyframePair pair = find_keyframes(keyframes, frame);
+        read.insert({pair.before, pair.after});
+    }
+    return read.size();
+}
+
 /// Times light in a picture of this scale, in which angles stay the same, and so velocities.
 LightSeconds time_light(const PilotRequest& request, double scale) {
     Scene scene = request.scene;
@@ -118,20 +134,6 @@ Pilot run_pilot(const PilotRequest& request) {
     clock.add_to(pilot.seconds.start);
     time_parts(request, sequence, pilot);
     return pilot;
-}
-
-std::size_t count_keyframes(const Scene& scene, const RenderSettings& settings,
-                            const std::vector<std::int64_t>& frames) {
-    const bool has_indirect =
-        settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
-    if (settings.cache.light_step == 0 || settings.light.integrator != Integrator::cache || !has_indirect) return 0;
-    const LightingKeyframes keyframes{frame_range(scene), scene.film.cuts, settings.cache.light_step, {}};
-    std::set<std::int64_t> read;
-    for (const std::int64_t frame : frames) {
-        const KeyframePair pair = find_keyframes(keyframes, frame);
-        read.insert({pair.before, pair.after});
-    }
-    return read.size();
 }
 
 CostRatios find_cost_ratios(const Scene& scene, const RenderSettings& settings, const std::vector<int>& frames,

@@ -40,11 +40,6 @@ struct Pilot {
 /// @throws InputError as Sequence
 Pilot run_pilot(const PilotRequest& request);
 
-/// How many lighting keyframes the frames read, jumps of the light not counted.
-/// @param scene  of the Sequence, whose cuts include changes of the camera
-std::size_t count_keyframes(const Scene& scene, const RenderSettings& settings,
-                            const std::vector<std::int64_t>& frames);
-
 /// Finds the numbers of a list of frames, relative to its pilot.
 /// @param pilot_frames  choose_pilot_frames
 CostRatios find_cost_ratios(const Scene& scene, const RenderSettings& settings, const std::vector<int>& frames,

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "engine/base/errors.h"
 #include "render/budget/cost_pilot.h"
 #include "render/frame/sequence.h"
 
@@ -16,28 +13,13 @@ constexpr double pilot_errors[] = {most_budget_error, 2.0, 1.0, 0.5, 0.25, least
 constexpr double pilot_share = 0.15;  // of the budget
 
 /// The settings with which the frames would have this error: as --error would set them.
-RenderSettings settings_for_error(const Scene& scene, const SceneOptions& options, double error) {
-    RenderSettings settings;
-    apply_settings(settings, scene.source.settings, options.scene);
+RenderSettings settings_for_error(Scene& scene, const SceneOptions& options, double error) {
     SettingMap given = options.settings;
-    Scene numbers;
-    set_scene_numbers(numbers, given, "--set");  // prepare_scene has given them to the scene
     given["error"] = error;
-    apply_settings(settings, given, "");
-    return settings;
+    return join_settings(scene, std::move(given), false);
 }
 
 }  // namespace
-
-void refuse_beside_budget(const SceneOptions& options, const std::string& cache) {
-    if (options.settings.contains("error")) {
-        throw InputError("--budget", "--error", "give one of the two: a budget chooses the error");
-    }
-    if (!cache.empty()) {
-        throw InputError("--budget", "--cache",
-                         "give one of the two: light is kept for one error, a budget chooses it");
-    }
-}
 
 void apply_budget(PreparedScene& prepared, const SceneOptions& options, Budget& budget) {
     double spent = 0.0;

@@ -2,9 +2,7 @@
 // `aleph render --budget SECONDS`: the error whose frames are predicted to take that long.
 
 #include <string>
-#include <vector>
 
-#include "render/budget/cost_model.h"
 #include "render/cli/scene_options.h"
 #include "render/output/frame_files.h"
 #include "render/settings/measure.h"
@@ -15,9 +13,6 @@ struct Budget {
     BudgetStatistics statistics;
     StageClock clock;  ///< since the command began: loading and choosing count as well
 };
-
-/// @throws InputError (--budget) if the error is asked for as well, or a cache file, which is for one error
-void refuse_beside_budget(const SceneOptions& options, const std::string& cache);
 
 /// Measures some of the frames (cost_pilot.h) at falling errors and chooses the error. Beyond the least that a
 /// prediction needs, it goes on while all measurements are expected to take at most .15 of the budget, and while the

@@ -1,12 +1,8 @@
 // `aleph export`: writes a scene in another format.
 
-#include <fmt/format.h>
-
-#include <iostream>
 #include <memory>
 
 #include "engine/base/atomic_file.h"
-#include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/frame_keys.h"
@@ -61,8 +57,7 @@ constexpr const char* footer =
 void add_export_command(CLI::App& app, Command& command) {
     CLI::App* sub = app.add_subcommand("export", "write a scene as glTF, for other programs");
     const auto options = std::make_shared<ExportOptions>();
-    add_text(*sub, "scene", "SCENE", options->scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
-        ->required();
+    add_scene_argument(*sub, options->scene);
     add_text(*sub, "-o,--output", "FILE", options->output,
              "file to write: " + list_endings(scene_formats(), FormatUse::save))
         ->required();

@@ -7,7 +7,7 @@
 #include "engine/image/image_file.h"
 #include "render/cli/support/output_path.h"
 #include "render/output/frame_files.h"
-#include "render/output/map_preview.h"
+#include "render/output/sheet.h"
 #include "render/settings/fingerprint.h"
 #include "render/settings/measure.h"
 

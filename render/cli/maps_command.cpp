@@ -10,6 +10,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "engine/base/parallel.h"
 #include "engine/image/image_file.h"
 #include "engine/scene/scene_hash.h"
 #include "render/cli/commands.h"

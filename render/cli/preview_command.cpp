@@ -17,7 +17,6 @@
 #include "render/cli/support/render_signals.h"
 #include "render/cli/watch.h"
 #include "render/cli/write_frames.h"
-#include "render/output/map_preview.h"
 #include "render/output/sheet.h"
 
 namespace aleph {

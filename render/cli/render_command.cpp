@@ -3,10 +3,10 @@
 #include <iostream>
 
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "render/cli/budget.h"
 #include "render/cli/commands.h"
 #include "render/cli/film.h"
-#include "render/cli/verify.h"
 #include "render/cli/watch.h"
 #include "render/cli/write_frames.h"
 
@@ -62,6 +62,25 @@ void refuse_beside_resume(bool budget, bool verify) {
     }
     if (verify)
         throw InputError("", "--resume", "--verify checks the frames that it renders; render all of them with it");
+}
+
+/// @throws InputError if the error is asked for as well, or a cache file, which is for one error
+void refuse_beside_budget(const SceneOptions& options, const std::string& cache) {
+    if (options.settings.contains("error")) {
+        throw InputError("--budget", "--error", "give one of the two: a budget chooses the error");
+    }
+    if (!cache.empty()) {
+        throw InputError("--budget", "--cache",
+                         "give one of the two: light is kept for one error, a budget chooses it");
+    }
+}
+
+/// @throws InputError for frames that are path traced, as the references are that would judge them
+void refuse_traced(const RenderSettings& settings) {
+    if (settings.light.integrator != Integrator::path) return;
+    throw InputError("--verify", "--integrator path",
+                     "give one of the two: frames are judged by traced paths, which tell nothing of their like; "
+                     "variance.Y of the files has the noise of each pixel");
 }
 
 struct RenderOptions {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <map>
 
@@ -150,6 +149,10 @@ void add_load_limits(CLI::App& app, LoadLimits& limits) {
         ->default_str(fmt::format("{}", limits.memory >> 20));
 }
 
+void add_scene_argument(CLI::App& app, std::string& scene) {
+    add_text(app, "scene", "SCENE", scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))->required();
+}
+
 void add_setting_options(CLI::App& app, SettingMap& settings) {
     for (const Setting& setting : setting_table()) add_setting_option(app, setting);
     add_full_help(app);
@@ -163,8 +166,7 @@ void add_setting_options(CLI::App& app, SettingMap& settings) {
 }
 
 void add_shot_options(CLI::App& app, SceneOptions& options, const std::string& output_help) {
-    add_text(app, "scene", "SCENE", options.scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
-        ->required();
+    add_scene_argument(app, options.scene);
     add_text(app, "--frames", "LIST", options.frames,
              "frames, such as 1-10,20-40x2 (x2: every second); default: the scene's range");
     add_text(app, "-o,--output", "PATTERN", options.output, output_help);
@@ -204,6 +206,15 @@ int find_threads(int given) {
     return std::clamp(cpus, 0, max_threads);
 }
 
+RenderSettings join_settings(Scene& scene, SettingMap given, bool keeps_to_error) {
+    RenderSettings settings;
+    if (keeps_to_error) add_default_error(scene.source.settings, given);
+    apply_settings(settings, scene.source.settings, scene.source.file);
+    set_scene_numbers(scene, given, "--set");
+    apply_settings(settings, given, "");
+    return settings;
+}
+
 PreparedScene prepare_scene(const SceneOptions& options) {
     check_threads(options.threads);
     PreparedScene prepared;
@@ -214,11 +225,7 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     }
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) scene.film.frame_rate = parse_fps(options.fps);
-    SettingMap given = options.settings;
-    if (options.keeps_to_error) add_default_error(scene.source.settings, given);
-    apply_settings(prepared.settings, scene.source.settings, options.scene);
-    set_scene_numbers(scene, given, "--set");
-    apply_settings(prepared.settings, given, "");
+    prepared.settings = join_settings(scene, options.settings, options.keeps_to_error);
     if (!options.quiet) print_warnings(scene.source.warnings);
     const FrameRange range = frame_range(scene);
     if (options.frames.empty()) {

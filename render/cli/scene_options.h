@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/parallel.h"
 #include "engine/json/load_limits.h"
 #include "render/cli/support/options.h"
 #include "render/settings/settings.h"
@@ -47,6 +46,9 @@ int find_threads(int given);
 /// Adds --load-memory.
 void add_load_limits(CLI::App& app, LoadLimits& limits);
 
+/// Adds the scene file, which is required.
+void add_scene_argument(CLI::App& app, std::string& scene);
+
 /// "30", "29.97" or "30000/1001".
 /// @throws InputError (--fps)
 FrameRate parse_fps(const std::string& text);
@@ -54,7 +56,13 @@ FrameRate parse_fps(const std::string& text);
 /// Behind the name of files of maps, to keep them apart from the pictures in the same folder.
 inline constexpr const char* maps_suffix = "-maps";
 
-/// A scene with its settings: the defaults, overwritten by the scene file's, overwritten by the command line's.
+/// The defaults, overwritten by the scene file's settings, overwritten by the command line's. Numbers of the scene
+/// among these are set there.
+/// @param keeps_to_error  as SceneOptions has it
+/// @throws InputError
+RenderSettings join_settings(Scene& scene, SettingMap given, bool keeps_to_error);
+
+/// A scene with its settings.
 struct PreparedScene {
     Scene scene;
     RenderSettings settings;

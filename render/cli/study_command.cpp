@@ -18,10 +18,10 @@
 #include "render/settings/frame_pattern.h"
 #include "render/settings/setting_table.h"
 #include "render/study/effects_ledger.h"
-#include "render/study/pages/error_sheet.h"
+#include "render/study/pages/pages.h"
 #include "render/study/prepared_study.h"
 #include "render/study/search_study.h"
-#include "render/study/study_file.h"
+#include "render/study/study.h"
 
 namespace aleph {
 

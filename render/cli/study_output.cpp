@@ -12,9 +12,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "render/study/pages/error_sheet.h"
-#include "render/study/pages/report_page.h"
-#include "render/study/pages/viewer_page.h"
+#include "render/study/pages/pages.h"
 #include "render/study/search_study.h"
 
 namespace aleph {

@@ -13,10 +13,43 @@
 #include "render/cli/film.h"
 #include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/output_path.h"
-#include "render/cli/verify.h"
 #include "render/settings/fingerprint.h"
+#include "render/verify/probe.h"
 
 namespace aleph {
+
+namespace {
+
+constexpr std::size_t kept_pictures = std::size_t{1} << 30;  // bytes, to be checked
+constexpr std::size_t least_probes = 4;
+
+std::string number(std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// Checks the frames in random places for so many seconds.
+/// @param scene     with what --forbid leaves out
+/// @param prepared  says how the frames were rendered
+VerifiedStatistics verify_frames(Scene scene, const PreparedScene& prepared, const SceneOptions& options,
+                                 PictureKeeper& pictures, double wanted) {
+    StageClock clock;
+    double seconds = 0.0;
+    Prober prober(std::move(scene), prepared.settings, options.camera, {prepared.frames.begin(), prepared.frames.end()},
+                  pictures);
+    std::vector<ProbeResult> probes;
+    Progress progress("verify", wanted, progress_look(options.quiet));
+    while (probes.size() < least_probes || seconds < wanted) {
+        probes.push_back(prober.measure(probes.size()));
+        clock.add_to(seconds);
+        const double of_least = static_cast<double>(probes.size()) / static_cast<double>(least_probes);
+        progress.update(wanted * std::min(seconds / wanted, of_least), number(probes.size(), "block"));
+    }
+    VerifiedStatistics verified = sum_up(probes, prepared.settings.error > 0.0 ? prepared.settings.error : 1.0);
+    verified.seconds = seconds;
+    return verified;
+}
+
+}  // namespace
 
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
                            const std::string& cache) {
@@ -83,7 +116,8 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
     if (verify > 0.0) judged = prepared.scene;  // with what --forbid leaves out
     Sequence sequence(std::move(prepared.scene), prepared.settings, options.camera);
     if (!cache.empty()) sequence.load_light(cache);
-    PictureKeeper pictures = keep_pictures(sequence);
+    PictureKeeper pictures([&](std::int64_t frame) { return std::move(sequence.render(frame).shaded.color); },
+                           kept_pictures);
     const auto make = [&](int frame, const FrameRequest& asked) {
         FrameOutput output = sequence.render(frame, asked);
         if (judged) pictures.keep(frame, output.shaded.color);
@@ -94,8 +128,9 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
     if (judged) {
         judged->film.exposure = sequence.exposure();
         job.verify = [&](std::optional<double> estimated) {
-            return verify_frames({std::move(*judged), prepared.settings, options.camera, prepared.frames, verify},
-                                 pictures, estimated, progress_look(options.quiet));
+            VerifiedStatistics verified = verify_frames(std::move(*judged), prepared, options, pictures, verify);
+            verified.estimated = estimated;
+            return verified;
         };
     }
     write_frames(job, options, request);
@@ -115,6 +150,30 @@ FramePrints fingerprint_frames(const PreparedScene& prepared, const SceneOptions
     const std::string text =
         fmt::format("{}\n{}\n{}", format_fingerprint(print), hash_bytes(names), describe_content(options, request));
     return {hash_bytes(text), [=](int frame) { return hash_bytes(fmt::format("{}\n{}", text, frame)); }};
+}
+
+std::string describe_verified(const VerifiedStatistics& verified) {
+    const std::string differ = verified.error == 1.0
+                                   ? "are seen to differ"
+                                   : fmt::format("differ by more than {:g} visible differences", verified.error);
+    std::string text = fmt::format("aleph: verified: {} % of the pixels {} (95 %: {} to {} %, {} in {})",
+                                   format_percent(verified.beyond.share), differ, format_percent(verified.beyond.low),
+                                   format_percent(verified.beyond.high), number(verified.blocks, "block"),
+                                   number(verified.frames, "frame"));
+    if (verified.estimated) text += fmt::format(", estimated: {} %", format_percent(*verified.estimated));
+    text += "\naleph: verified: ";
+    if (verified.error != 1.0)
+        text += fmt::format("{} % are seen to differ (95 %: {} to {} %), ", format_percent(verified.seen.share),
+                            format_percent(verified.seen.low), format_percent(verified.seen.high));
+    text += fmt::format("{} % flicker, {} % last; by paths of 16 bounces or more, over {}\n",
+                        format_percent(verified.flicker.share), format_percent(verified.lasting.share),
+                        number(verified.window, "frame"));
+    if (verified.unsettled > 0) {
+        text +=
+            fmt::format("aleph: verified: in {} noise of the paths was left, so that their shares are less certain\n",
+                        number(verified.unsettled, "block"));
+    }
+    return text;
 }
 
 }  // namespace aleph

@@ -4,13 +4,11 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "render/cli/frame_writer.h"
 #include "render/cli/scene_options.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
-#include "render/settings/measure.h"
 
 namespace aleph {
 
@@ -42,9 +40,13 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
 /// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.
 /// @param cache  file that keeps the light of lighting keyframes; empty: none
 /// @param budget  what they are to take; printed afterwards beside what they took
-/// @param verify  seconds to check them afterwards (verify.h); 0: not at all
+/// @param verify  seconds to check them afterwards, of a clock; at least four probes are measured; 0: not at all
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
                    const std::string& cache = "", const std::optional<Budget>& budget = std::nullopt,
                    double verify = 0.0);
+
+/// "verified: 0.8 % of the pixels are seen to differ (95 %: 0.3 to 1.6 %, 23 blocks in 12 frames), estimated: 0.9 %",
+/// and what was judged.
+std::string describe_verified(const VerifiedStatistics& verified);
 
 }  // namespace aleph

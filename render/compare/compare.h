@@ -79,7 +79,9 @@ struct CompareResult {
 
 /// Compares `a` with the reference `b`. The same: no NaN or infinity in either (not even in both), at most `share`
 /// percent of the pixels beyond the tolerance or, where an Aleph map is given, beyond its threshold, and no other limit
-/// exceeded. compare_channels.h says which channels count.
+/// exceeded. `variance.Y` and `error.*` say how certain a picture is and are compared only if they are named.
+/// `samples.Y`, `records.Y`, `invalid.Y`, `cache.count` and `cache.radius` say how a picture was made: they are left
+/// out if only one picture has them.
 /// 8-bit pictures count as sRGB for luminance, and beside a picture that is linear.
 /// @param aleph_map  holds `threshold.Y` in cd/m2, or null
 /// @throws InputError if sizes or channels differ, a named channel is missing, or a limit needs R, G and B or

@@ -53,12 +53,9 @@ void add_pass(ChannelImage& mean, const ChannelImage& pass) {
 }
 
 ChannelImage with_exposure_of(ChannelImage picture, const ChannelImage& other) {
-    const std::optional<double> exposure = find_number(other, exposure_key);
-    return exposure ? with_exposure(std::move(picture), *exposure) : picture;
-}
-
-ChannelImage with_exposure(ChannelImage picture, double exposure) {
-    const double had = find_number(picture, exposure_key).value_or(exposure);
+    const std::optional<double> wanted = find_number(other, exposure_key);
+    if (!wanted) return picture;
+    const double exposure = *wanted, had = find_number(picture, exposure_key).value_or(exposure);
     if (had == exposure) return picture;
     for (Channel& channel : picture.channels) {
         const double scale = channel.name == "variance.Y" ? exposure / had * exposure / had : exposure / had;

@@ -13,9 +13,7 @@ double reference_passes(const ChannelImage& reference);
 /// an even number of renderings noise like the mean's own (read_noise).
 void add_pass(ChannelImage& mean, const ChannelImage& pass);
 
-/// As it would be with another factor on radiance.
-ChannelImage with_exposure(ChannelImage picture, double exposure);
-/// With the factor of another picture, if that has one.
+/// As it would be with the factor on radiance of another picture, if that has one.
 ChannelImage with_exposure_of(ChannelImage picture, const ChannelImage& other);
 
 }  // namespace aleph

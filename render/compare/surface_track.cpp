@@ -41,7 +41,8 @@ std::optional<glm::vec2> motion_at(const MotionMaps& maps, glm::vec2 p, float ob
             const glm::vec2 at{left + static_cast<float>(dx), top + static_cast<float>(dy)};
             const float weight = (1.0f - std::abs(p.x - at.x)) * (1.0f - std::abs(p.y - at.y));
             const auto i = nearest(maps.u, at);
-            if (weight <= 0.0f || !i || !moves_as_told(maps.valid.pixels[*i]) || object_at(maps, *i) != object) continue;
+            if (weight <= 0.0f || !i || !moves_as_told(maps.valid.pixels[*i]) || object_at(maps, *i) != object)
+                continue;
             sum += weight * glm::vec2{maps.u.pixels[*i], -maps.v.pixels[*i]};
             weights += weight;
         }

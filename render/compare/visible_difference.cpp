@@ -166,7 +166,8 @@ VisibleMaps VisibleDifference::measure(std::size_t index) const {
 
     const int width = frame.motion.u.width, height = frame.motion.u.height;
     const std::vector<LevelSize> sizes = pyramid_sizes(width, height, shapes_.back().level + 1);
-    VisibleSums sums(width, height);
+    const Image<float> none(width, height);
+    VisibleMaps maps{frame.number, none, none, none};
     const bool has_noise = std::ranges::none_of(frames_, [](const Frame& each) { return each.noise[0].empty(); });
     for (std::size_t b = 0; b < shapes_.size(); ++b) {
         for (std::size_t c = 0; c < visual_channels; ++c) {
@@ -185,12 +186,13 @@ VisibleMaps VisibleDifference::measure(std::size_t index) const {
                 masking_elevation(frame.masker[c][b], frame.background[shape.level],
                                   shape.level > shape.signal_level ? even_pixels(parts.sensitivity) : parts.sensitivity,
                                   static_cast<int>(c));
-            sums.add(parts, elevation, shape, sizes, 1.0f);
-            if (has_noise) sums.add(filter(&Frame::noise), elevation, shape, sizes, -1.0f);
+            add_squares(parts, elevation, shape, sizes, 1.0f, maps);
+            if (has_noise) add_squares(filter(&Frame::noise), elevation, shape, sizes, -1.0f, maps);
         }
     }
-    VisibleMaps maps = sums.result();
-    maps.frame = frame.number;
+    for (Image<float>* sum : {&maps.seen, &maps.flicker, &maps.lasting}) {
+        for (float& value : sum->pixels) value = std::sqrt(std::max(0.0f, value));
+    }
     for (const std::size_t i : frame.broken)
         maps.seen.pixels[i] = maps.lasting.pixels[i] = std::numeric_limits<float>::infinity();
     return maps;

@@ -1,4 +1,4 @@
-#include "render/compare/visible_filters.h"
+// The eye's response to a band's signal over the frames: filters along the motion that it follows.
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include "perception/vision/castle.h"
 #include "perception/vision/display_hold.h"
 #include "perception/vision/retinal_velocity.h"
+#include "render/compare/visible_difference.h"
 
 namespace aleph {
 

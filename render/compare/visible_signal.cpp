@@ -129,8 +129,8 @@ Image<float> masking_elevation(const Image<float>& masker, const Image<float>& b
     return elevation;
 }
 
-void VisibleSums::add(const SignalParts& parts, const Image<float>& elevation, const BandShape& shape,
-                      const std::vector<LevelSize>& sizes, float factor) {
+void add_squares(const SignalParts& parts, const Image<float>& elevation, const BandShape& shape,
+                 const std::vector<LevelSize>& sizes, float factor, VisibleMaps& sums) {
     const auto add_to = [&](Image<float>& sum, const Image<float>& signal) {
         Image<float> squares = local_amplitude(signal, shape);
         for (std::size_t i = 0; i < squares.size(); ++i) {
@@ -142,16 +142,9 @@ void VisibleSums::add(const SignalParts& parts, const Image<float>& elevation, c
     };
     Image<float> all = parts.lasting;
     for (std::size_t i = 0; i < all.size(); ++i) all.pixels[i] += parts.flicker.pixels[i];
-    add_to(seen_, all);
-    add_to(flicker_, parts.flicker);
-    add_to(lasting_, parts.lasting);
-}
-
-VisibleMaps VisibleSums::result() {
-    for (Image<float>* image : {&seen_, &flicker_, &lasting_}) {
-        for (float& value : image->pixels) value = std::sqrt(std::max(0.0f, value));
-    }
-    return {0, std::move(seen_), std::move(flicker_), std::move(lasting_)};
+    add_to(sums.seen, all);
+    add_to(sums.flicker, parts.flicker);
+    add_to(sums.lasting, parts.lasting);
 }
 
 }  // namespace aleph

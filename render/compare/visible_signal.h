@@ -38,19 +38,10 @@ SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, c
 Image<float> masking_elevation(const Image<float>& masker, const Image<float>& background,
                                const Image<float>& sensitivity, int channel);
 
-/// Adds up squares of amplitudes over bands and channels, at the picture's size.
-class VisibleSums {
-  public:
-    VisibleSums(int width, int height) : seen_(width, height), flicker_(width, height), lasting_(width, height) {}
-
-    /// @param sizes   of all levels
-    /// @param factor  of the squares; -1 takes off the energy of noise
-    void add(const SignalParts& parts, const Image<float>& elevation, const BandShape& shape,
-             const std::vector<LevelSize>& sizes, float factor);
-    VisibleMaps result();
-
-  private:
-    Image<float> seen_, flicker_, lasting_;
-};
+/// Adds squares of amplitudes to sums over bands and channels, at the picture's size.
+/// @param sizes   of all levels
+/// @param factor  of the squares; -1 takes off the energy of noise
+void add_squares(const SignalParts& parts, const Image<float>& elevation, const BandShape& shape,
+                 const std::vector<LevelSize>& sizes, float factor, VisibleMaps& sums);
 
 }  // namespace aleph

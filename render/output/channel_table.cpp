@@ -1,14 +1,6 @@
 #include "render/output/channel_table.h"
 
-#include <fmt/format.h>
-
 namespace aleph {
-
-namespace {
-
-constexpr const char* as_surfaces = "as for surfaces";
-
-}  // namespace
 
 const std::vector<ChannelInfo>& channel_table() {
     static const std::vector<ChannelInfo> table{
@@ -39,44 +31,36 @@ const std::vector<ChannelInfo>& channel_table() {
         {{"velocity.image"},
          "speed on the image, degrees per second",
          "speed on the image",
-         "degrees of visual angle per second, 0 and up",
-         as_surfaces},
+         "degrees of visual angle per second, 0 and up"},
         {{"velocity.retinal"},
          "speed on the retina, degrees per second",
          "speed on the retina of an eye that follows the motion",
-         "degrees of visual angle per second, 0 and up",
-         as_surfaces},
+         "degrees of visual angle per second, 0 and up"},
         {{"saliency.Y"},
          "how likely viewers look here, 0 to 1 (--guide saliency)",
          "how likely viewers look here; with --guide saliency",
-         "no unit, 0 to 1",
-         as_surfaces},
+         "no unit, 0 to 1"},
         {{"conspicuity.intensity", "conspicuity.color", "conspicuity.orientation", "conspicuity.motion"},
          "parts of saliency (--guide saliency)",
          "the four parts of saliency; with --guide saliency",
-         "no unit, 0 and up",
-         as_surfaces},
+         "no unit, 0 and up"},
         {{"aleph.Y"},
          "contrast elevation, 1 to 250.6",
          "contrast elevation: how many times the least visible contrast goes unseen",
-         "no unit, 1 (strictest) to 250.6",
-         as_surfaces},
+         "no unit, 1 (strictest) to 250.6"},
         {{"alpha.acc"},
          "ambient accuracy, 0 to 1",
          "ambient accuracy that the pixel is rendered with",
-         "no unit, 0 to 1",
-         as_surfaces},
+         "no unit, 0 to 1"},
         {{"threshold.Y"},
          "luminance difference that goes unseen, cd/m2",
          "luminance difference on the display that goes unseen, if it lasts",
-         "cd/m2, above 0",
-         as_surfaces},
+         "cd/m2, above 0"},
         {{"threshold.noise"},
          "noise of single pixels that goes unseen, standard deviation, cd/m2",
          "standard deviation of the luminance of single pixels that goes unseen; new in every frame, but of a camera "
          "that never moves",
-         "cd/m2, above 0",
-         as_surfaces},
+         "cd/m2, above 0"},
         {{"estimate.R", "estimate.G", "estimate.B"},
          "quick estimate, or the picture of --images; times exposure, linear Rec.709",
          "quick estimate times exposure, the input of the vision model, blurred by shutter and lens; with --images the "
@@ -131,8 +115,7 @@ const std::vector<ChannelInfo>& channel_table() {
          "variance of the pixel's mean luminance (render, --integrator path)",
          "variance of the pixel's mean luminance times exposure, from its samples: the square of its standard error; "
          "--integrator path with 2 samples or more",
-         "radiance squared, white = 1, 0 and up",
-         as_surfaces},
+         "radiance squared, white = 1, 0 and up"},
         {{"samples.Y"}, "samples taken (render)", "samples taken; render only", "count, 0 and up", "count"},
         {{"records.Y"},
          "irradiance values computed in this pixel (render)",
@@ -169,10 +152,6 @@ const std::vector<ChannelInfo>& channel_table() {
          "0"},
     };
     return table;
-}
-
-std::string describe_channel(const ChannelInfo& info) {
-    return fmt::format("{}; {}; background: {}", info.content, info.range, info.background);
 }
 
 }  // namespace aleph

@@ -10,16 +10,13 @@ namespace aleph {
 /// Channels that are described together.
 struct ChannelInfo {
     std::vector<std::string> names;
-    std::string help;        ///< for --help: a line or two
-    std::string content;     ///< what the values are; whether the exposure factor is in them
-    std::string range;       ///< unit, range and sign
-    std::string background;  ///< the value where nothing is hit
+    std::string help;                            ///< for --help: a line or two
+    std::string content;                         ///< what the values are; whether the exposure factor is in them
+    std::string range;                           ///< unit, range and sign
+    std::string background = "as for surfaces";  ///< the value where nothing is hit
 };
 
 /// All channels that files can have, in the order in which help shows them.
 const std::vector<ChannelInfo>& channel_table();
-
-/// "motion to the next frame; pixels, ...; background: 0", for the attribute "channel:NAME" of EXR files.
-std::string describe_channel(const ChannelInfo& info);
 
 }  // namespace aleph

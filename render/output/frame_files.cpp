@@ -1,17 +1,17 @@
 #include "render/output/frame_files.h"
-#include "render/guide/error_report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
+#include "render/guide/error_report.h"
 #include "render/output/channel_table.h"
-#include "render/output/cryptomatte.h"
 #include "render/surface/node_paths.h"
 
 namespace aleph {
@@ -29,10 +29,20 @@ void add(ChannelImage& file, const std::string& name, Image<float> values) {
     if (!values.empty()) file.channels.push_back({name, std::move(values)});
 }
 
-void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& color) {
-    for (int c = 0; c < 3; ++c) {
-        add(file, prefix + "RGB"[c], pick(color, [c](const Rgb& v) { return v[c]; }));
+std::uint32_t scramble(std::uint32_t block) {
+    return std::rotl(block * 0xcc9e2d51u, 15) * 0x1b873593u;
+}
+
+/// {"name": "8 hexadecimal digits", ...}: the names and the bits of their cryptomatte_id.
+/// @param names  each once
+std::string cryptomatte_manifest(const std::vector<std::string>& names) {
+    std::string manifest = "{";
+    for (const std::string& name : names) {
+        if (manifest.size() > 1) manifest += ',';
+        manifest += nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        manifest += fmt::format(":\"{:08x}\"", std::bit_cast<std::uint32_t>(cryptomatte_id(name)));
     }
+    return manifest + '}';
 }
 
 /// The object at each pixel's centre, with a coverage of 1.
@@ -62,7 +72,9 @@ void add_cryptomatte(ChannelImage& file, const Image<Hit>& hits, const Scene& sc
 void add_descriptions(ChannelImage& file) {
     for (const ChannelInfo& info : channel_table()) {
         for (const std::string& name : info.names) {
-            if (file.find(name) != nullptr) file.metadata["channel:" + name] = describe_channel(info);
+            if (file.find(name) == nullptr) continue;
+            file.metadata["channel:" + name] =
+                fmt::format("{}; {}; background: {}", info.content, info.range, info.background);
         }
     }
 }
@@ -152,10 +164,44 @@ Matrix44f to_attribute(const glm::dmat4& matrix) {
 
 }  // namespace
 
+std::uint32_t murmur_hash(std::string_view text) {
+    std::uint32_t hash = 0;
+    std::size_t at = 0;
+    for (; at + 4 <= text.size(); at += 4) {
+        std::uint32_t block = 0;
+        for (int byte = 3; byte >= 0; --byte) block = block << 8 | static_cast<unsigned char>(text[at + byte]);
+        hash = std::rotl(hash ^ scramble(block), 13) * 5u + 0xe6546b64u;
+    }
+    std::uint32_t rest = 0;
+    for (std::size_t byte = text.size(); byte > at; --byte)
+        rest = rest << 8 | static_cast<unsigned char>(text[byte - 1]);
+    hash ^= scramble(rest) ^ static_cast<std::uint32_t>(text.size());
+    hash = (hash ^ hash >> 16) * 0x85ebca6bu;
+    hash = (hash ^ hash >> 13) * 0xc2b2ae35u;
+    return hash ^ hash >> 16;
+}
+
+float cryptomatte_id(std::string_view name) {
+    std::uint32_t bits = murmur_hash(name);
+    const std::uint32_t exponent = bits >> 23 & 255;
+    if (exponent == 0 || exponent == 255) bits ^= 1u << 23;
+    return std::bit_cast<float>(bits);
+}
+
+std::string cryptomatte_prefix(std::string_view layer) {
+    return fmt::format("cryptomatte/{}/", fmt::format("{:08x}", murmur_hash(layer)).substr(0, 7));
+}
+
 Image<float> make_importance(const Image<float>& aleph) {
     Image<float> importance(aleph.width, aleph.height);
     for (std::size_t i = 0; i < aleph.size(); ++i) importance.pixels[i] = 1.0f / aleph.pixels[i];
     return importance;
+}
+
+void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& color) {
+    for (int c = 0; c < 3; ++c) {
+        add(file, prefix + "RGB"[c], pick(color, [c](const Rgb& v) { return v[c]; }));
+    }
 }
 
 ChannelImage make_color_image(const Image<Rgb>& color) {

@@ -48,6 +48,8 @@ struct VerifiedStatistics {
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure);
 
+/// Adds the channels R, G and B with a prefix; none of an empty picture.
+void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& color);
 /// The channels R, G and B alone.
 ChannelImage make_color_image(const Image<Rgb>& color);
 
@@ -68,5 +70,17 @@ std::string format_statistics(std::string_view frames, const Scene& scene, const
 /// How much a pixel needs samples, for renderers that take such a picture: 1 over the Aleph map, so that 1 is where
 /// viewers are strictest and no value is 0.
 Image<float> make_importance(const Image<float>& aleph);
+
+// Cryptomatte: names of objects as numbers in pictures, with a manifest that tells the names (Friedman and Jones 2015,
+// specification 1.2.0).
+
+/// MurmurHash3_x86_32 with seed 0 (Austin Appleby, public domain).
+std::uint32_t murmur_hash(std::string_view text);
+
+/// The hash of a name as a float: the same bits, but never NaN, infinite or denormal.
+float cryptomatte_id(std::string_view name);
+
+/// "cryptomatte/<7 hexadecimal digits of the layer's hash>/", with which the layer's attributes begin.
+std::string cryptomatte_prefix(std::string_view layer);
 
 }  // namespace aleph

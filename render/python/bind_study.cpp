@@ -13,7 +13,7 @@
 #include "render/study/prepared_study.h"
 #include "render/study/run_study.h"
 #include "render/study/search_study.h"
-#include "render/study/study_file.h"
+#include "render/study/study.h"
 #include "render/study/study_files.h"
 
 namespace aleph::python {

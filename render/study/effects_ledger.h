@@ -20,15 +20,13 @@ struct LedgerEntry {
     std::string decision;                  ///< of the plan: "simulate", "simplify", "skip", or "mixed"
     double bound = 0.0;                    ///< visible thresholds that the plan leaves out, at most; NaN: not known
     std::optional<MeasuredValue> seconds;  ///< of a processor and a frame, that leaving it out saves
-    /// Pixels in which a viewer sees an error without it, %.
-    std::optional<MeasuredValue> seen;
+    std::optional<MeasuredValue> seen;     ///< pixels in which a viewer sees an error without it, %
 };
 
 struct SceneLedger {
     std::string scene;
-    MeasuredValue seconds, seen;  ///< with all effects
-    std::vector<LedgerEntry>
-        entries;  ///< of all effects, in order; without measured values for those that no variant lacks
+    MeasuredValue seconds, seen;       ///< with all effects
+    std::vector<LedgerEntry> entries;  ///< of all effects; without measured values for those that no variant lacks
 };
 
 /// @param prepared  with Study::effects, which adds the variants that are compared

@@ -1,6 +1,7 @@
 #pragma once
 // Metrics: values that a study measures of a frame.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct Metric {
     bool cost = false;  ///< of time or work; else of error
     int viewer = -1;    ///< index of the viewer whose thresholds it is in; -1: of none
 };
+
+/// Values of a frame by Metric::name.
+using MetricValues = std::map<std::string, double>;
 
 /// All metrics of a study, or those that it names, of every viewer; of two seeds only where it has them. The first cost
 /// and the first error are what charts show first: processor_seconds and share_seen.

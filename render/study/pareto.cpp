@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "engine/base/errors.h"
 
@@ -23,15 +24,11 @@ double log_error(double error) {
     return std::log(std::max(error, least_error));
 }
 
-bool cheaper(const CostPoint& a, const CostPoint& b) {
-    return a.cost != b.cost ? a.cost < b.cost : a.error < b.error;
-}
-
 /// Indices of all points by ascending cost, then error, then place.
 std::vector<std::size_t> sort_by_cost(std::span<const CostPoint> points) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return cheaper(points[a], points[b]); });
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return std::pair(points[i].cost, points[i].error); });
     return order;
 }
 
@@ -88,9 +85,7 @@ std::vector<std::size_t> keep_best(std::span<const CostPoint> points, std::size_
     const std::vector<double> distances = crowding_distances(points, ranks);
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-        return ranks[a] != ranks[b] ? ranks[a] < ranks[b] : distances[a] > distances[b];
-    });
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return std::pair(ranks[i], -distances[i]); });
     order.resize(std::min(count, order.size()));
     std::ranges::sort(order);
     return order;

@@ -8,9 +8,10 @@
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/scene_hash.h"
+#include "render/compare/compare_luminance.h"
 #include "render/settings/frame_list.h"
 #include "render/study/effects_ledger.h"
-#include "render/study/search_candidates.h"
+#include "render/study/search_study.h"
 #include "render/study/threshold_noise.h"
 
 namespace aleph {
@@ -52,14 +53,12 @@ void check_pictures(const StudyVariant& variant, const PreparedStudy& prepared) 
         const auto found = variant.pictures.find(frame);
         if (found == variant.pictures.end())
             throw InputError("", variant.name, fmt::format("it has no picture of frame {}", frame));
-        const ChannelImage picture = read_image(found->second);
-        const Image<float>* const red = picture.find("R");
-        if (red == nullptr || picture.find("G") == nullptr || picture.find("B") == nullptr)
-            throw InputError(found->second.string(), variant.name, "it has no channels R, G and B");
-        if (red->width != size.width || red->height != size.height)
-            throw InputError(
-                found->second.string(), variant.name,
-                fmt::format("it has {}x{} pixels, the study {}x{}", red->width, red->height, size.width, size.height));
+        const Image<Rgb> picture = linear_colour(read_image(found->second));
+        if (picture.empty()) throw InputError(found->second.string(), variant.name, "it has no channels R, G and B");
+        if (picture.width != size.width || picture.height != size.height)
+            throw InputError(found->second.string(), variant.name,
+                             fmt::format("it has {}x{} pixels, the study {}x{}", picture.width, picture.height,
+                                         size.width, size.height));
     }
 }
 

@@ -59,20 +59,11 @@ ChannelImage render_pass(const Scene& scene, RenderSettings settings, std::int64
     const FrameOutput output = sequence.render(frame, request);
     ChannelImage all = make_frame_image(output, false, sequence.scene(), settings, sequence.exposure());
     std::erase_if(all.channels, [](const Channel& channel) { return channel.name.size() > 1 || channel.name == "A"; });
-    add_indirect(all, output.shaded);
+    add_color(all, indirect_layer, output.shaded.indirect);
     return all;
 }
 
 }  // namespace
-
-void add_indirect(ChannelImage& image, const ShadedFrame& shaded) {
-    if (shaded.indirect.empty()) return;
-    for (int c = 0; c < 3; ++c) {
-        Image<float> values(shaded.indirect.width, shaded.indirect.height);
-        for (std::size_t i = 0; i < values.size(); ++i) values.pixels[i] = shaded.indirect.pixels[i][c];
-        image.channels.push_back({indirect_channels[static_cast<std::size_t>(c)], std::move(values)});
-    }
-}
 
 ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const Study& study, std::int64_t frame,
                                         const std::filesystem::path& folder, const ReferenceProgress& progress) {

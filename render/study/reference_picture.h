@@ -1,13 +1,11 @@
 #pragma once
 // Pictures that judge others: rendered once, kept as files, and refined on demand.
 
-#include <array>
 #include <filesystem>
 #include <functional>
 
 #include "engine/image/image_file.h"
 #include "render/compare/reference_passes.h"
-#include "render/pixels/shaded_frame.h"
 #include "render/study/prepared_study.h"
 
 namespace aleph {
@@ -30,9 +28,7 @@ using ReferenceProgress = std::function<void(double passes)>;
 ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const Study& study, std::int64_t frame,
                                         const std::filesystem::path& folder, const ReferenceProgress& progress);
 
-/// Names of the channels of indirect light.
-inline constexpr std::array<const char*, 3> indirect_channels = {"indirect.R", "indirect.G", "indirect.B"};
-/// Adds them, where the frame has them: the part of the picture that surfaces reflect of their indirect irradiance.
-void add_indirect(ChannelImage& image, const ShadedFrame& shaded);
+/// Channels of the part of a picture that surfaces reflect of their indirect irradiance: indirect.R and so on.
+inline constexpr const char* indirect_layer = "indirect.";
 
 }  // namespace aleph

@@ -10,9 +10,7 @@
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
 #include "render/study/reference_picture.h"
-#include "render/study/run_store.h"
 #include "render/study/threshold_noise.h"
-#include "render/study/visible_metrics.h"
 
 namespace aleph {
 
@@ -45,7 +43,7 @@ class StudyRunner {
     }
 
     StudyResults run() {
-        for (const PreparedStudyScene& scene : prepared_.scenes) truths_.push_back(prepare_truths(scene));
+        for (const PreparedStudyScene& scene : prepared_.scenes) references_.push_back(prepare_frames(scene));
         std::vector<std::vector<std::vector<MeasuredRun>>> runs(
             prepared_.variants.size(), std::vector<std::vector<MeasuredRun>>(prepared_.scenes.size()));
         for_each_run([&](std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
@@ -104,7 +102,8 @@ class StudyRunner {
     }
 
     /// The maps of every viewer, frame by frame; those of the first are kept.
-    void add_viewers(const PreparedStudyScene& scene, std::vector<FrameTruth>& truths) {
+    void add_viewers(const PreparedStudyScene& scene) {
+        const std::size_t first = results_.frames.size();
         for (const StudyViewer& viewer : study_.viewers) {
             SceneWithSettings own = with_settings_of(scene, study_, viewer.settings);
             own.settings.perception.guide = Guide::saliency;
@@ -114,30 +113,38 @@ class StudyRunner {
             request.maps = true;
             for (std::size_t i = 0; i < scene.frames.size(); ++i) {
                 FrameOutput output = sequence.render(scene.frames[i], request);
-                truths[i].thresholds.push_back(output.limits.threshold);
-                if (truths[i].thresholds.size() > 1) continue;
-                JudgingFrame& frame = results_.frames.emplace_back();
-                frame.scene = scene.name;
-                frame.frame = scene.frames[i];
-                frame.maps = make_frame_image(output, true, sequence.scene(), own.settings, sequence.exposure());
-                add_bands(output, sequence.scene(), own.settings, frame);
+                if (results_.frames.size() == first + i) {
+                    JudgingFrame& frame = results_.frames.emplace_back();
+                    frame.scene = scene.name;
+                    frame.frame = scene.frames[i];
+                    frame.maps = make_frame_image(output, true, sequence.scene(), own.settings, sequence.exposure());
+                    add_bands(output, sequence.scene(), own.settings, frame);
+                }
+                results_.frames[first + i].thresholds.push_back(output.limits.threshold);
             }
         }
     }
 
-    std::vector<FrameTruth> prepare_truths(const PreparedStudyScene& scene) {
-        std::vector<FrameTruth> truths(scene.frames.size());
+    /// The references of a scene's frames.
+    std::vector<ChannelImage> prepare_frames(const PreparedStudyScene& scene) {
+        std::vector<ChannelImage> references;
         const std::size_t first = results_.frames.size();
-        add_viewers(scene, truths);
+        add_viewers(scene);
         for (std::size_t i = 0; i < scene.frames.size(); ++i) {
             JudgingFrame& frame = results_.frames[first + i];
             ReferencePicture reference = make_reference(scene, scene.frames[i]);
-            truths[i].reference = std::move(reference.picture);
             frame.reference = std::move(reference.file);
-            frame.quality = measure_reference(truths[i]);
-            frame.thresholds = truths[i].thresholds;
+            frame.quality = measure_reference(reference.picture, frame.thresholds.front());
+            references.push_back(std::move(reference.picture));
         }
-        return truths;
+        return references;
+    }
+
+    /// The frames of scene s.
+    std::span<const JudgingFrame> frames_of(std::size_t s) const {
+        std::size_t first = 0;
+        for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();
+        return std::span(results_.frames).subspan(first, prepared_.scenes[s].frames.size());
     }
 
     ReferencePicture make_reference(const PreparedStudyScene& scene, int frame) {
@@ -178,11 +185,11 @@ class StudyRunner {
     std::string write_noisy(const StudyVariant& variant, std::size_t s, std::size_t i,
                             const ThresholdNoise& noise) const {
         const PreparedStudyScene& scene = prepared_.scenes[s];
-        const FrameTruth& truth = truths_[s][i];
         const std::uint32_t seed = study_.runs.seeds.front();
         const RunName name{scene.name, variant.name, name_settings(variant.settings), seed, 0};
         const std::filesystem::path file = store_.picture(name, scene.frames[i]);
-        write_exr(file, add_threshold_noise(truth.reference, truth.thresholds.front(), noise, seed, scene.frames[i]));
+        write_exr(file, add_threshold_noise(references_[s][i], frames_of(s)[i].thresholds.front(), noise, seed,
+                                            scene.frames[i]));
         return file.string();
     }
 
@@ -218,23 +225,20 @@ class StudyRunner {
     /// that was never stopped.
     /// @param exact  the pictures were made from the references: noise of these is no part of their differences
     void measure(std::size_t s, MeasuredRun& run, bool exact) const {
-        std::vector<FrameTruth> truths = truths_[s];
-        for (FrameTruth& truth : truths) {
-            std::erase_if(truth.reference.channels, [&](const Channel& channel) {
+        std::vector<ChannelImage> references = references_[s];
+        for (ChannelImage& reference : references) {
+            std::erase_if(reference.channels, [&](const Channel& channel) {
                 return exact && (channel.name.starts_with("noise.") || channel.name == "variance.Y");
             });
         }
-        for (std::size_t i = 0; i < run.frames.size(); ++i)
-            run.errors.push_back(measure_errors(read_image(run.pictures[i]), truths[i], prepared_.metrics));
-        std::size_t first = 0;
-        for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();
-        const std::vector<VisibleErrors> errors =
-            measure_visible(std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
-                ChannelImage picture = read_image(run.pictures[i]);
-                ChannelImage reference = with_exposure_of(truths[i].reference, picture);
-                return std::pair(std::move(picture), std::move(reference));
-            });
-        for (std::size_t i = 0; i < errors.size(); ++i) add_visible_metrics(errors[i], run.errors[i]);
+        const std::span<const JudgingFrame> frames = frames_of(s);
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            run.errors.push_back(
+                measure_errors(read_image(run.pictures[i]), references[i], frames[i].thresholds, prepared_.metrics));
+        }
+        std::vector<MetricValues> seen = measure_visible(
+            frames, [&](std::size_t i) { return std::pair(read_image(run.pictures[i]), references[i]); });
+        for (std::size_t i = 0; i < seen.size(); ++i) run.errors[i].merge(seen[i]);
     }
 
     static std::string identity(const SceneWithSettings& own, const std::vector<int>& frames) {
@@ -256,8 +260,8 @@ class StudyRunner {
     const Study& study_;
     RunStore store_;
     const StudyProgress& progress_;
-    double work_ = 0.0, done_ = 0.0;  ///< in runs of a frame
-    std::vector<std::vector<FrameTruth>> truths_;
+    double work_ = 0.0, done_ = 0.0;                     ///< in runs of a frame
+    std::vector<std::vector<ChannelImage>> references_;  ///< of the frames of each scene
     StudyResults results_;
 };
 

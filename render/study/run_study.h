@@ -1,30 +1,15 @@
 #pragma once
 // Runs a study: references and thresholds of its frames, then every variant that is not finished yet.
 
-#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "perception/vision/band_frequencies.h"
+#include "render/study/measure_run.h"
 #include "render/study/prepared_study.h"
-#include "render/study/study_results.h"
 
 namespace aleph {
-
-/// A frame with what its pictures are judged by.
-struct JudgingFrame {
-    std::string scene;
-    std::int64_t frame = 0;
-    ReferenceQuality quality;
-    std::filesystem::path reference;  ///< the file
-    /// Maps of `aleph maps`, for the first viewer, with band.0 to .6, R_i of (5.3), and elevation.0 to .6, f_i of
-    /// (5.9).
-    ChannelImage maps;
-    std::array<double, band_count> frequencies{};  ///< of the bands, cycles per degree
-    std::vector<Image<float>> thresholds;          ///< cd/m2, of each viewer
-};
 
 struct StudyResults {
     std::vector<VariantResult> variants;

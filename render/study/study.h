@@ -1,11 +1,13 @@
 #pragma once
-// A study as data: pictures of some frames in several variants, which references judge.
+// A study as data, pictures of some frames in several variants, which references judge; study files: JSON, checked with
+// scenes/studies/study.schema.json.
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -92,5 +94,21 @@ std::vector<StudyVariant> list_variants(const Study& study);
 
 /// "error=1,guide=none"
 std::string name_settings(const SettingMap& settings, const std::vector<StudyAxis>& order = {});
+
+/// Returns whether a file is a study, and no scene: a .json file whose root has a list `scenes`.
+/// @throws InputError if it is a .json file that cannot be read
+bool is_study(const std::filesystem::path& file);
+
+/// A study file. Paths of scenes are taken from its folder. Comments are allowed.
+/// @throws InputError with the JSON pointer of what is wrong; settings are checked when the study runs
+Study load_study(const std::filesystem::path& file);
+
+/// The text of a study file.
+/// @param file  for messages and for relative paths
+/// @throws InputError
+Study parse_study(std::string_view text, const std::filesystem::path& file);
+
+/// The thesis's model of vision at its own viewing conditions, as settings have it.
+StudyViewer default_viewer();
 
 }  // namespace aleph

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/study/measure_run.h"
+#include "render/study/metric_table.h"
 #include "render/study/pareto.h"
 #include "render/study/timed_run.h"
 

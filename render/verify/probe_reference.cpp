@@ -1,13 +1,69 @@
 #include "render/verify/probe_reference.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/base/pyramid.h"
 #include "engine/base/sampling.h"
-#include "render/verify/continued_error.h"
 
 namespace aleph {
 
 namespace {
+
+constexpr int most_side = 16;          // pixels, of a block
+constexpr double root = 1.2207440846;  // of x^4 = x + 1
+
+/// Where the sequence is along an axis, in [0, 1).
+double at_axis(std::size_t number, int axis) {
+    const double at = 0.5 + static_cast<double>(number + 1) * std::pow(root, -(axis + 1));
+    return at - std::floor(at);
+}
+
+/// One of `count` parts, by a place in [0, 1).
+int part_at(double place, int count) {
+    return std::min(static_cast<int>(place * count), count - 1);
+}
+
+struct Span {
+    int first, size;
+};
+
+Span choose_span(double place, int length) {
+    const int count = (length + most_side - 1) / most_side, i = part_at(place, count);
+    const int first = i * length / count;
+    return {first, (i + 1) * length / count - first};
+}
+
+/// Values times weights, and weights.
+struct Weighted {
+    std::array<Image<float>, 3> sums;
+    Image<float> weights;
+};
+
+Weighted pull(const Weighted& fine) {
+    return {{reduce(fine.sums[0]), reduce(fine.sums[1]), reduce(fine.sums[2])}, reduce(fine.weights)};
+}
+
+/// Fills what weighs less than 1 from the coarser level.
+void push(const Weighted& coarse, Weighted& fine) {
+    const LevelSize size{fine.weights.width, fine.weights.height};
+    for (Image<float>& sums : fine.sums) {
+        const Image<float> beyond = expand(coarse.sums[static_cast<std::size_t>(&sums - fine.sums.data())], size);
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums.pixels[i] += (1.0f - fine.weights.pixels[i]) * beyond.pixels[i];
+    }
+}
+
+/// Weights of at most 1: what is known well keeps its value.
+void saturate(Weighted& level) {
+    for (std::size_t i = 0; i < level.weights.size(); ++i) {
+        float& weight = level.weights.pixels[i];
+        const float full = std::min(1.0f, 4.0f * weight);
+        const float scale = weight > 0.0f ? full / weight : 0.0f;
+        for (Image<float>& sums : level.sums) sums.pixels[i] *= scale;
+        weight = full;
+    }
+}
 
 constexpr std::uint64_t reference_seed = 0x7665726966790000ull;  // keeps references apart from all that they judge
 constexpr int margin = 8;       // pixels around a block that its signals are filtered with
@@ -66,6 +122,38 @@ void add_to_mean(Image<Rgb>& mean, int count, const Image<Rgb>& picture, int add
 }
 
 }  // namespace
+
+ProbePlace place_probe(std::size_t number, std::span<const std::int64_t> frames, int width, int height) {
+    const Span x = choose_span(at_axis(number, 1), width), y = choose_span(at_axis(number, 2), height);
+    const int frame = part_at(at_axis(number, 0), static_cast<int>(frames.size()));
+    return {frames[static_cast<std::size_t>(frame)], {x.first, y.first, x.size, y.size}};
+}
+
+Image<Rgb> continue_error(const Image<Rgb>& error, const PicturePart& part) {
+    const Image<float> empty(error.width, error.height);
+    std::vector<Weighted> levels{{{empty, empty, empty}, empty}};
+    bool any = false;
+    for (std::size_t i = 0; i < error.size(); ++i) {
+        if (part.pixels[i] == 0 || !is_finite(error.pixels[i])) continue;
+        any = true;
+        levels[0].weights.pixels[i] = 1.0f;
+        for (int c = 0; c < 3; ++c) levels[0].sums[static_cast<std::size_t>(c)].pixels[i] = error.pixels[i][c];
+    }
+    Image<Rgb> out(error.width, error.height, Rgb(0.0f));
+    if (!any) return out;
+    while (levels.back().weights.width > 1 || levels.back().weights.height > 1) {
+        levels.push_back(pull(levels.back()));
+        saturate(levels.back());
+    }
+    Weighted& top = levels.back();  // one pixel, which may weigh little
+    for (Image<float>& sums : top.sums) sums.pixels[0] /= std::max(top.weights.pixels[0], 1e-6f);
+    for (std::size_t i = levels.size() - 1; i-- > 0;) push(levels[i + 1], levels[i]);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out.pixels[i] = {levels[0].sums[0].pixels[i], levels[0].sums[1].pixels[i], levels[0].sums[2].pixels[i]};
+        if (part.pixels[i] != 0 && !is_finite(error.pixels[i])) out.pixels[i] = error.pixels[i];
+    }
+    return out;
+}
 
 MotionMaps read_maps(const FrameOutput& output) {
     const MotionField& field = output.motion;

@@ -1,14 +1,43 @@
 #pragma once
-// The frames around a probe, and the reference of its block in each of them.
+// Where probes lie, the frames around them, and the reference of a block in each of these.
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "render/compare/visible_difference.h"
 #include "render/frame/sequence.h"
-#include "render/verify/probe_place.h"
+#include "render/pixels/picture_part.h"
 
 namespace aleph {
+
+/// A rectangle of a picture, pixels.
+struct PictureArea {
+    int x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const PictureArea&) const = default;
+};
+
+template <class T>
+Image<T> crop(const Image<T>& image, const PictureArea& area) {
+    Image<T> out(area.width, area.height);
+    for (int y = 0; y < area.height; ++y) std::copy_n(image.row(area.y + y) + area.x, area.width, out.row(y));
+    return out;
+}
+
+/// A block of a frame's picture.
+struct ProbePlace {
+    std::int64_t frame = 0;
+    PictureArea block;
+    bool operator==(const ProbePlace&) const = default;
+};
+
+/// The place of a probe. The picture is divided into blocks of equal size, up to 16 pixels wide and high; frames,
+/// columns and rows follow a sequence of low discrepancy (the additive recurrence of Roberts 2018), so that any first
+/// probes are spread evenly over all three.
+/// @param number  of the probe, from 0 on
+/// @param frames  at least one
+ProbePlace place_probe(std::size_t number, std::span<const std::int64_t> frames, int width, int height);
 
 /// A frame of a probe's window.
 struct ProbeFrame {
@@ -44,6 +73,11 @@ ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence);
 /// @param round    number of the call for this window, from 0 on
 /// @param samples  of each half, 2 or more
 void add_reference_samples(ProbeWindow& window, int round, int samples, Sequence& sequence);
+
+/// The error itself in the part; elsewhere means of what is near, over wider areas the farther away it is (push and
+/// pull, Gortler et al. 1996). So an error that is even in the part is even everywhere: the part's outline is no edge
+/// of it. Values that are not finite count as unknown. 0 if nothing is known.
+Image<Rgb> continue_error(const Image<Rgb>& error, const PicturePart& part);
 
 /// Pictures of the area as the instrument takes them. Beyond the part their difference is continued (continue_error).
 PicturePair make_probe_pair(const ProbeFrame& frame, const PictureArea& area, const Image<Rgb>& picture);

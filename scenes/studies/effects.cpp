@@ -13,7 +13,7 @@
 #include "render/cli/support/progress.h"
 #include "render/frame/sequence.h"
 #include "render/study/prepared_study.h"
-#include "render/study/processor_time.h"
+#include "render/study/timed_run.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
 

@@ -17,7 +17,7 @@
 #include "render/frame/sequence.h"
 #include "render/output/sheet.h"
 #include "render/pixels/pixel_surfaces.h"
-#include "render/study/processor_time.h"
+#include "render/study/timed_run.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
 

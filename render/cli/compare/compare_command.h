@@ -1,6 +1,5 @@
 #pragma once
-// Parts of `aleph compare`: its options, sequences of frames, the results as text, JSON and pictures, and as JUnit's
-// XML, which CI services show.
+// Parts of `aleph compare`: its options, sequences of frames, the results as text, JSON and pictures.
 
 #include <filesystem>
 #include <string>
@@ -46,17 +45,5 @@ std::string exceeded_options(const CompareResult& result);
 /// path ends in .exr, else as three panels with a colour scale from .1 to 10.
 /// @throws OutputError naming the file
 void write_seen(const std::filesystem::path& path, const VisibleMaps& maps);
-
-struct JunitCase {
-    std::string name;
-    std::string failure;  ///< why the test failed; empty: it passed
-};
-
-/// One test case of two pictures, in words.
-JunitCase make_junit_case(const std::string& name, const FrameComparison& comparison, const CompareSettings& settings);
-
-/// Writes one test suite.
-/// @throws OutputError
-void write_junit(const std::filesystem::path& path, const std::vector<JunitCase>& cases);
 
 }  // namespace aleph

@@ -13,25 +13,9 @@
 
 namespace aleph {
 
-/// The keyed properties of a node and its meshes, of a material, a light, a camera or the environment: name as in scene
-/// files, kind of sampling, number of keys, first and last time, interpolation, and `constant` if all keys are equal.
-nlohmann::ordered_json list_tracks(const Scene& scene, const Node& node);
-nlohmann::ordered_json list_tracks(const Material& material);
-nlohmann::ordered_json list_tracks(const Light& light);
-nlohmann::ordered_json list_tracks(const Camera& camera);
-nlohmann::ordered_json list_environment_tracks(const Scene& scene);
-
 /// Frames whose plan stands for the shot: all of a short one, else the first, the last, some between, and those that
 /// begin shots.
 std::vector<int> choose_planned_frames(const Scene& scene);
-
-/// The effects plan of these frames, in ascending order: for each effect, frames one after the other with the same
-/// decision, with the largest bound and its reason.
-nlohmann::ordered_json explain_plan(Sequence& sequence, const std::vector<int>& frames);
-
-/// @param plan    explain_plan
-/// @param frames  of which it is
-std::string plan_text(const nlohmann::ordered_json& plan, const nlohmann::ordered_json& frames);
 
 /// Frames, camera, exposure, environment, counts, bounds, objects, time samplings, materials, images, unused elements,
 /// warnings.
@@ -44,6 +28,9 @@ nlohmann::ordered_json explain_scene(const Scene& scene, const RenderSettings& s
 /// in the world (null without meshes) and, for meshes, `points`: their count and the first six in object space.
 nlohmann::ordered_json explain_moment(const Scene& scene, double seconds);
 
+/// @param frames  of which the plan is
+std::string plan_text(const nlohmann::ordered_json& plan, const nlohmann::ordered_json& frames);
+
 /// @param max_objects  number of objects listed; 0: all
 std::string explain_text(const nlohmann::ordered_json& explained, std::size_t max_objects);
 
@@ -54,11 +41,11 @@ nlohmann::ordered_json to_json(const Bounds& bounds);
 /// Adds the vertices of an instance, shown or hidden, at the time of the pose.
 void add_instance(Bounds& bounds, const Scene& scene, const ScenePose& posed_scene, const Instance& instance);
 
+/// The point cache of a mesh or of its cage; no_index if there is none.
+int point_cache_of(const Scene& scene, const Mesh& mesh);
+
 /// Names what deforms a mesh; null if nothing does.
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh);
-
-/// Returns whether a mesh of the node has a material that gives light at some time.
-bool is_area_light(const Scene& scene, const Node& node);
 
 nlohmann::ordered_json describe_node(const Scene& scene, std::size_t index, const NodePaths& paths);
 nlohmann::ordered_json describe_materials(const Scene& scene);

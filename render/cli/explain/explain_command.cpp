@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
+#include "engine/scene/points.h"
 #include "render/cli/commands.h"
 #include "render/cli/explain/explain.h"
 #include "render/cli/scene_options.h"
@@ -16,6 +18,8 @@
 #include "render/settings/frame_list.h"
 
 namespace aleph {
+
+using nlohmann::ordered_json;
 
 namespace {
 
@@ -27,6 +31,64 @@ struct ExplainOptions {
     LoadLimits limits;
     std::uint32_t objects = 60;
 };
+
+constexpr std::size_t shown_points = 6;
+
+ordered_json to_rows(const glm::dmat4& m) {
+    ordered_json rows = ordered_json::array();
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) rows.push_back(m[column][row]);
+    return rows;
+}
+
+/// The points as the file has them: those of the point cache or cage if the mesh has one, else the vertices.
+std::vector<glm::dvec3> source_points(const Scene& scene, const ScenePose& posed_scene, int mesh_index) {
+    const Mesh& mesh = scene.meshes[mesh_index];
+    const int cache = point_cache_of(scene, mesh);
+    if (cache != no_index) return sample_points(scene.point_caches[cache], posed_scene.seconds);
+    const PosedMesh& posed = posed_scene.meshes[mesh_index];
+    if (!posed.positions.empty()) return posed.positions;
+    return {mesh.positions.begin(), mesh.positions.end()};
+}
+
+/// The points of a node's meshes. Points that several meshes share count once.
+ordered_json describe_points(const Scene& scene, const ScenePose& posed_scene, const Node& node) {
+    std::size_t count = 0;
+    ordered_json first = ordered_json::array();
+    std::map<std::pair<int, int>, bool> counted;
+    for (const int index : node.meshes) {
+        const Mesh& mesh = scene.meshes[index];
+        if (mesh.present.key_count() > 1 && evaluate(mesh.present, posed_scene.seconds) == 0.0) continue;
+        const bool own = mesh.subdivision.cage == no_index && mesh.deformation.points == no_index;
+        if (!own && !counted.emplace(std::pair(mesh.subdivision.cage, mesh.deformation.points), true).second) continue;
+        const std::vector<glm::dvec3> points = source_points(scene, posed_scene, index);
+        for (std::size_t i = 0; i < points.size() && first.size() < shown_points; ++i)
+            first.push_back(to_json(points[i]));
+        count += points.size();
+    }
+    return {{"count", count}, {"first", std::move(first)}};
+}
+
+}  // namespace
+
+ordered_json explain_moment(const Scene& scene, double seconds) {
+    const ScenePose posed_scene = pose(scene, seconds);
+    const NodePaths paths(scene);
+    std::vector<Bounds> bounds(scene.nodes.size());
+    for (const Instance& instance : posed_scene.instances)
+        add_instance(bounds[instance.node], scene, posed_scene, instance);
+    ordered_json objects = ordered_json::array();
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        ordered_json object = {
+            {"path", paths[i]}, {"world", to_rows(posed_scene.world[i])}, {"visible", posed_scene.visible[i] != 0}};
+        object["bounds"] = to_json(bounds[i]);
+        if (!scene.nodes[i].meshes.empty()) object["points"] = describe_points(scene, posed_scene, scene.nodes[i]);
+        objects.push_back(std::move(object));
+    }
+    return {{"seconds", seconds}, {"objects", std::move(objects)}};
+}
+
+namespace {
 
 Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
     try {
@@ -42,8 +104,8 @@ Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
 }
 
 /// Names that are not UTF-8 are written with replacement characters.
-void print_json(const nlohmann::ordered_json& object) {
-    std::cout << object.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+void print_json(const ordered_json& object) {
+    std::cout << object.dump(1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
 }
 
 int explain(const ExplainOptions& options) {
@@ -52,12 +114,7 @@ int explain(const ExplainOptions& options) {
         print_json(explain_moment(scene, options.at));
         return exit_done;
     }
-    RenderSettings settings;
-    apply_settings(settings, scene.source.settings, options.scene);
-    SettingMap given = options.settings;
-    if (options.fingerprint) add_default_error(scene.source.settings, given);
-    set_scene_numbers(scene, given, "--set");
-    apply_settings(settings, given, "");
+    const RenderSettings settings = join_settings(scene, options.settings, options.fingerprint);
     std::vector<int> frames = options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);
     std::ranges::sort(frames);
     if (options.fingerprint) {
@@ -65,7 +122,7 @@ int explain(const ExplainOptions& options) {
                   << "\n";
         return exit_done;
     }
-    const nlohmann::ordered_json explained = explain_scene(scene, settings, options.camera, frames);
+    const ordered_json explained = explain_scene(scene, settings, options.camera, frames);
     if (options.json) {
         print_json(explained);
     } else {
@@ -79,9 +136,7 @@ int explain(const ExplainOptions& options) {
 void add_explain_command(CLI::App& app, Command& command) {
     CLI::App* explain_app = app.add_subcommand("explain", "describe a scene without rendering it");
     const auto options = std::make_shared<ExplainOptions>();
-    add_text(*explain_app, "scene", "SCENE", options->scene,
-             "scene file: " + list_endings(scene_formats(), FormatUse::load))
-        ->required();
+    add_scene_argument(*explain_app, options->scene);
     explain_app->add_flag("--json", options->json, "print everything as JSON");
     explain_app->add_flag(
         "--fingerprint", options->fingerprint,

@@ -1,4 +1,4 @@
-#include "render/cli/explain/explain.h"
+// The elements of a scene, with their keyed properties.
 
 #include <fmt/format.h>
 
@@ -6,14 +6,149 @@
 #include <numbers>
 
 #include "engine/load/warnings.h"
+#include "engine/scene/operations.h"
 #include "engine/scene/points.h"
 #include "engine/scene_file/fields.h"
+#include "render/cli/explain/explain.h"
 
 namespace aleph {
 
 using nlohmann::ordered_json;
 
 namespace {
+
+ordered_json describe_sampling(const TimeSampling& sampling, std::size_t keys) {
+    ordered_json out;
+    switch (sampling.kind) {
+        case TimeSampling::Kind::uniform:
+            out = {{"sampling", "uniform"}, {"start", sampling.start}, {"period", sampling.period}};
+            break;
+        case TimeSampling::Kind::cyclic:
+            out = {{"sampling", "cyclic"}, {"period", sampling.period}, {"samples_per_cycle", sampling.times.size()}};
+            break;
+        case TimeSampling::Kind::acyclic:
+            out = {{"sampling", "acyclic"}};
+            break;
+    }
+    out["keys"] = keys;
+    out["first"] = sample_time(sampling, 0);
+    out["last"] = sample_time(sampling, keys - 1);
+    return out;
+}
+
+/// The keyed properties of an element: name as in scene files, kind of sampling, number of keys, first and last time,
+/// interpolation, and `constant` if all keys are equal.
+class TrackList {
+  public:
+    template <class T>
+    void add(const std::string& property, const Track<T>& track) {
+        add(property, track.sampling, track.key_count(), track.interpolation, is_animated(track));
+    }
+
+    template <class Element, class Fields>
+    void add_all(const Element& element, const Fields& fields) {
+        for (const auto& field : fields) add(field.key, field.in(element));
+    }
+
+    void add(const std::string& property, const TimeSampling& sampling, std::size_t samples,
+             Interpolation interpolation, bool animated) {
+        if (samples <= 1) return;
+        ordered_json item = {{"property", property}};
+        item.update(describe_sampling(sampling, samples));
+        item["interpolation"] = interpolation_words[index_of(interpolation)];
+        if (!animated) item["constant"] = true;
+        tracks_.push_back(std::move(item));
+    }
+
+    ordered_json take() { return std::move(tracks_); }
+
+  private:
+    ordered_json tracks_ = ordered_json::array();
+};
+
+void add_rotation(TrackList& list, const std::string& key, const Track<glm::dquat>& rotation,
+                  const std::optional<AxisRotation>& about_axis) {
+    if (about_axis) {
+        list.add(key + ".degrees", about_axis->angle);
+    } else {
+        list.add(key, rotation);
+    }
+}
+
+void add_transform(TrackList& list, const Node& node) {
+    const LocalTransform& local = node.transform;
+    if (local.operations) {
+        list.add("operations", local.operations->sampling, sample_count(*local.operations), Interpolation::linear,
+                 is_animated(*local.operations));
+    } else if (local.matrix) {
+        list.add("matrix", *local.matrix);
+    } else {
+        list.add("translation", local.translation);
+        add_rotation(list, "rotation", local.rotation, local.axis_rotation);
+        list.add("scale", local.scale);
+    }
+    list.add("inherits", node.inherits);
+    list.add("visible", node.visible);
+}
+
+ordered_json list_tracks(const Material& material) {
+    TrackList list;
+    list.add_all(material, material_colors);
+    list.add_all(material, material_numbers);
+    list.add_all(material, material_angles);
+    return list.take();
+}
+
+ordered_json list_environment_tracks(const Scene& scene) {
+    TrackList list;
+    if (scene.environment.radiance) list.add("environment", *scene.environment.radiance);
+    add_rotation(list, "environment_rotation", scene.environment.rotation, scene.environment.axis_rotation);
+    return list.take();
+}
+
+ordered_json list_tracks(const Light& light) {
+    TrackList list;
+    list.add("color", light.color);
+    list.add("intensity", light.intensity);
+    list.add_all(light, light_cones);
+    list.add("range", light.range);
+    return list.take();
+}
+
+ordered_json list_tracks(const Camera& camera) {
+    TrackList list;
+    list.add_all(camera, camera_angles);
+    list.add_all(camera, camera_numbers);
+    return list.take();
+}
+
+ordered_json list_tracks(const Scene& scene, const Node& node) {
+    TrackList list;
+    add_transform(list, node);
+    int points_listed = no_index;
+    for (const int index : node.meshes) {
+        const Mesh& mesh = scene.meshes[index];
+        list.add("present", mesh.present);
+        for (std::size_t i = 0; i < mesh.deformation.target_weights.size(); ++i)
+            list.add(fmt::format("weights[{}]", i), mesh.deformation.target_weights[i]);
+        list.add("normals", mesh.deformation.normal_sampling, mesh.deformation.normal_samples.size(),
+                 Interpolation::linear, true);
+        const int points = point_cache_of(scene, mesh);
+        if (points == no_index || points == points_listed) continue;
+        points_listed = points;
+        const PointCache& cache = scene.point_caches[points];
+        list.add("points", cache.sampling, cache.positions.size(), Interpolation::linear, is_animated(cache));
+    }
+    return list.take();
+}
+
+/// Returns whether a mesh of the node has a material that gives light at some time.
+bool is_area_light(const Scene& scene, const Node& node) {
+    return std::ranges::any_of(node.meshes, [&](int mesh) {
+        const int material = scene.meshes[mesh].material;
+        return material != no_index && gives_light(scene.materials[material]);
+    });
+}
 
 /// "base_color" of "base_color_texture".
 std::string texture_name(const std::string& key) {
@@ -31,6 +166,10 @@ ordered_json size_of(const SceneImage& image) {
 }
 
 }  // namespace
+
+int point_cache_of(const Scene& scene, const Mesh& mesh) {
+    return mesh.subdivision.cage == no_index ? mesh.deformation.points : scene.cages[mesh.subdivision.cage].points;
+}
 
 ordered_json to_json(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -55,18 +194,10 @@ void add_instance(Bounds& bounds, const Scene& scene, const ScenePose& posed_sce
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh) {
     if (mesh.deformation.skin != no_index) return mesh.deformation.targets.empty() ? "skin" : "morph targets, skin";
     if (!mesh.deformation.targets.empty()) return "morph targets";
-    const int cache =
-        mesh.subdivision.cage == no_index ? mesh.deformation.points : scene.cages[mesh.subdivision.cage].points;
+    const int cache = point_cache_of(scene, mesh);
     const bool moves = cache != no_index && is_animated(scene.point_caches[cache]);
     if (moves) return mesh.subdivision.cage == no_index ? "points" : "cage points";
     return nullptr;
-}
-
-bool is_area_light(const Scene& scene, const Node& node) {
-    return std::ranges::any_of(node.meshes, [&](int mesh) {
-        const int material = scene.meshes[mesh].material;
-        return material != no_index && gives_light(scene.materials[material]);
-    });
 }
 
 ordered_json describe_node(const Scene& scene, std::size_t index, const NodePaths& paths) {

@@ -7,11 +7,11 @@
 #include <set>
 
 #include "engine/base/errors.h"
-#include "engine/scene/points.h"
 #include "engine/scene_file/fields.h"
 #include "render/cli/explain/explain.h"
 #include "render/frame/sequence.h"
 #include "render/frame/shot.h"
+#include "render/plan/effects_json.h"
 
 namespace aleph {
 
@@ -35,9 +35,9 @@ ordered_json describe_frames(const Scene& scene) {
             {"cuts", scene.film.cuts}};
 }
 
-ordered_json count_elements(const Scene& scene) {
-    std::size_t triangles = 0, instanced = 0, vertices = 0, instances = 0, animated = 0, deforming = 0, hidden = 0,
-                lights = 0, area_lights = 0;
+/// @param objects  describe_node of all nodes
+ordered_json count_elements(const Scene& scene, const ordered_json& objects) {
+    std::size_t triangles = 0, instanced = 0, vertices = 0, instances = 0, deforming = 0;
     for (const Mesh& mesh : scene.meshes) {
         triangles += mesh.triangles.size();
         vertices += mesh.positions.size();
@@ -45,15 +45,15 @@ ordered_json count_elements(const Scene& scene) {
     }
     for (const Node& node : scene.nodes) {
         instances += node.meshes.size();
-        if (is_area_light(scene, node)) ++area_lights;
-        if (node.light != no_index) ++lights;
         for (const int mesh : node.meshes) instanced += scene.meshes[mesh].triangles.size();
-        if (!list_tracks(scene, node).empty()) ++animated;
-        if (node.visible.key_count() == 1 && key_value(node.visible, 0) == 0.0) ++hidden;
     }
+    const auto count = [&](const char* key) {
+        return std::ranges::count_if(objects, [&](const ordered_json& object) { return object.contains(key); });
+    };
+    const auto area_lights = count("area_light");
     return {{"objects", scene.nodes.size()},
-            {"animated_objects", animated},
-            {"hidden_objects", hidden},
+            {"animated_objects", count("animated")},
+            {"hidden_objects", count("hidden")},
             {"meshes", scene.meshes.size()},
             {"deforming_meshes", deforming},
             {"subdivision_cages", scene.cages.size()},
@@ -63,11 +63,20 @@ ordered_json count_elements(const Scene& scene) {
             {"instanced_triangles", instanced},
             {"materials", scene.materials.size()},
             {"images", scene.images.size()},
-            {"lights", lights + area_lights},
+            {"lights", count("light") + area_lights},
             {"area_lights", area_lights},
             {"cameras", scene.cameras.size()},
             {"skins", scene.skins.size()},
             {"includes", scene.source.includes.size()}};
+}
+
+/// So many frames, evenly spread: the first, the last and some between. Of one, the first.
+std::vector<std::int64_t> spread_frames(const FrameRange& range, std::int64_t count) {
+    const std::int64_t length = range.last - range.first, steps = std::max<std::int64_t>(count - 1, 1);
+    std::vector<std::int64_t> frames;
+    for (std::int64_t i = 0; i < count; ++i)
+        frames.push_back(range.first + length / steps * i + length % steps * i / steps);
+    return frames;
 }
 
 ordered_json describe_bounds(const Scene& scene) {
@@ -79,11 +88,10 @@ ordered_json describe_bounds(const Scene& scene) {
     };
     Bounds first, all;
     at_frame(range.first, first);
-    const std::int64_t length = range.last - range.first;
-    const std::int64_t steps = is_world_animated(scene) ? std::min(length, max_bounds_frames - 1) : 0;
-    for (std::int64_t step = 0; step <= steps; ++step)
-        at_frame(range.first + (steps == 0 ? 0 : length / steps * step + length % steps * step / steps), all);
-    return {{"first_frame", to_json(first)}, {"range", to_json(all)}, {"range_frames_seen", steps + 1}};
+    const std::int64_t most = is_world_animated(scene) ? max_bounds_frames : 1;
+    const std::vector<std::int64_t> seen = spread_frames(range, std::min(range.last - range.first + 1, most));
+    for (const std::int64_t frame : seen) at_frame(frame, all);
+    return {{"first_frame", to_json(first)}, {"range", to_json(all)}, {"range_frames_seen", seen.size()}};
 }
 
 /// The time samplings of all keyed properties, each once, with the number of properties that use it.
@@ -152,6 +160,50 @@ ordered_json list_unused(const Scene& scene, const Use& use) {
     return out;
 }
 
+constexpr std::int64_t few_frames = 8;
+constexpr std::size_t most_shots = 12;
+
+/// The plan of one effect over frames that were looked at one after the other.
+struct PlannedFrames {
+    int first = 0, last = 0;
+    PlannedEffect planned;
+};
+
+/// The larger bound, with its reason: where one is not known, neither is their maximum.
+void join(PlannedFrames& frames, int frame, const PlannedEffect& planned) {
+    frames.last = frame;
+    std::optional<EffectBound>& bound = frames.planned.bound;
+    if (!bound || (planned.bound && planned.bound->thresholds <= bound->thresholds)) return;
+    frames.planned = planned;
+}
+
+/// The effects plan of these frames, in ascending order: for each effect, frames one after the other with the same
+/// decision, with the largest bound and its reason.
+ordered_json explain_plan(Sequence& sequence, const std::vector<int>& frames) {
+    std::vector<std::vector<PlannedFrames>> shot;
+    for (const int frame : frames) {
+        const EffectsPlan plan = sequence.plan(frame);
+        shot.resize(plan.effects.size());
+        for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+            const PlannedEffect& planned = plan.effects[i];
+            if (!shot[i].empty() && shot[i].back().planned.decision == planned.decision) {
+                join(shot[i].back(), frame, planned);
+            } else {
+                shot[i].push_back({frame, frame, planned});
+            }
+        }
+    }
+    ordered_json list = ordered_json::array();
+    for (const std::vector<PlannedFrames>& effect : shot) {
+        for (const PlannedFrames& part : effect) {
+            ordered_json item = to_json(part.planned);
+            item["frames"] = {part.first, part.last};
+            list.push_back(std::move(item));
+        }
+    }
+    return list;
+}
+
 /// Camera and exposure, and a warning for what rendering would refuse; a null camera for a scene without one.
 void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& settings, const std::string& camera,
                    const std::vector<int>& frames) {
@@ -194,6 +246,18 @@ std::vector<std::size_t> tree_order(const Scene& scene) {
 
 }  // namespace
 
+std::vector<int> choose_planned_frames(const Scene& scene) {
+    const FrameRange range = frame_range(scene);
+    const std::int64_t length = range.last - range.first + 1;
+    std::set<int> frames;
+    for (const std::int64_t frame : spread_frames(range, length <= few_frames ? length : 5))
+        frames.insert(static_cast<int>(frame));
+    for (const std::int64_t cut : scene.film.cuts) {
+        if (frames.size() < most_shots && cut >= range.first && cut <= range.last) frames.insert(static_cast<int>(cut));
+    }
+    return {frames.begin(), frames.end()};
+}
+
 ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, const std::string& camera,
                            const std::vector<int>& frames) {
     ordered_json out = {{"file", scene.source.file}, {"name", scene.source.name}};
@@ -202,8 +266,6 @@ ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, c
     out["frames"] = describe_frames(scene);
     describe_view(out, scene, settings, camera, frames);
     out["environment"] = describe_environment(scene);
-    out["counts"] = count_elements(scene);
-    out["bounds"] = describe_bounds(scene);
     const NodePaths paths(scene);
     ordered_json objects = ordered_json::array();
     std::vector<ordered_json> ids(scene.nodes.size(), ordered_json::array());
@@ -213,6 +275,8 @@ ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, c
         objects.push_back(describe_node(scene, i, paths));
         if (!ids[i].empty()) objects.back()["object_ids"] = ids[i];
     }
+    out["counts"] = count_elements(scene, objects);
+    out["bounds"] = describe_bounds(scene);
     ordered_json materials = describe_materials(scene);
     out["time_samplings"] = collect_samplings(objects, materials, out["environment"]);
     out["objects"] = std::move(objects);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ranges>
 
 #include "engine/base/errors.h"
@@ -161,7 +162,35 @@ std::string counts_text(const ordered_json& counts) {
         lights_text(counts), counted(counts["cameras"], "camera", "cameras"));
 }
 
+std::string bound_text(const ordered_json& bound) {
+    if (bound.is_null()) return "not known";
+    const auto number = [](const ordered_json& value) {
+        const double known = value.get<double>();
+        return std::isfinite(known) ? fmt::format("{:.2g}", known) : std::string("not known");
+    };
+    if (bound["luminance"] == 0.0) return "0";
+    return fmt::format("{} cd/m2, {} thresholds", number(bound["luminance"]), number(bound["thresholds"]));
+}
+
 }  // namespace
+
+std::string plan_text(const ordered_json& plan, const ordered_json& frames) {
+    if (plan.empty()) return {};
+    std::string text = fmt::format("\neffects plan, of frame{} {}\n", frames.size() == 1 ? "" : "s", frames.dump());
+    text += fmt::format("  {:<18} {:<11} {:<9} {} [at most]\n", "effect", "frames", "", "reason");
+    std::string before;
+    for (const ordered_json& item : plan) {
+        const std::string effect = item["effect"], reason = item["reason"], decision = item["decision"];
+        const int first = item["frames"][0], last = item["frames"][1];
+        text +=
+            fmt::format("  {:<18} {:<11} {:<9} {}", effect == before ? "" : effect,
+                        first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last), decision, reason);
+        if (decision != "simulate") text += fmt::format(" [{}]", bound_text(item["bound"]));
+        text += '\n';
+        before = effect;
+    }
+    return text;
+}
 
 std::string explain_text(const ordered_json& explained, std::size_t max_objects) {
     std::string text = fmt::format("{}\n", printable(explained["file"].get<std::string>(), 300));

@@ -14,7 +14,7 @@
 #include "render/cli/study_output.h"
 #include "render/cli/support/output_path.h"
 #include "render/settings/frame_list.h"
-#include "render/study/study_file.h"
+#include "render/study/study.h"
 
 namespace aleph {
 

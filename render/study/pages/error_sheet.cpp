@@ -1,4 +1,4 @@
-#include "render/study/pages/error_sheet.h"
+#include "render/study/pages/pages.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include "engine/base/errors.h"
 #include "render/compare/compare_luminance.h"
 #include "render/compare/reference_passes.h"
-#include "render/images/picture_frame.h"
 #include "render/output/sheet.h"
 
 namespace aleph {
@@ -43,7 +42,6 @@ void write_error_sheet(const std::filesystem::path& path, const PreparedStudy& p
     for (std::size_t i = 0; i < results.frames.size(); ++i) {
         const JudgingFrame& frame = results.frames[i];
         for (const std::string& variant : variants) {
-            check_variant_name(prepared, variant);
             const auto found = std::ranges::find(results.variants, variant, &VariantResult::name);
             const ChannelImage picture = read_image(found->frames.at(i).picture);
             const LuminanceError error =

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "perception/vision/band_frequencies.h"
-#include "render/study/pages/report_page.h"
+#include "render/study/pages/pages.h"
 
 namespace aleph {
 
@@ -13,6 +13,10 @@ using Json = nlohmann::ordered_json;
 
 Json channel(const char* name, const char* title, const char* unit) {
     return {{"name", name}, {"title", title}, {"unit", unit}};
+}
+
+Json step(const char* title, const char* text, Json channels) {
+    return {{"title", title}, {"text", text}, {"channels", std::move(channels)}};
 }
 
 }  // namespace
@@ -60,46 +64,33 @@ Json report_walk(const StudyResults& results) {
         responses.push_back("band." + std::to_string(i));
         elevations.push_back("elevation." + std::to_string(i));
     }
-    Json walk = Json::array();
-    walk.push_back({{"title", "Motion"},
-                    {"text", "Where the surface point under the pixel goes in the next frame."},
-                    {"channels",
-                     {channel("forward.u", "to the right", "pixels"), channel("forward.v", "upwards", "pixels"),
-                      channel("motion.valid", "validity", "")}}});
-    walk.push_back(
-        {{"title", "Velocity"},
-         {"text", "The eye follows what stands out; what it does not follow moves over the retina."},
-         {"channels",
-          {channel("velocity.image", "on the image", "degrees per second"), channel("saliency.Y", "saliency", ""),
-           channel("velocity.retinal", "on the retina", "degrees per second")}}});
-    walk.push_back(
-        {{"title", "Bands"},
-         {"text",
-          "The shares of spatial frequencies around the pixel, and how many times the least visible contrast "
-          "goes unseen at each, because it moves."},
-         {"bands", {{"frequency", frequencies}, {"channels", responses}, {"elevation", elevations}}}});
-    walk.push_back(
-        {{"title", "Aleph map"},
-         {"text", "The elevations weighted by the shares; with the luminance, the visible threshold."},
-         {"channels",
-          {channel("aleph.Y", "contrast elevation", "times"), channel("threshold.Y", "visible threshold", "cd/m2")}}});
-    walk.push_back(
-        {{"title", "Effort"},
-         {"text", "What the renderer spent here."},
-         {"channels",
-          {channel("alpha.acc", "ambient accuracy", ""), channel("samples.Y", "samples", "per pixel"),
-           channel("records.Y", "irradiance values computed", ""),
-           channel("cache.count", "cache records used", "per sample"), channel("cache.radius", "their reach", "m")}}});
-    walk.push_back({{"title", "Estimated error"},
-                    {"text", "What the renderer expected of its own error, by cause."},
-                    {"channels",
-                     {channel("error.Y", "all", "visible thresholds"),
-                      channel("error.edges", "edges and textures", "visible thresholds"),
-                      channel("error.blur", "blur", "visible thresholds"),
-                      channel("error.direct", "direct light", "visible thresholds"),
-                      channel("error.gloss", "reflections", "visible thresholds"),
-                      channel("error.indirect", "cached light", "visible thresholds")}}});
-    return walk;
+    return Json::array(
+        {step("Motion", "Where the surface point under the pixel goes in the next frame.",
+              {channel("forward.u", "to the right", "pixels"), channel("forward.v", "upwards", "pixels"),
+               channel("motion.valid", "validity", "")}),
+         step("Velocity", "The eye follows what stands out; what it does not follow moves over the retina.",
+              {channel("velocity.image", "on the image", "degrees per second"), channel("saliency.Y", "saliency", ""),
+               channel("velocity.retinal", "on the retina", "degrees per second")}),
+         {{"title", "Bands"},
+          {"text",
+           "The shares of spatial frequencies around the pixel, and how many times the least visible contrast "
+           "goes unseen at each, because it moves."},
+          {"bands", {{"frequency", frequencies}, {"channels", responses}, {"elevation", elevations}}}},
+         step(
+             "Aleph map", "The elevations weighted by the shares; with the luminance, the visible threshold.",
+             {channel("aleph.Y", "contrast elevation", "times"), channel("threshold.Y", "visible threshold", "cd/m2")}),
+         step(
+             "Effort", "What the renderer spent here.",
+             {channel("alpha.acc", "ambient accuracy", ""), channel("samples.Y", "samples", "per pixel"),
+              channel("records.Y", "irradiance values computed", ""),
+              channel("cache.count", "cache records used", "per sample"), channel("cache.radius", "their reach", "m")}),
+         step("Estimated error", "What the renderer expected of its own error, by cause.",
+              {channel("error.Y", "all", "visible thresholds"),
+               channel("error.edges", "edges and textures", "visible thresholds"),
+               channel("error.blur", "blur", "visible thresholds"),
+               channel("error.direct", "direct light", "visible thresholds"),
+               channel("error.gloss", "reflections", "visible thresholds"),
+               channel("error.indirect", "cached light", "visible thresholds")})});
 }
 
 }  // namespace aleph

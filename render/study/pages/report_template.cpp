@@ -1,7 +1,6 @@
 // The bundled pages as part of the program: the assembler includes the files.
 
-#include "render/study/pages/report_page.h"
-#include "render/study/pages/viewer_page.h"
+#include "render/study/pages/pages.h"
 
 asm(".section .rodata\n"
     ".global aleph_report_begin\n"

@@ -1,4 +1,4 @@
-#include "render/study/pages/viewer_page.h"
+#include "render/study/pages/pages.h"
 
 #include <OpenImageIO/strutil.h>
 

@@ -79,24 +79,6 @@ TEST(CostModel, NeverFallsWhereTheErrorDoes) {
     }
 }
 
-TEST(CostModel, RefusesWhatIsNoCost) {
-    PilotSeconds none = two_errors();
-    none.parts.clear();
-    EXPECT_THROW(predict_seconds(none, {}, coefficients, 1.0), std::invalid_argument);
-    for (const double error : {0.0, -1.0, not_a_number, infinity}) {
-        EXPECT_THROW(predict_seconds(two_errors(), {}, coefficients, error), std::invalid_argument) << error;
-    }
-    for (const double seconds : {-1.0, not_a_number, infinity}) {
-        PilotSeconds part = two_errors(), light = two_errors(), before = two_errors(), start = two_errors();
-        part.parts[1].shade = seconds;
-        light.light[0].keyframes = seconds;
-        before.before = start.start = seconds;
-        for (const PilotSeconds& pilot : {part, light, before, start}) {
-            EXPECT_THROW(predict_seconds(pilot, {}, coefficients, 1.0), std::invalid_argument) << seconds;
-        }
-    }
-}
-
 TEST(ChooseError, IsTheSmallestThatFits) {
     const auto predict = [](double error) { return predict_seconds(two_errors(), {}, coefficients, error).sum(); };
     for (const double seconds : {1.5, 2.0, 5.0, 20.0}) {

@@ -1,6 +1,6 @@
 // `aleph preview`: film and sheet of a long shot, lines of motion, and what is left without ffmpeg.
 
-#include "render/output/map_preview.h"
+#include "render/output/sheet.h"
 #include "tests/render/cli/answers.h"
 #include "tests/support/film_programs.h"
 

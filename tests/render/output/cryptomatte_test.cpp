@@ -4,9 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/pose/pose.h"
-#include "render/output/cryptomatte.h"
 #include "render/output/frame_files.h"
-#include "render/surface/node_paths.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -2,7 +2,6 @@
 
 #include "render/output/sheet.h"
 #include "engine/image/image_file.h"
-#include "render/output/map_preview.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
 

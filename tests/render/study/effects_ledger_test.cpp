@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "render/study/study_file.h"
+#include "render/study/study.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"

@@ -3,7 +3,6 @@
 
 #include "render/study/measure_run.h"
 #include "render/study/reference_picture.h"
-#include "render/study/visible_metrics.h"
 #include "tests/support/grey_image.h"
 #include "tests/support/test.h"
 
@@ -29,9 +28,16 @@ std::vector<Metric> all_metrics(int viewers) {
     return list_metrics(study);
 }
 
-FrameTruth truth_of(ChannelImage reference, double variance) {
+const std::vector<Image<float>> thresholds = {Image<float>(10, 10, 2.0f), Image<float>(10, 10, 0.5f)};
+
+ChannelImage truth_of(ChannelImage reference, double variance) {
     reference.channels.push_back({"variance.Y", Image<float>(10, 10, static_cast<float>(variance))});
-    return {std::move(reference), {Image<float>(10, 10, 2.0f), Image<float>(10, 10, 0.5f)}};
+    return reference;
+}
+
+MetricValues measure_errors(const ChannelImage& picture, const ChannelImage& truth,
+                            const std::vector<Metric>& metrics) {
+    return measure_errors(picture, truth, thresholds, metrics);
 }
 
 TEST(MeasureErrors, KnownDifferences) {
@@ -55,10 +61,10 @@ TEST(MeasureErrors, KnownDifferences) {
 
 TEST(MeasureErrors, NoiseOfTheReferenceIsTakenOff) {
     const double variance = 1e-4;  // standard error 1 cd/m2: half of a threshold
-    const FrameTruth truth = truth_of(grey(0.5f), variance);
+    const ChannelImage truth = truth_of(grey(0.5f), variance);
     const MetricValues values = measure_errors(grey(0.5f), truth, all_metrics(1));
     EXPECT_LT(values.at("relative_mse"), 0.0) << "less than the noise would make";
-    const ReferenceQuality quality = measure_reference(truth);
+    const ReferenceQuality quality = measure_reference(truth, thresholds.front());
     EXPECT_NEAR(quality.percentile_99, 0.5, 0.01);
     EXPECT_NEAR(quality.share_by_noise, 4.55, 0.01) << "beyond 2 standard deviations";
 }
@@ -99,7 +105,9 @@ TEST(ReferencePicture, IsTheMeanOfItsPassesWithItsVariance) {
 TEST(ReferencePicture, FollowsTheExposure) {
     ChannelImage mean;
     for (const float value : {1.0f, 3.0f}) add_pass(mean, grey_picture({value}));
-    const ChannelImage brighter = with_exposure(mean, 2.0);
+    ChannelImage other;
+    other.metadata["exposureFactor"] = 2.0;
+    const ChannelImage brighter = with_exposure_of(mean, other);
     EXPECT_NEAR(brighter.find("R")->pixels[0], 4.0, 1e-6);
     EXPECT_NEAR(brighter.find("variance.Y")->pixels[0], 4.0 * mean.find("variance.Y")->pixels[0], 1e-6);
 }

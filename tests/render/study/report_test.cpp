@@ -8,9 +8,7 @@
 
 #include "engine/gltf/files.h"
 #include "engine/image/image_file.h"
-#include "render/study/pages/report_layers.h"
-#include "render/study/pages/report_page.h"
-#include "render/study/pages/viewer_page.h"
+#include "render/study/pages/pages.h"
 #include "tests/render/expect_fields.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
@@ -21,7 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The values of a layer, read as report_layers.h describes it.
 std::vector<float> decode(const std::string& text, std::size_t count, LayerType type) {
     const std::size_t width = type == LayerType::f16 ? 2 : 4;
     const Bytes packed = decode_data_uri("data:;base64," + text, "", "");

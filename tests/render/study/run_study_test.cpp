@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "render/study/study_file.h"
+#include "render/study/study.h"
 #include "render/study/threshold_noise.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"

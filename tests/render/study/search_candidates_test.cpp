@@ -1,10 +1,10 @@
 // Which settings a search tries, and how its rounds grow.
 
-#include "render/study/search_candidates.h"
+#include "render/study/search_study.h"
 
 #include <fmt/ranges.h>
 
-#include "render/study/study_file.h"
+#include "render/study/study.h"
 #include "tests/support/test.h"
 
 namespace aleph {

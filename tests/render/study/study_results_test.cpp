@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/study/metric_table.h"
-#include "render/study/study_file.h"
+#include "render/study/study.h"
 #include "render/study/study_files.h"
 #include "render/study/study_results.h"
 #include "tests/support/german_locale.h"

@@ -3,7 +3,7 @@
 #include "render/verify/probe.h"
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
-#include "render/verify/continued_error.h"
+#include "render/verify/probe_reference.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/test.h"

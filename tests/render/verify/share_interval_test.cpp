@@ -1,6 +1,6 @@
 // Shares and their intervals from counts in blocks.
 
-#include "render/verify/share_interval.h"
+#include "render/verify/probe.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "render/cli/verify.h"
+#include "render/cli/write_frames.h"
 #include "tests/render/cli/answers.h"
 #include "tests/render/expect_fields.h"
 #include "tests/support/read_bytes.h"
