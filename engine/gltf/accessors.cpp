@@ -177,17 +177,9 @@ std::vector<std::uint32_t> GltfAccessors::read_indices(int index, std::size_t li
     return indices;
 }
 
-std::size_t GltfAccessors::count(int accessor) const {
-    return source_.model.accessors[accessor].count;
-}
-
 std::size_t GltfAccessors::components(int accessor) const {
     const int type = source_.model.accessors[accessor].type;
     return static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
-}
-
-bool GltfAccessors::is_float(int accessor) const {
-    return source_.model.accessors[accessor].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
 void GltfAccessors::charge(std::uint64_t bytes, const std::string& place) {

@@ -29,9 +29,11 @@ class GltfAccessors {
     /// @throws InputError where an index is not below `limit`
     std::vector<std::uint32_t> read_indices(int accessor, std::size_t limit, const char* kind = "vertex");
 
-    std::size_t count(int accessor) const;
+    std::size_t count(int accessor) const { return source_.model.accessors[accessor].count; }
     std::size_t components(int accessor) const;  ///< 3 for VEC3
-    bool is_float(int accessor) const;
+    bool is_float(int accessor) const {
+        return source_.model.accessors[accessor].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    }
 
     /// Counts memory before it is taken. Call it wherever data that was read is copied.
     /// @throws InputError beyond the file's allowance

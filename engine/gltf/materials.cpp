@@ -1,25 +1,113 @@
-// glTF reader: materials with their extensions.
+// glTF reader: materials with their extensions; their textures and images.
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "engine/base/errors.h"
 #include "engine/gltf/reader.h"
-#include "engine/gltf/textures.h"
 #include "engine/gltf/validate/material_table.h"
+#include "engine/image/image_file.h"
 
 namespace aleph {
 
 namespace {
 
-/// The object that has an owner's properties; null where a material lacks it.
-const nlohmann::json* find_owner(const nlohmann::json& material, std::string_view name) {
-    const auto find = [](const nlohmann::json* in, std::string_view key) -> const nlohmann::json* {
-        if (in == nullptr) return nullptr;
-        const auto found = in->find(key);
-        return found == in->end() ? nullptr : &*found;
+/// Bytes of decoded pixels in one file.
+constexpr std::uint64_t max_pixel_bytes = std::uint64_t{2} << 30;
+
+SceneImage read_image(const GltfReader& reader, std::size_t index) {
+    const std::string place = fmt::format("/images/{}", index);
+    EncodedImage encoded = load_encoded_image(reader.source, index);
+    SceneImage image;
+    image.name = reader.source.document["images"][index].value("name", fmt::format("image{}", index));
+    image.path = std::move(encoded.path);
+    try {
+        image.bytes = decode_texture(encoded.bytes, place).bytes;
+    } catch (const InputError& error) {
+        if (error.file() == reader.source.file) throw;
+        throw InputError(reader.source.file, place, error.reason());
+    }
+    return image;
+}
+
+Wrap wrap_of(int mode) {
+    switch (mode) {
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirror;
+        default:
+            return Wrap::repeat;
+    }
+}
+
+/// Reads textures. Only images that a texture uses are decoded, each once.
+class GltfTextures {
+  public:
+    explicit GltfTextures(GltfReader& reader) : reader_(reader), image_of_(reader.source.count("images"), no_index) {}
+
+    /// The texture of a texture info; none where the owner has no such key.
+    /// @param owner  a material, or an extension of one
+    TextureRef read(const nlohmann::json& owner, const char* key);
+
+  private:
+    TextureRef read(int index, int uv_set);
+
+    GltfReader& reader_;
+    std::vector<int> image_of_;  ///< glTF image -> scene image, no_index until needed
+    std::uint64_t pixel_bytes_ = 0;
+};
+
+TextureRef GltfTextures::read(int index, int uv_set) {
+    TextureRef reference;
+    const tinygltf::Model& model = reader_.source.model;
+    const tinygltf::Texture& texture = model.textures[index];
+    const auto source = static_cast<std::size_t>(texture.source);
+    if (image_of_[source] == no_index) {
+        SceneImage image = read_image(reader_, source);
+        pixel_bytes_ += image.bytes.size() * sizeof(glm::u8vec4);
+        if (pixel_bytes_ > max_pixel_bytes) {
+            throw InputError(reader_.source.file, fmt::format("/images/{}", source),
+                             fmt::format("the file's images decode to more than {} bytes", max_pixel_bytes));
+        }
+        image_of_[source] = static_cast<int>(reader_.part.images.size());
+        reader_.part.images.push_back(std::move(image));
+    }
+    reference.image = image_of_[source];
+    reference.uv_set = uv_set;
+    if (texture.sampler >= 0) {
+        const tinygltf::Sampler& sampler = model.samplers[texture.sampler];
+        reference.wrap_u = wrap_of(sampler.wrapS);
+        reference.wrap_v = wrap_of(sampler.wrapT);
+        reference.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    return reference;
+}
+
+TextureRef GltfTextures::read(const nlohmann::json& owner, const char* key) {
+    const auto info = owner.find(key);
+    if (info == owner.end()) return {};
+    TextureRef reference = read((*info)["index"].get<int>(), info->value("texCoord", 0));
+    const nlohmann::json* transform = find_extension(*info, "KHR_texture_transform");
+    if (transform == nullptr) return reference;
+    const auto pair = [&](const char* name, const glm::dvec2& absent) {
+        const auto found = transform->find(name);
+        if (found == transform->end()) return absent;
+        return glm::dvec2((*found)[0].get<double>(), (*found)[1].get<double>());
     };
-    if (name.empty()) return &material;
-    return find(is_gltf_extension(name) ? find(&material, "extensions") : &material, name);
+    reference.uv_offset = pair("offset", glm::dvec2(0.0));
+    reference.uv_scale = pair("scale", glm::dvec2(1.0));
+    reference.uv_rotation = transform->value("rotation", 0.0);
+    reference.uv_set = transform->value("texCoord", reference.uv_set);
+    return reference;
+}
+
+/// The object that has an owner's properties; null where a material lacks it.
+const nlohmann::json* find_owner(const nlohmann::json& material, const char* name) {
+    if (is_gltf_extension(name)) return find_extension(material, name);
+    if (*name == '\0') return &material;
+    const auto found = material.find(name);
+    return found == material.end() ? nullptr : &*found;
 }
 
 /// Reads materials. Factors out of range are clamped, with a warning.

@@ -62,11 +62,6 @@ int use_skin(GltfReader& reader, std::size_t skin);
 /// Morph targets of a primitive, without weights.
 void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& place, Mesh& mesh);
 
-/// Child nodes for EXT_mesh_gpu_instancing in place of the node's own meshes.
-/// @param node  of the file; @param parent  its scene node
-/// @return (node, mesh) pairs made
-std::size_t read_instances(GltfReader& reader, std::size_t node, int parent);
-
 /// The three floats of each element. @param accessor  VEC3
 std::vector<glm::vec3> read_vec3(GltfReader& reader, int accessor);
 

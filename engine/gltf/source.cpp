@@ -115,6 +115,18 @@ void parse_model(GltfSource& source) {
 
 }  // namespace
 
+std::size_t GltfSource::count(const char* list) const {
+    const auto found = document.find(list);
+    return found == document.end() ? 0 : found->size();
+}
+
+const nlohmann::json* find_extension(const nlohmann::json& element, const char* name) {
+    const auto extensions = element.find("extensions");
+    if (extensions == element.end()) return nullptr;
+    const auto extension = extensions->find(name);
+    return extension == extensions->end() ? nullptr : &*extension;
+}
+
 GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
     GltfSource source;
     source.file = path.string();
@@ -126,16 +138,13 @@ GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
     validate_gltf(JsonRef(source.document, source.file), chunks.has_binary, source.warnings);
 
     std::uint64_t bytes_left = max_file_bytes;
-    const std::size_t buffer_count = source.document.contains("buffers") ? source.document["buffers"].size() : 0;
-    for (std::size_t i = 0; i < buffer_count; ++i) {
+    for (std::size_t i = 0; i < source.count("buffers"); ++i) {
         source.buffers.push_back(load_buffer(source, i, chunks, bytes_left));
         bytes_left -= source.buffers.back().size();
     }
     std::set<std::size_t> images;
-    if (source.document.contains("textures")) {
-        for (const nlohmann::json& texture : source.document["textures"])
-            images.insert(texture["source"].get<std::size_t>());
-    }
+    for (std::size_t i = 0; i < source.count("textures"); ++i)
+        images.insert(source.document["textures"][i]["source"].get<std::size_t>());
     for (const std::size_t image : images) locate_image(source, image);
     parse_model(source);
     return source;

@@ -20,7 +20,13 @@ struct GltfSource {
     tinygltf::Model model;       ///< without buffers, images, skins, indices, channels, sparse values
     std::vector<Bytes> buffers;  ///< exactly byteLength each
     std::vector<std::string> warnings;
+
+    /// Elements of one of the document's lists; 0 where it has no such list.
+    std::size_t count(const char* list) const;
 };
+
+/// The object of an extension of an element; null where it has none.
+const nlohmann::json* find_extension(const nlohmann::json& element, const char* name);
 
 /// Reads, validates and parses; buffers are loaded, images only located.
 /// @throws InputError

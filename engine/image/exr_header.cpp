@@ -1,5 +1,3 @@
-#include "engine/image/exr_header.h"
-
 #include <OpenEXR/ImfAttribute.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfVersion.h>

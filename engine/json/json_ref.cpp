@@ -111,20 +111,17 @@ std::size_t JsonRef::index(std::size_t count, std::string_view kind) const {
 
 std::optional<std::size_t> JsonRef::find_index(std::string_view key, std::size_t count, std::string_view kind) const {
     const std::optional<JsonRef> member = find(key);
-    if (!member) return std::nullopt;
-    return member->index(count, kind);
+    return member ? std::optional(member->index(count, kind)) : std::nullopt;
 }
 
 std::optional<std::int64_t> JsonRef::find_integer(std::string_view key, std::int64_t low, std::int64_t high) const {
     const std::optional<JsonRef> member = find(key);
-    if (!member) return std::nullopt;
-    return member->integer(low, high);
+    return member ? std::optional(member->integer(low, high)) : std::nullopt;
 }
 
 std::optional<std::string> JsonRef::find_string(std::string_view key) const {
     const std::optional<JsonRef> member = find(key);
-    if (!member) return std::nullopt;
-    return member->string();
+    return member ? std::optional(member->string()) : std::nullopt;
 }
 
 bool JsonRef::check_number(std::string_view key) const {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "engine/base/errors.h"
-#include "engine/json/scan.h"
 
 namespace aleph {
 

@@ -1,5 +1,3 @@
-#include "engine/load/load_includes.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/json/close_names.h"
+#include "engine/load/format_rows.h"
 #include "engine/scene/append.h"
 
 namespace aleph {

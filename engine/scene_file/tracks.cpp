@@ -8,7 +8,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/scene/transforms.h"
-#include "engine/scene_file/easing.h"
 
 namespace aleph {
 

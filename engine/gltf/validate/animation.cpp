@@ -1,9 +1,11 @@
 // Validator: animations: what channels move, and that the keys fit it.
 #include <fmt/format.h>
 
+#include <array>
 #include <set>
 
 #include "engine/base/errors.h"
+#include "engine/base/index.h"
 #include "engine/gltf/validate/parts.h"
 #include "engine/gltf/validate/pointer.h"
 
@@ -14,23 +16,10 @@ namespace {
 /// Pointers to the properties that an animation moves already.
 using Taken = std::set<std::string>;
 
-std::size_t owner_count(const GltfCheck& check, GltfOwner owner) {
-    switch (owner) {
-        case GltfOwner::node:
-            return check.counts.nodes;
-        case GltfOwner::camera:
-            return check.counts.cameras;
-        case GltfOwner::light:
-            return check.counts.lights;
-        case GltfOwner::material:
-            return check.counts.materials;
-    }
-    return 0;
-}
-
 /// Refuses a KHR_animation_pointer whose element is missing or has no such property.
 void check_owner(const GltfCheck& check, const GltfPointer& pointer, const JsonRef& place) {
-    const std::size_t count = owner_count(check, pointer.info->owner);
+    const std::array counts{check.counts.nodes, check.counts.cameras, check.counts.lights, check.counts.materials};
+    const std::size_t count = counts[index_of(pointer.info->owner)];
     const std::string text = pointer_text(pointer);
     if (pointer.index >= count) place.fail(fmt::format("\"{}\" leads to nothing: the file has {}", text, count));
     const nlohmann::json& root = check.root.json();
@@ -89,11 +78,6 @@ void check_output(const GltfPointer& pointer, const AccessorInfo& info, const Js
         output.fail(fmt::format("keys of {} must be a {} accessor", text, pointer.info->type));
     }
     switch (pointer.info->property) {
-        case GltfProperty::node_rotation:
-        case GltfProperty::node_weights:
-            if (!is_unit_range(info))
-                output.fail(fmt::format("keys of {} must be floats or normalized integers", text));
-            return;
         case GltfProperty::node_visible:
             if (info.component_type != type_u8 || info.normalized) {
                 output.fail(fmt::format("keys of {} must be 8-bit unsigned integers, not normalized", text));
@@ -103,15 +87,14 @@ void check_output(const GltfPointer& pointer, const AccessorInfo& info, const Js
         case GltfProperty::node_scale:
             if (!is_float(info)) output.fail(fmt::format("keys of {} must be floats", text));
             return;
-        default:  // KHR_animation_pointer: floats, or normalized integers
+        default:
             if (!is_unit_range(info))
                 output.fail(fmt::format("keys of {} must be floats or normalized integers", text));
     }
 }
 
 void check_keys(const GltfCheck& check, const GltfPointer& pointer, const JsonRef& sampler, const JsonRef& place) {
-    const std::optional<std::string> stated = sampler.find_string("interpolation");
-    const std::string interpolation = stated.value_or("LINEAR");
+    const std::string interpolation = sampler.find_string("interpolation").value_or("LINEAR");
     const JsonRef input = sampler.require("input");
     const JsonRef output = sampler.require("output");
     const AccessorInfo& times = check.accessor(input);
@@ -147,12 +130,8 @@ void check_channel(GltfCheck& check, const JsonRef& channel, const JsonRef& samp
 }
 
 void check_sampler(const GltfCheck& check, const JsonRef& sampler) {
-    if (const std::optional<JsonRef> interpolation = sampler.find("interpolation")) {
-        const std::string& name = interpolation->string();
-        if (name != "LINEAR" && name != "STEP" && name != "CUBICSPLINE") {
-            interpolation->fail(fmt::format("\"{}\" is no interpolation", printable(name)));
-        }
-    }
+    if (const std::optional<JsonRef> interpolation = sampler.find("interpolation"))
+        expect_word(*interpolation, {"LINEAR", "STEP", "CUBICSPLINE"}, "interpolation");
     const JsonRef input = sampler.require("input");
     const AccessorInfo& times = check.accessor(input);
     if (times.type != "SCALAR" || !is_float(times)) input.fail("key times must be a float SCALAR accessor");

@@ -10,12 +10,11 @@ namespace aleph {
 namespace {
 
 void check_node_transform(const JsonRef& node) {
-    bool separate = node.check_numbers("translation", 3);
-    if (node.check_numbers("rotation", 4)) separate = true;
-    if (node.check_numbers("scale", 3)) separate = true;
+    const bool translates = node.check_numbers("translation", 3), rotates = node.check_numbers("rotation", 4),
+               scales = node.check_numbers("scale", 3);
     if (!node.check_numbers("matrix", 16)) return;
     const JsonRef matrix = node.require("matrix");
-    if (separate) matrix.fail("a node has either a matrix or translation, rotation and scale");
+    if (translates || rotates || scales) matrix.fail("a node has either a matrix or translation, rotation and scale");
     for (const std::size_t i : {3u, 7u, 11u, 15u}) {
         const JsonRef element = matrix[i];
         if (element.number() != (i == 15 ? 1.0 : 0.0)) element.fail("the matrix is not affine");

@@ -1,6 +1,7 @@
 #pragma once
 // The validator's parts, one per kind of element; only this folder uses them.
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,9 +65,6 @@ inline bool is_positive_unit_range(const AccessorInfo& info) {
     return is_float(info) || (is_unsigned && info.normalized);
 }
 
-/// Bytes of one component, or nothing for a number that is no component type.
-std::optional<std::int64_t> component_bytes(std::int64_t component_type);
-
 /// Extension `name` of an element, with its parents kept alive for error messages.
 class ExtensionRef {
   public:
@@ -83,8 +81,8 @@ class ExtensionRef {
     std::optional<JsonRef> extensions_, extension_;
 };
 
-/// Optional "weights" of a mesh or a node: one number for each morph target.
-void check_weights(const JsonRef& owner, std::size_t target_count);
+/// Refuses a text that is none of the words. @param kind  of the words, for messages
+void expect_word(const JsonRef& at, std::initializer_list<std::string_view> words, std::string_view kind);
 
 // Called in this order: each relies on the ones before.
 void check_extensions(GltfCheck& check);
