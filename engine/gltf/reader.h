@@ -44,8 +44,6 @@ void read_nodes(GltfReader& reader);
 void read_skins(GltfReader& reader);
 /// @param names  of the animations that are read; null: all
 void read_animations(GltfReader& reader, const std::vector<std::string>* names);
-/// Warns of a scene without a mesh, and of nodes that always shrink their meshes to a point.
-void warn_of_invisible_meshes(GltfReader& reader);
 
 /// The material of primitives that name none, a white metal: added to the part on first use.
 int default_material(GltfReader& reader);

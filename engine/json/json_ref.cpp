@@ -11,17 +11,7 @@ namespace aleph {
 std::string JsonRef::pointer() const {
     if (parent_ == nullptr) return "";
     if (key_.empty()) return fmt::format("{}/{}", parent_->pointer(), index_);
-    std::string escaped;
-    for (const char c : printable(key_)) {
-        if (c == '~') {
-            escaped += "~0";
-        } else if (c == '/') {
-            escaped += "~1";
-        } else {
-            escaped += c;
-        }
-    }
-    return parent_->pointer() + "/" + escaped;
+    return parent_->pointer() + (nlohmann::json::json_pointer() / printable(key_)).to_string();
 }
 
 void JsonRef::fail(const std::string& reason) const {

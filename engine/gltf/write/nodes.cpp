@@ -40,7 +40,6 @@ struct Presence {
         made.sampling.kind = TimeSampling::Kind::acyclic;
         made.sampling.times = times;
         made.interpolation = Interpolation::step;
-        made.values.clear();
         for (const double t : times) made.values.push_back(value(t) ? 1.0 : 0.0);
         return made;
     }
@@ -93,7 +92,7 @@ class NodeWriter {
         if (is_nested) {
             inner = add_node(node.name);
             adopt(top, inner);
-            set_rotation(inner, transform.inner);
+            set_rotation(inner, transform.parts.inner);
             writer_.animate(inner, "rotation", transform.inner_keys);
         }
         writer_.node_of[index] = inner;
@@ -109,10 +108,10 @@ class NodeWriter {
     }
 
     void write_place(int index, const WrittenTransform& transform) {
-        if (transform.translation != glm::dvec3(0.0))
-            writer_.node(index)["translation"] = to_json(transform.translation);
-        set_rotation(index, transform.rotation);
-        if (transform.scale != glm::dvec3(1.0)) writer_.node(index)["scale"] = to_json(transform.scale);
+        if (transform.parts.translation != glm::dvec3(0.0))
+            writer_.node(index)["translation"] = to_json(transform.parts.translation);
+        set_rotation(index, transform.parts.rotation);
+        if (transform.parts.scale != glm::dvec3(1.0)) writer_.node(index)["scale"] = to_json(transform.parts.scale);
         writer_.animate(index, "translation", transform.translation_keys);
         writer_.animate(index, "rotation", transform.rotation_keys);
         writer_.animate(index, "scale", transform.scale_keys);
