@@ -54,14 +54,6 @@ std::vector<int> take_meshes(GltfReader& reader, std::size_t node);
 
 /// The skin of a vertex: JOINTS_n and WEIGHTS_n, weights brought to a sum of 1.
 void read_joint_weights(GltfReader& reader, const GltfMeshUse& use, std::size_t skin, Mesh& mesh);
-/// The scene skin of a glTF skin; its joints follow once all nodes are read (read_skins).
-int use_skin(GltfReader& reader, std::size_t skin);
-
-/// Morph targets of a primitive, without weights.
-void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& place, Mesh& mesh);
-
-/// The three floats of each element. @param accessor  VEC3
-std::vector<glm::vec3> read_vec3(GltfReader& reader, int accessor);
 
 /// A quaternion made unit, and the length it had.
 struct UnitRotation {

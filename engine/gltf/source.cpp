@@ -16,30 +16,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The bytes of a data URI, or of the file that a relative one names.
+Bytes read_uri(const GltfSource& source, const std::string& uri, const std::string& place) {
+    if (is_data_uri(uri)) return decode_data_uri(uri, source.file, place);
+    return read_regular_file(resolve_file_uri(uri, source.folder, source.file, place), source.file, place);
+}
+
 Bytes load_buffer(const GltfSource& source, std::size_t i, const GltfChunks& chunks, std::uint64_t bytes_left) {
     const nlohmann::json& buffer = source.document["buffers"][i];
     const std::string place = fmt::format("/buffers/{}", i);
     const auto length = buffer["byteLength"].get<std::size_t>();
-    Bytes bytes;
     if (!buffer.contains("uri")) {
         if (chunks.binary.size() < length) {
             throw InputError(source.file, place,
                              fmt::format("byteLength is {}, the BIN chunk has {} bytes", length, chunks.binary.size()));
         }
-        bytes.assign(chunks.binary.begin(), chunks.binary.begin() + static_cast<std::ptrdiff_t>(length));
-        return bytes;
+        return {chunks.binary.begin(), chunks.binary.begin() + static_cast<std::ptrdiff_t>(length)};
     }
     // Several buffers may name one large file.
     if (length > bytes_left) {
         throw InputError(source.file, place, fmt::format("all buffers together exceed {} bytes", max_file_bytes));
     }
-    const std::string& uri = buffer["uri"].get_ref<const std::string&>();
-    if (is_data_uri(uri)) {
-        bytes = decode_data_uri(uri, source.file, place + "/uri");
-    } else {
-        bytes = read_regular_file(resolve_file_uri(uri, source.folder, source.file, place + "/uri"), source.file,
-                                  place + "/uri");
-    }
+    Bytes bytes = read_uri(source, buffer["uri"].get_ref<const std::string&>(), place + "/uri");
     if (bytes.size() < length) {
         throw InputError(source.file, place,
                          fmt::format("byteLength is {}, the data has {} bytes", length, bytes.size()));
@@ -158,12 +156,10 @@ EncodedImage load_encoded_image(const GltfSource& source, std::size_t i) {
         const tinygltf::BufferView& view = source.model.bufferViews[image["bufferView"].get<std::size_t>()];
         const auto begin = source.buffers[view.buffer].begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
         encoded.bytes.assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
-    } else if (const auto& uri = image["uri"].get_ref<const std::string&>(); is_data_uri(uri)) {
-        encoded.bytes = decode_data_uri(uri, source.file, place + "/uri");
     } else {
-        encoded.path = percent_decode(uri, source.file, place + "/uri");
-        encoded.bytes = read_regular_file(resolve_file_uri(uri, source.folder, source.file, place + "/uri"),
-                                          source.file, place + "/uri");
+        const auto& uri = image["uri"].get_ref<const std::string&>();
+        if (!is_data_uri(uri)) encoded.path = percent_decode(uri, source.file, place + "/uri");
+        encoded.bytes = read_uri(source, uri, place + "/uri");
     }
     const Bytes& b = encoded.bytes;
     const bool is_png = b.size() > 8 && b[0] == 0x89 && b[1] == 'P' && b[2] == 'N' && b[3] == 'G';

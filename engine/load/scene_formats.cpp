@@ -14,15 +14,8 @@ namespace aleph {
 namespace {
 
 bool serves(const SceneFormat& format, FormatUse use) {
-    switch (use) {
-        case FormatUse::load:
-            return format.load != nullptr || format.append != nullptr;
-        case FormatUse::include:
-            return format.append != nullptr;
-        case FormatUse::save:
-            return format.save != nullptr;
-    }
-    return false;
+    if (use == FormatUse::save) return format.save != nullptr;
+    return format.append != nullptr || (use == FormatUse::load && format.load != nullptr);
 }
 
 }  // namespace

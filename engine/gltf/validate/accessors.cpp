@@ -45,7 +45,7 @@ struct Block {
 Block check_block(const GltfCheck& check, const JsonRef& owner, const JsonRef& view_index, std::int64_t count,
                   std::int64_t element, std::int64_t component) {
     const JsonRef views = check.root.require("bufferViews");
-    const JsonRef view = views[view_index.index(check.counts.views, "buffer view")];
+    const JsonRef view = views[view_index.index(check.count("bufferViews"), "buffer view")];
     const std::int64_t view_offset = view.find_integer("byteOffset", 0, max_gltf_count).value_or(0);
     const std::int64_t view_length = view.require("byteLength").integer(1, max_gltf_count);
     const std::int64_t offset = owner.find_integer("byteOffset", 0, max_gltf_count).value_or(0);

@@ -18,7 +18,8 @@ using Taken = std::set<std::string>;
 
 /// Refuses a KHR_animation_pointer whose element is missing or has no such property.
 void check_owner(const GltfCheck& check, const GltfPointer& pointer, const JsonRef& place) {
-    const std::array counts{check.counts.nodes, check.counts.cameras, check.counts.lights, check.counts.materials};
+    const std::array counts{check.count("nodes"), check.count("cameras"), check.light_count(),
+                            check.count("materials")};
     const std::size_t count = counts[index_of(pointer.info->owner)];
     const std::string text = pointer_text(pointer);
     if (pointer.index >= count) place.fail(fmt::format("\"{}\" leads to nothing: the file has {}", text, count));
@@ -38,7 +39,7 @@ void check_owner(const GltfCheck& check, const GltfPointer& pointer, const JsonR
 std::optional<GltfPointer> check_target(GltfCheck& check, const JsonRef& target) {
     const JsonRef path = target.require("path");
     const std::string& name = path.string();
-    const std::optional<std::size_t> node = target.find_index("node", check.counts.nodes, "node");
+    const std::optional<std::size_t> node = target.find_index("node", check.count("nodes"), "node");
     const ExtensionRef extension(target, "KHR_animation_pointer");
     if (name == "pointer" && extension) {
         if (node) path.fail("a channel has either a node or a pointer");
@@ -66,7 +67,7 @@ std::int64_t values_per_key(const GltfCheck& check, const GltfPointer& pointer, 
     if (pointer.info->property != GltfProperty::node_weights) return 1;
     const JsonRef nodes = check.root.require("nodes");
     const JsonRef node = nodes[pointer.index];
-    const std::optional<std::size_t> mesh = node.find_index("mesh", check.counts.meshes, "mesh");
+    const std::optional<std::size_t> mesh = node.find_index("mesh", check.count("meshes"), "mesh");
     const std::size_t targets = mesh ? check.target_counts[*mesh] : 0;
     if (targets == 0) place.fail(fmt::format("node {} has no morph targets whose weights could move", pointer.index));
     return static_cast<std::int64_t>(targets);

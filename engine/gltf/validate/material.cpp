@@ -16,7 +16,7 @@ void check_texture_info(const GltfCheck& check, const JsonRef& owner, std::strin
     if (!info) return;
     info->expect_object();
     const JsonRef index = info->require("index");
-    index.index(check.counts.textures, "texture");
+    index.index(check.count("textures"), "texture");
     const ExtensionRef transform(*info, "KHR_texture_transform");
     if (transform) {
         transform->check_numbers("offset", 2);

@@ -110,7 +110,7 @@ void check_joint_sets(const JsonRef& attributes) {
 /// @return the number of morph targets
 std::size_t check_primitive(const GltfCheck& check, const JsonRef& primitive) {
     const std::int64_t mode = primitive.find_integer("mode", 0, 6).value_or(4);
-    primitive.find_index("material", check.counts.materials, "material");
+    primitive.find_index("material", check.count("materials"), "material");
 
     const JsonRef attributes = primitive.require("attributes");
     attributes.expect_object();
@@ -147,13 +147,13 @@ void check_weights(const JsonRef& owner, std::size_t target_count) {
 
 void check_skin(const GltfCheck& check, const JsonRef& skin) {
     skin.find_string("name");
-    skin.find_index("skeleton", check.counts.nodes, "node");
+    skin.find_index("skeleton", check.count("nodes"), "node");
     const JsonRef joints = skin.require("joints");
     const std::size_t count = joints.array_size(1);
     std::set<std::size_t> seen;
     for (std::size_t i = 0; i < count; ++i) {
         const JsonRef joint = joints[i];
-        const std::size_t node = joint.index(check.counts.nodes, "node");
+        const std::size_t node = joint.index(check.count("nodes"), "node");
         if (!seen.insert(node).second) joint.fail(fmt::format("node {} is listed twice", node));
     }
     const std::optional<JsonRef> binds = skin.find("inverseBindMatrices");
@@ -166,8 +166,8 @@ void check_skin(const GltfCheck& check, const JsonRef& skin) {
 }
 
 void check_skinned_node(const GltfCheck& check, const JsonRef& node, const JsonRef& skin) {
-    skin.index(check.counts.skins, "skin");
-    const std::optional<std::size_t> mesh_index = node.find_index("mesh", check.counts.meshes, "mesh");
+    skin.index(check.count("skins"), "skin");
+    const std::optional<std::size_t> mesh_index = node.find_index("mesh", check.count("meshes"), "mesh");
     if (!mesh_index) skin.fail("a node with a skin needs a mesh");
     const JsonRef meshes = check.root.require("meshes");
     const JsonRef mesh = meshes[*mesh_index];
@@ -226,7 +226,7 @@ void check_skins(GltfCheck& check) {
     for_each_object(check.root, "nodes", [&](const JsonRef& node, std::size_t) {
         if (const std::optional<JsonRef> skin = node.find("skin")) check_skinned_node(check, node, *skin);
         if (const std::optional<JsonRef> weights = node.find("weights")) {
-            const std::optional<std::size_t> mesh = node.find_index("mesh", check.counts.meshes, "mesh");
+            const std::optional<std::size_t> mesh = node.find_index("mesh", check.count("meshes"), "mesh");
             if (!mesh) weights->fail("morph target weights of a node without a mesh");
             check_weights(node, check.target_counts[*mesh]);
         }

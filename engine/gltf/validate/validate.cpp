@@ -71,23 +71,6 @@ void check_asset(const JsonRef& root) {
     }
 }
 
-GltfCounts count_elements(const JsonRef& root) {
-    GltfCounts counts;
-    counts.buffers = count_of(root, "buffers");
-    counts.views = count_of(root, "bufferViews");
-    counts.accessors = count_of(root, "accessors");
-    counts.images = count_of(root, "images");
-    counts.samplers = count_of(root, "samplers");
-    counts.textures = count_of(root, "textures");
-    counts.materials = count_of(root, "materials");
-    counts.meshes = count_of(root, "meshes");
-    counts.nodes = count_of(root, "nodes");
-    counts.cameras = count_of(root, "cameras");
-    counts.skins = count_of(root, "skins");
-    if (const ExtensionRef lights(root, "KHR_lights_punctual"); lights) counts.lights = count_of(*lights, "lights");
-    return counts;
-}
-
 }  // namespace
 
 void expect_word(const JsonRef& at, std::initializer_list<std::string_view> words, std::string_view kind) {
@@ -124,7 +107,7 @@ void check_extensions(GltfCheck& check) {
 void validate_gltf(const JsonRef& root, bool has_binary_chunk, std::vector<std::string>& warnings) {
     root.expect_object();
     check_asset(root);
-    GltfCheck check{root, has_binary_chunk, warnings, count_elements(root), {}, {}, false};
+    GltfCheck check{root, has_binary_chunk, warnings};
     check_extensions(check);
     check_nodes(check);
     check_buffers(check);
