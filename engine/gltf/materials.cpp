@@ -17,12 +17,11 @@ constexpr std::uint64_t max_pixel_bytes = std::uint64_t{2} << 30;
 
 SceneImage read_image(const GltfReader& reader, std::size_t index) {
     const std::string place = fmt::format("/images/{}", index);
-    EncodedImage encoded = load_encoded_image(reader.source, index);
     SceneImage image;
     image.name = reader.source.document["images"][index].value("name", fmt::format("image{}", index));
-    image.path = std::move(encoded.path);
+    const Bytes encoded = load_encoded_image(reader.source, index, image.path);
     try {
-        image.bytes = decode_texture(encoded.bytes, place).bytes;
+        image.bytes = decode_texture(encoded, place).bytes;
     } catch (const InputError& error) {
         if (error.file() == reader.source.file) throw;
         throw InputError(reader.source.file, place, error.reason());
@@ -41,54 +40,58 @@ Wrap wrap_of(int mode) {
     }
 }
 
-/// Reads textures. Only images that a texture uses are decoded, each once.
-class GltfTextures {
-  public:
-    explicit GltfTextures(GltfReader& reader) : reader_(reader), image_of_(reader.source.count("images"), no_index) {}
+/// The object that has an owner's properties; null where a material lacks it.
+const nlohmann::json* find_owner(const nlohmann::json& material, const char* name) {
+    if (is_gltf_extension(name)) return find_extension(material, name);
+    if (*name == '\0') return &material;
+    const auto found = material.find(name);
+    return found == material.end() ? nullptr : &*found;
+}
 
-    /// The texture of a texture info; none where the owner has no such key.
-    /// @param owner  a material, or an extension of one
-    TextureRef read(const nlohmann::json& owner, const char* key);
+/// Reads materials. Factors out of range are clamped, with a warning. Images that textures use are decoded once.
+class MaterialReader {
+  public:
+    explicit MaterialReader(GltfReader& reader) : reader_(reader), image_of_(reader.source.count("images"), no_index) {}
+
+    Material read(std::size_t index);
 
   private:
-    TextureRef read(int index, int uv_set);
+    double clamped(double value, const GltfFactor& factor);
+    void read_owner(const char* name, const nlohmann::json& owner, Material& material);
+    TextureRef read_texture(const nlohmann::json& info);
+    int use_image(std::size_t index);
 
     GltfReader& reader_;
+    std::string place_;          ///< of the material that is read
     std::vector<int> image_of_;  ///< glTF image -> scene image, no_index until needed
     std::uint64_t pixel_bytes_ = 0;
 };
 
-TextureRef GltfTextures::read(int index, int uv_set) {
-    TextureRef reference;
-    const tinygltf::Model& model = reader_.source.model;
-    const tinygltf::Texture& texture = model.textures[index];
-    const auto source = static_cast<std::size_t>(texture.source);
-    if (image_of_[source] == no_index) {
-        SceneImage image = read_image(reader_, source);
-        pixel_bytes_ += image.bytes.size() * sizeof(glm::u8vec4);
-        if (pixel_bytes_ > max_pixel_bytes) {
-            throw InputError(reader_.source.file, fmt::format("/images/{}", source),
-                             fmt::format("the file's images decode to more than {} bytes", max_pixel_bytes));
-        }
-        image_of_[source] = static_cast<int>(reader_.part.images.size());
-        reader_.part.images.push_back(std::move(image));
+int MaterialReader::use_image(std::size_t index) {
+    if (image_of_[index] != no_index) return image_of_[index];
+    SceneImage image = read_image(reader_, index);
+    pixel_bytes_ += image.bytes.size() * sizeof(glm::u8vec4);
+    if (pixel_bytes_ > max_pixel_bytes) {
+        throw InputError(reader_.source.file, fmt::format("/images/{}", index),
+                         fmt::format("the file's images decode to more than {} bytes", max_pixel_bytes));
     }
-    reference.image = image_of_[source];
-    reference.uv_set = uv_set;
+    reader_.part.images.push_back(std::move(image));
+    return image_of_[index] = static_cast<int>(reader_.part.images.size()) - 1;
+}
+
+TextureRef MaterialReader::read_texture(const nlohmann::json& info) {
+    const tinygltf::Model& model = reader_.source.model;
+    const tinygltf::Texture& texture = model.textures[info["index"].get<std::size_t>()];
+    TextureRef reference;
+    reference.image = use_image(static_cast<std::size_t>(texture.source));
+    reference.uv_set = info.value("texCoord", 0);
     if (texture.sampler >= 0) {
         const tinygltf::Sampler& sampler = model.samplers[texture.sampler];
         reference.wrap_u = wrap_of(sampler.wrapS);
         reference.wrap_v = wrap_of(sampler.wrapT);
         reference.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
     }
-    return reference;
-}
-
-TextureRef GltfTextures::read(const nlohmann::json& owner, const char* key) {
-    const auto info = owner.find(key);
-    if (info == owner.end()) return {};
-    TextureRef reference = read((*info)["index"].get<int>(), info->value("texCoord", 0));
-    const nlohmann::json* transform = find_extension(*info, "KHR_texture_transform");
+    const nlohmann::json* transform = find_extension(info, "KHR_texture_transform");
     if (transform == nullptr) return reference;
     const auto pair = [&](const char* name, const glm::dvec2& absent) {
         const auto found = transform->find(name);
@@ -101,30 +104,6 @@ TextureRef GltfTextures::read(const nlohmann::json& owner, const char* key) {
     reference.uv_set = transform->value("texCoord", reference.uv_set);
     return reference;
 }
-
-/// The object that has an owner's properties; null where a material lacks it.
-const nlohmann::json* find_owner(const nlohmann::json& material, const char* name) {
-    if (is_gltf_extension(name)) return find_extension(material, name);
-    if (*name == '\0') return &material;
-    const auto found = material.find(name);
-    return found == material.end() ? nullptr : &*found;
-}
-
-/// Reads materials. Factors out of range are clamped, with a warning.
-class MaterialReader {
-  public:
-    explicit MaterialReader(GltfReader& reader) : reader_(reader), textures_(reader) {}
-
-    Material read(std::size_t index);
-
-  private:
-    double clamped(double value, const GltfFactor& factor);
-    void read_owner(const char* name, const nlohmann::json& owner, Material& material);
-
-    GltfReader& reader_;
-    GltfTextures textures_;
-    std::string place_;  ///< of the material that is read
-};
 
 double MaterialReader::clamped(double value, const GltfFactor& factor) {
     const double inside = std::clamp(value, factor.low, factor.high);
@@ -147,10 +126,10 @@ void MaterialReader::read_owner(const char* name, const nlohmann::json& owner, M
         if (factor.has_alpha) material.opacity.alpha = value(3);
     });
     for_each_of(gltf_textures(), name, [&](const GltfTexture& texture) {
-        material.textures[texture.slot] = textures_.read(owner, texture.key);
         const auto info = owner.find(texture.key);
-        if (info != owner.end() && texture.scale != nullptr)
-            material.textures.*texture.scale = info->value("scale", 1.0);
+        if (info == owner.end()) return;
+        material.textures[texture.slot] = read_texture(*info);
+        if (texture.scale != nullptr) material.textures.*texture.scale = info->value("scale", 1.0);
     });
 }
 

@@ -78,7 +78,7 @@ std::size_t read_instances(GltfReader& reader, const nlohmann::json& instancing,
         if (!rotations.empty()) {
             const UnitRotation unit =
                 read_rotation(reader, &rotations[4 * i], fmt::format("{}/attributes/ROTATION: instance {}", place, i));
-            if (unit.was_far_from_unit(rotation_tolerance(is_float))) ++far_from_unit;
+            if (unit.was_far_from_unit(is_float)) ++far_from_unit;
             node.transform.rotation = unit.rotation;
         }
         node.meshes = take_meshes(reader, node_index);

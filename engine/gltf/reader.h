@@ -60,16 +60,12 @@ struct UnitRotation {
     glm::dquat rotation;
     double length = 1.0;
 
-    /// @param tolerance  1e-3, or what small integers are off by
-    bool was_far_from_unit(double tolerance = 1e-3) const {
+    /// @param is_float  small integers are off by up to 7e-3
+    bool was_far_from_unit(bool is_float = true) const {
+        const double tolerance = is_float ? 1e-3 : 1.6e-2;
         return !(length > 1.0 - tolerance && length < 1.0 + tolerance);
     }
 };
-
-/// How far from unit length a rotation may be without a warning: quantised ones are off by up to 7e-3.
-inline double rotation_tolerance(bool is_float) {
-    return is_float ? 1e-3 : 1.6e-2;
-}
 
 /// From x, y, z, w at `values`, of any length but 0.
 /// @param place  names node and key in the error

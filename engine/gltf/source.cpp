@@ -148,24 +148,23 @@ GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
     return source;
 }
 
-EncodedImage load_encoded_image(const GltfSource& source, std::size_t i) {
+Bytes load_encoded_image(const GltfSource& source, std::size_t i, std::string& path) {
     const nlohmann::json& image = source.document["images"][i];
     const std::string place = fmt::format("/images/{}", i);
-    EncodedImage encoded;
+    Bytes b;
     if (image.contains("bufferView")) {
         const tinygltf::BufferView& view = source.model.bufferViews[image["bufferView"].get<std::size_t>()];
         const auto begin = source.buffers[view.buffer].begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
-        encoded.bytes.assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
+        b.assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
     } else {
         const auto& uri = image["uri"].get_ref<const std::string&>();
-        if (!is_data_uri(uri)) encoded.path = percent_decode(uri, source.file, place + "/uri");
-        encoded.bytes = read_uri(source, uri, place + "/uri");
+        if (!is_data_uri(uri)) path = percent_decode(uri, source.file, place + "/uri");
+        b = read_uri(source, uri, place + "/uri");
     }
-    const Bytes& b = encoded.bytes;
     const bool is_png = b.size() > 8 && b[0] == 0x89 && b[1] == 'P' && b[2] == 'N' && b[3] == 'G';
     const bool is_jpeg = b.size() > 3 && b[0] == 0xff && b[1] == 0xd8 && b[2] == 0xff;
     if (!is_png && !is_jpeg) throw InputError(source.file, place, "the data is neither PNG nor JPEG");
-    return encoded;
+    return b;
 }
 
 }  // namespace aleph

@@ -30,14 +30,10 @@ const nlohmann::json* find_extension(const nlohmann::json& element, const char* 
 
 /// Reads, validates and parses; buffers are loaded, images only located.
 /// @throws InputError
-GltfSource load_gltf_source(const std::filesystem::path& path, const LoadLimits& limits = {});
-
-struct EncodedImage {
-    Bytes bytes;
-    std::string path;  ///< relative to the glTF file; empty where embedded
-};
+GltfSource load_gltf_source(const std::filesystem::path& path, const LoadLimits& limits);
 
 /// An image's PNG or JPEG bytes. @throws InputError
-EncodedImage load_encoded_image(const GltfSource& source, std::size_t image);
+/// @param path  becomes its path relative to the glTF file; stays where the image is embedded
+Bytes load_encoded_image(const GltfSource& source, std::size_t image, std::string& path);
 
 }  // namespace aleph

@@ -109,7 +109,7 @@ void GltfWriter::animate_visibility(int node, const WrittenKeys& keys) {
     if (keys.times.empty() || keys.is_constant()) return;
     const std::vector<std::uint8_t> values(keys.values.begin(), keys.values.end());
     add_channel("/nodes/" + std::to_string(node) + "/extensions/KHR_node_visibility/visible",
-                add_sampler(keys, buffer.add_bytes(values, "SCALAR")));
+                add_sampler(keys, buffer.add_bytes(values)));
 }
 
 std::vector<std::string> write_gltf(const Scene& scene, const std::filesystem::path& path) {
