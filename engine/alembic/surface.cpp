@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "engine/base/color.h"
-#include "engine/base/errors.h"
 
 namespace aleph {
 namespace {

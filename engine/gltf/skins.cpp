@@ -1,7 +1,6 @@
 // glTF reader: skins and their joints.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/base/errors.h"

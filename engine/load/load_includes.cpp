@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numbers>
 
 #include "engine/base/errors.h"

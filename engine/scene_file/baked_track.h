@@ -2,8 +2,6 @@
 // A computed motion as a cubic track: the times of its keys, where it is exact, and a tolerance between them.
 
 #include <functional>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <vector>
 
 #include "engine/scene/scene.h"

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "engine/base/errors.h"
-#include "engine/json/close_names.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/tracks.h"
 

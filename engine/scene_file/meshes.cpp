@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/base/errors.h"
 #include "engine/scene_file/lists.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/tracks.h"

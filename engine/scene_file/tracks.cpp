@@ -6,7 +6,6 @@
 #include <numbers>
 #include <type_traits>
 
-#include "engine/base/errors.h"
 #include "engine/scene/transforms.h"
 
 namespace aleph {

@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "engine/base/errors.h"
 #include "engine/scene/scene.h"

@@ -123,7 +123,6 @@ void check_accessor(GltfCheck& check, const JsonRef& accessor, std::int64_t buff
         info.aligned = block.first % 4 == 0 && (block.stride % 4 == 0 || info.count == 1);
     } else {
         // All values are zero. No data supports the count, so it is limited by the size of the buffers.
-        info.has_view = false;
         if (info.count > buffer_bytes) {
             count.fail(fmt::format("{} elements without a buffer view, the buffers have {} bytes in all", info.count,
                                    buffer_bytes));

@@ -59,7 +59,7 @@ void check_accessor_use(const JsonRef& attribute, const AccessorInfo& info, std:
     if (info.count != vertices) {
         attribute.fail(fmt::format("{} elements, POSITION has {}", info.count, vertices));
     }
-    if (info.has_view && !info.aligned) attribute.fail("vertex attributes must start at multiples of 4 bytes");
+    if (!info.aligned) attribute.fail("vertex attributes must start at multiples of 4 bytes");
 }
 
 /// Points need one vertex, lines two, and so on. glTF 2.0, 3.7.2.1.

@@ -18,8 +18,7 @@ struct AccessorInfo {
     std::int64_t count = 0;
     bool normalized = false;
     bool interleaved = false;  ///< its view has a byteStride
-    bool has_view = true;
-    bool aligned = true;  ///< every element starts at a multiple of 4 bytes, as vertex attributes must
+    bool aligned = true;       ///< every element starts at a multiple of 4 bytes, as vertex attributes must
 };
 
 /// Extension `name` of an element, with its parents kept alive for error messages.

@@ -1,10 +1,6 @@
 // glTF writer: the tree of nodes, with what stands at each.
-#include <fmt/format.h>
-
-#include <algorithm>
 
 #include "engine/gltf/write/meshes.h"
-#include "engine/scene/visit.h"
 
 namespace aleph {
 
