@@ -14,7 +14,6 @@ namespace aleph {
 
 namespace {
 
-/// A channel: where its keys are, and which property they move.
 struct Channel {
     const tinygltf::AnimationSampler& sampler;
     GltfPointer target;

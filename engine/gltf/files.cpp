@@ -31,7 +31,6 @@ int hex_digit(char c) {
     return -1;
 }
 
-/// The six bits of each character; -1 for others.
 constexpr std::array<std::int8_t, 256> make_base64_table() {
     std::array<std::int8_t, 256> table;
     table.fill(-1);

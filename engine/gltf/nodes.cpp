@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "engine/base/errors.h"
 #include "engine/gltf/reader.h"
@@ -29,13 +30,10 @@ std::vector<int> find_roots(const tinygltf::Model& model) {
 
 void read_transform(GltfReader& reader, const tinygltf::Node& source, const std::string& place, Node& node) {
     if (!source.matrix.empty()) {
-        glm::dmat4 matrix;
-        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = source.matrix[i];
-        node.transform.matrix = Track<glm::dmat4>(matrix);
+        node.transform.matrix = Track<glm::dmat4>(glm::make_mat4(source.matrix.data()));
         return;
     }
-    const auto vector = [](const std::vector<double>& v) { return glm::dvec3(v[0], v[1], v[2]); };
-    if (!source.translation.empty()) node.transform.translation = vector(source.translation);
+    if (!source.translation.empty()) node.transform.translation = glm::make_vec3(source.translation.data());
     if (!source.rotation.empty()) {
         const UnitRotation unit = read_rotation(reader, source.rotation.data(), place + "/rotation");
         if (unit.was_far_from_unit()) {
@@ -43,7 +41,7 @@ void read_transform(GltfReader& reader, const tinygltf::Node& source, const std:
         }
         node.transform.rotation = unit.rotation;
     }
-    if (!source.scale.empty()) node.transform.scale = vector(source.scale);
+    if (!source.scale.empty()) node.transform.scale = glm::make_vec3(source.scale.data());
 }
 
 /// Values of an instance attribute in double; empty where it is absent.
@@ -70,11 +68,8 @@ std::size_t read_instances(GltfReader& reader, const nlohmann::json& instancing,
     std::size_t far_from_unit = 0, made = 0;
     for (std::size_t i = 0; i < count; ++i) {
         Node node{.name = fmt::format("{}.{}", name, i), .parent = parent};
-        const auto vector = [&](const std::vector<double>& v) {
-            return glm::dvec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
-        };
-        if (!translations.empty()) node.transform.translation = vector(translations);
-        if (!scales.empty()) node.transform.scale = vector(scales);
+        if (!translations.empty()) node.transform.translation = glm::make_vec3(&translations[3 * i]);
+        if (!scales.empty()) node.transform.scale = glm::make_vec3(&scales[3 * i]);
         if (!rotations.empty()) {
             const UnitRotation unit =
                 read_rotation(reader, &rotations[4 * i], fmt::format("{}/attributes/ROTATION: instance {}", place, i));

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "engine/base/errors.h"
 #include "engine/gltf/reader.h"
@@ -45,13 +47,10 @@ std::vector<glm::dmat4> read_inverse_binds(GltfReader& reader, const nlohmann::j
     if (accessor == raw.end()) return matrices;
     const std::vector<double> values = reader.accessors.read<double>(accessor->get<int>());
     for (std::size_t i = 0; i < joints; ++i) {
-        for (int k = 0; k < 16; ++k) matrices[i][k / 4][k % 4] = values[16 * i + k];
-        for (int column = 0; column < 4; ++column) {
-            const double wanted = column == 3 ? 1.0 : 0.0;
-            if (matrices[i][column].w != wanted) {
-                throw InputError(reader.source.file, place + "/inverseBindMatrices",
-                                 fmt::format("matrix {} is not affine: its last row must be 0 0 0 1", i));
-            }
+        matrices[i] = glm::make_mat4(&values[16 * i]);
+        if (glm::row(matrices[i], 3) != glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
+            throw InputError(reader.source.file, place + "/inverseBindMatrices",
+                             fmt::format("matrix {} is not affine: its last row must be 0 0 0 1", i));
         }
     }
     return matrices;

@@ -34,17 +34,11 @@ ImageFormat require_format(ByteView bytes, const std::string& name) {
 
 template <class T>
 Interleaved<T> decode_with_library(ByteView bytes, ImageFormat format, const std::string& name) {
+    const char* const plugin = format == ImageFormat::png ? "png" : format == ImageFormat::jpeg ? "jpeg" : "hdr";
     std::vector<std::uint8_t> stripped;
-    const char* plugin = "hdr";
-    if (format == ImageFormat::png) {
-        plugin = "png";
-        stripped = strip_png(bytes, name);
-        bytes = stripped;
-    } else if (format == ImageFormat::jpeg) {
-        plugin = "jpeg";
-        stripped = strip_jpeg(bytes, name);
-        bytes = stripped;
-    }
+    if (format == ImageFormat::png) stripped = strip_png(bytes, name);
+    if (format == ImageFormat::jpeg) stripped = strip_jpeg(bytes, name);
+    if (!stripped.empty()) bytes = stripped;
     Interleaved<T> pixels;
     const auto place = [&](int width, int height, int channels) -> void* {
         check_size(width, height, name);

@@ -11,7 +11,6 @@ namespace aleph {
 
 namespace {
 
-/// The nodes that an include appended.
 struct Included {
     int begin = 0, end = 0;
 };

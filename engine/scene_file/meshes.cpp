@@ -18,8 +18,7 @@ namespace {
 void check_shape_keys(const JsonRef& at, const char* kind, const std::vector<std::string>& known) {
     for (const auto& member : at.json().items()) {
         if (member.key() == "type" || std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
-        const JsonRef value = at.require(member.key());
-        value.fail(fmt::format("a {} has no \"{}\"", kind, member.key()));
+        at.require(member.key()).fail(fmt::format("a {} has no \"{}\"", kind, member.key()));
     }
 }
 

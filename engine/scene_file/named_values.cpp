@@ -123,8 +123,7 @@ class NamedValues {
         found.open = true;
         open_.push_back(name);
         const JsonRef at_named = at_root_.require("named");
-        const JsonRef definition = at_named.require(name);
-        replace(*found.value, definition, depth);
+        replace(*found.value, at_named.require(name), depth);
         open_.pop_back();
         found.extent = measure(*found.value);
         found.done = true;

@@ -25,7 +25,6 @@ void check_range(const JsonRef& at, double value, const ValueRange& range) {
     if (!inside) at.fail(fmt::format("{}, found {}", describe(range), value));
 }
 
-/// Reads one kind of value.
 template <class T>
 struct ValueReader {
     T (*value)(const JsonRef&, const ValueRange&);

@@ -87,7 +87,6 @@ void check_sparse(const GltfCheck& check, const JsonRef& sparse, std::int64_t el
     }
 }
 
-/// Bytes that the file's buffers say they have.
 std::int64_t total_buffer_bytes(const GltfCheck& check) {
     std::int64_t total = 0;
     for_each_object(check.root, "buffers", [&](const JsonRef& buffer, std::size_t) {

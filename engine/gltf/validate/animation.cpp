@@ -112,8 +112,7 @@ void check_keys(const GltfCheck& check, const GltfPointer& pointer, const JsonRe
 }
 
 void check_channel(GltfCheck& check, const JsonRef& channel, const JsonRef& samplers, Taken& taken) {
-    const JsonRef sampler_index = channel.require("sampler");
-    const JsonRef sampler = samplers[sampler_index.index(samplers.array_size(), "sampler")];
+    const JsonRef sampler = samplers[channel.require("sampler").index(samplers.array_size(), "sampler")];
     const JsonRef target = channel.require("target");
     const std::optional<GltfPointer> pointer = check_target(check, target);
     if (!pointer) return;
@@ -136,8 +135,7 @@ void check_sampler(const GltfCheck& check, const JsonRef& sampler) {
     const JsonRef input = sampler.require("input");
     const AccessorInfo& times = check.accessor(input);
     if (times.type != "SCALAR" || !is_float(times)) input.fail("key times must be a float SCALAR accessor");
-    const JsonRef output = sampler.require("output");
-    check.accessor(output);
+    check.accessor(sampler.require("output"));
 }
 
 }  // namespace

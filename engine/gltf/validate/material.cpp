@@ -15,8 +15,7 @@ void check_texture_info(const GltfCheck& check, const JsonRef& owner, std::strin
     const std::optional<JsonRef> info = owner.find(key);
     if (!info) return;
     info->expect_object();
-    const JsonRef index = info->require("index");
-    index.index(check.count("textures"), "texture");
+    info->require("index").index(check.count("textures"), "texture");
     const ExtensionRef transform(*info, "KHR_texture_transform");
     if (transform) {
         transform->check_numbers("offset", 2);

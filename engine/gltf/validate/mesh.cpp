@@ -54,7 +54,6 @@ void check_attribute(const GltfCheck& check, const JsonRef& attribute, std::stri
     }
 }
 
-/// @param vertices  of the primitive
 void check_accessor_use(const JsonRef& attribute, const AccessorInfo& info, std::int64_t vertices) {
     if (info.count != vertices) {
         attribute.fail(fmt::format("{} elements, POSITION has {}", info.count, vertices));

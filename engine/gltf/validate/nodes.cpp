@@ -26,10 +26,8 @@ void check_node(const GltfCheck& check, const JsonRef& node) {
     node.find_index("mesh", check.count("meshes"), "mesh");
     node.find_index("camera", check.count("cameras"), "camera");
     check_node_transform(node);
-    if (const ExtensionRef light(node, "KHR_lights_punctual"); light) {
-        const JsonRef index = light->require("light");
-        index.index(check.light_count(), "light");
-    }
+    if (const ExtensionRef light(node, "KHR_lights_punctual"); light)
+        light->require("light").index(check.light_count(), "light");
 }
 
 /// Every node has at most one parent and none is above itself. Without recursion: chains of 10^5 nodes are fine.

@@ -52,7 +52,6 @@ class MaterialWriter {
     int write_sampler(const TextureRef& texture);
     int add_texture(int image, int sampler);
 
-    /// Writes a factor, and its keys if it changes.
     template <class T>
     void write_factor(OrderedJson& owner, const char* key, const Track<T>& track) {
         if constexpr (std::is_same_v<T, double>) {

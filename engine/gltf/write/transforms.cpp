@@ -68,7 +68,6 @@ void write_tracks(GltfWriter& writer, const LocalTransform& local, const std::st
     if (is_animated(angle)) written.rotation_keys = make_axis_keys(writer, *local.axis_rotation, place);
 }
 
-/// @param matrices  one per key time
 void write_matrices(const std::vector<KeyTime>& times, const std::vector<glm::dmat4>& matrices,
                     WrittenTransform& written) {
     TransformParts parts;
