@@ -6,7 +6,6 @@
 #include <unordered_set>
 
 #include "engine/base/errors.h"
-#include "engine/json/memory.h"
 
 namespace aleph {
 
@@ -25,6 +24,51 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
         }
     }
     return fmt::format("line {}, column {}", line, column);
+}
+
+/// Position of the last character of the comment that begins at `at`; `at` if none does.
+std::size_t skip_json_comment(std::string_view text, std::size_t at) {
+    const std::string_view start = text.substr(at, 2);
+    if (start != "//" && start != "/*") return at;
+    const std::size_t end = text.find(start == "//" ? "\n" : "*/", at + 2);
+    return end == std::string_view::npos ? text.size() : end + (start == "//" ? 0 : 1);
+}
+
+/// Calls mark(character) for each character outside strings, and string(bytes) for each string.
+/// @param comments  the text may hold // and /* */
+template <class Mark, class String>
+void scan_json(std::string_view text, bool comments, const Mark& mark, const String& string) {
+    std::size_t string_start = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '\\') {
+                ++i;
+            } else if (c == '"') {
+                in_string = false;
+                string(i - string_start);
+            }
+        } else if (c == '"') {
+            in_string = true;
+            string_start = i;
+        } else if (c == '/' && comments) {
+            i = skip_json_comment(text, i);
+        } else {
+            mark(c);
+        }
+    }
+}
+
+/// Refuses a text whose values would take more than limits.json_values().
+/// @param advice  what to do about it
+void check_json_memory(std::string_view text, bool comments, const LoadLimits& limits, const std::string& file,
+                       std::string_view advice) {
+    const std::size_t bytes = estimate_json_memory(text, comments);
+    if (bytes <= limits.json_values()) return;
+    throw InputError(file, "",
+                     fmt::format("its JSON holds so many values that they would take about {} MiB, more than {}; {}",
+                                 bytes >> 20, limits.json_values() >> 20, advice));
 }
 
 /// Why a text is not JSON, in plain words.
@@ -188,6 +232,22 @@ constexpr const char* large_mesh_advice =
     "(LoadLimits)";
 
 }  // namespace
+
+std::size_t estimate_json_memory(std::string_view text, bool comments) {
+    constexpr std::size_t element = 48, container = 96, member = 250, string = 48;
+    std::size_t bytes = 0;
+    const auto add_mark = [&](char c) {
+        if (c == ',') {
+            bytes += element;
+        } else if (c == ':') {
+            bytes += member;
+        } else if (c == '[' || c == '{') {
+            bytes += element + container;
+        }
+    };
+    scan_json(text, comments, add_mark, [&](std::size_t length) { bytes += string + length; });
+    return bytes;
+}
 
 nlohmann::json parse_strict_json(std::string_view text, const std::string& file, const LoadLimits& limits,
                                  std::string_view advice) {

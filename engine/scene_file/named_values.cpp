@@ -9,7 +9,6 @@
 
 #include "engine/json/close_names.h"
 #include "engine/json/json_ref.h"
-#include "engine/json/memory.h"
 #include "engine/json/text.h"
 
 namespace aleph {
@@ -28,7 +27,7 @@ bool has_names_for_keys(std::string_view key) {
 }
 
 struct Extent {
-    std::size_t bytes = 0;  ///< upper estimate as in json/memory.h
+    std::size_t bytes = 0;  ///< upper estimate as by estimate_json_memory
     int depth = 0;          ///< of lists and objects
 };
 
