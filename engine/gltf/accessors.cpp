@@ -1,5 +1,3 @@
-#include "engine/gltf/accessors.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <type_traits>
 
 #include "engine/base/errors.h"
+#include "engine/gltf/reader.h"
 
 namespace aleph {
 

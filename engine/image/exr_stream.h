@@ -1,5 +1,5 @@
 #pragma once
-// Bytes in memory as streams of OpenEXR, and the check of a header before it is read.
+// Bytes in memory as streams of OpenEXR.
 
 #include <OpenEXR/ImfIO.h>
 
@@ -49,11 +49,5 @@ class MemoryInput : public Imf::IStream {
     ByteView bytes_;
     std::size_t position_ = 0;
 };
-
-/// Reads each attribute of the header alone: it has to lie within the file, and to end where its size says.
-/// Imf::InputFile takes the memory that an attribute names before it reads it, and goes on where a value ends, whatever
-/// its size: a file of 4 KB could ask for 2 GB.
-/// @throws InputError
-void check_exr_header(ByteView bytes, const std::string& name);
 
 }  // namespace aleph

@@ -114,10 +114,8 @@ std::optional<std::string> JsonRef::find_string(std::string_view key) const {
     return member ? std::optional(member->string()) : std::nullopt;
 }
 
-bool JsonRef::check_number(std::string_view key) const {
-    const std::optional<JsonRef> member = find(key);
-    if (member) member->number();
-    return member.has_value();
+void JsonRef::check_number(std::string_view key) const {
+    if (const std::optional<JsonRef> member = find(key)) member->number();
 }
 
 bool JsonRef::check_numbers(std::string_view key, std::size_t count) const {
@@ -126,10 +124,8 @@ bool JsonRef::check_numbers(std::string_view key, std::size_t count) const {
     return member.has_value();
 }
 
-bool JsonRef::check_boolean(std::string_view key) const {
-    const std::optional<JsonRef> member = find(key);
-    if (member) member->boolean();
-    return member.has_value();
+void JsonRef::check_boolean(std::string_view key) const {
+    if (const std::optional<JsonRef> member = find(key)) member->boolean();
 }
 
 std::size_t count_of(const JsonRef& parent, std::string_view key) {

@@ -1,5 +1,3 @@
-#include "engine/scene_file/named_values.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,6 +8,7 @@
 #include "engine/json/close_names.h"
 #include "engine/json/json_ref.h"
 #include "engine/json/text.h"
+#include "engine/scene_file/reader.h"
 
 namespace aleph {
 
