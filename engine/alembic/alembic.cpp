@@ -10,7 +10,6 @@
 #include "engine/alembic/reader.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "engine/scene/append.h"
 
 namespace aleph {
 

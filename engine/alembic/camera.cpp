@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -27,14 +28,11 @@ View make_view(std::span<const double> core, const glm::dmat3& film_back) {
 
 /// A track over all samples; what never changes is one value.
 Track<double> make_track(const AlembicSamples& samples, const std::vector<View>& views, double View::*member) {
-    Track<double> track(views.front().*member);
-    for (const View& view : views) {
-        if (view.*member == views.front().*member) continue;
-        track.sampling = samples.sampling;
-        track.values.clear();
-        for (const View& v : views) track.values.push_back(v.*member);
-        break;
-    }
+    Track<double> track;
+    for (const View& view : views) track.values.push_back(view.*member);
+    const double first = track.values.front();
+    if (std::ranges::all_of(track.values, [&](double value) { return value == first; })) return first;
+    track.sampling = samples.sampling;
     return track;
 }
 

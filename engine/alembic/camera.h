@@ -2,7 +2,6 @@
 // The picture that an Alembic camera sees: its film window and field of view.
 
 #include <glm/mat3x3.hpp>
-#include <glm/vec2.hpp>
 #include <span>
 #include <string>
 #include <vector>

@@ -6,7 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <optional>
+#include <string_view>
 
 #include "engine/alembic/reader.h"
 #include "engine/base/errors.h"
@@ -17,48 +17,66 @@ namespace {
 constexpr const char* material_schema = "AbcMaterial_Material_v1";
 constexpr double neutral_gray = 0.5;
 
-enum class Meaning { base_color, roughness, metallic, emission, ior, specular };
+using Values = std::vector<double>;
 
-struct KnownParameter {
-    const char* name;  ///< lower case, without "_"
-    Meaning meaning;
+glm::dvec3 color_of(const Values& v) {
+    return glm::max(v.size() >= 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(v[0]), glm::dvec3(0.0));
+}
+
+double share_of(const Values& v) {
+    return std::clamp(v[0], 0.0, 1.0);
+}
+
+/// A property of Material, and the parameters that set it.
+struct Meaning {
+    std::vector<std::string_view> names;  ///< lower case, without "_"
+    void (*set)(Material&, const Values&);
 };
 
-constexpr std::array known_parameters{
-    KnownParameter{"diffuse", Meaning::base_color},     KnownParameter{"diffusecolor", Meaning::base_color},
-    KnownParameter{"basecolor", Meaning::base_color},   KnownParameter{"color", Meaning::base_color},
-    KnownParameter{"albedo", Meaning::base_color},      KnownParameter{"kdcolor", Meaning::base_color},
-    KnownParameter{"roughness", Meaning::roughness},    KnownParameter{"specularroughness", Meaning::roughness},
-    KnownParameter{"metallic", Meaning::metallic},      KnownParameter{"metalness", Meaning::metallic},
-    KnownParameter{"emissivecolor", Meaning::emission}, KnownParameter{"emission", Meaning::emission},
-    KnownParameter{"emissioncolor", Meaning::emission}, KnownParameter{"ior", Meaning::ior},
-    KnownParameter{"indexofrefraction", Meaning::ior},  KnownParameter{"specularior", Meaning::ior},
-    KnownParameter{"specularlevel", Meaning::specular},
-};
+/// The base colour first.
+const std::array<Meaning, 6>& meanings() {
+    static const std::array<Meaning, 6> table{{
+        {{"diffuse", "diffusecolor", "basecolor", "color", "albedo", "kdcolor"},
+         [](Material& m, const Values& v) { m.base_color = glm::min(color_of(v), glm::dvec3(1.0)); }},
+        {{"roughness", "specularroughness"}, [](Material& m, const Values& v) { m.gloss.roughness = share_of(v); }},
+        {{"metallic", "metalness"}, [](Material& m, const Values& v) { m.gloss.metallic = share_of(v); }},
+        {{"emissivecolor", "emission", "emissioncolor"},
+         [](Material& m, const Values& v) { m.glow.color = color_of(v); }},
+        {{"ior", "indexofrefraction", "specularior"},
+         [](Material& m, const Values& v) {
+             if (v[0] >= 1.0) m.gloss.ior = v[0];
+         }},
+        {{"specularlevel"}, [](Material& m, const Values& v) { m.gloss.specular = share_of(v); }},
+    }};
+    return table;
+}
 
-std::optional<Meaning> meaning_of(const std::string& name) {
+/// Null for a parameter that Material has not.
+const Meaning* meaning_of(const std::string& name) {
     std::string plain;
     for (const char c : name)
         if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    for (const KnownParameter& known : known_parameters)
-        if (plain == known.name) return known.meaning;
-    return std::nullopt;
+    const auto knows = [&](const Meaning& meaning) {
+        return std::ranges::find(meaning.names, plain) != meaning.names.end();
+    };
+    const auto found = std::ranges::find_if(meanings(), knows);
+    return found == meanings().end() ? nullptr : &*found;
 }
 
 /// Values found for each meaning; the first ones are used.
-using Found = std::map<Meaning, std::vector<double>>;
+using Found = std::map<const Meaning*, Values>;
 
 void collect_parameters(AlembicReader& reader, int object, const AlembicCompound& parameters, Found& found) {
     for (const AlembicProperty& property : parameters.properties) {
         if (property.kind == AlembicProperty::Kind::compound || property.sample_count == 0) continue;
-        const std::optional<Meaning> meaning = meaning_of(property.name);
-        if (!meaning || !is_real(property.type) || found.contains(*meaning)) continue;
+        const Meaning* const meaning = meaning_of(property.name);
+        if (meaning == nullptr || !is_real(property.type) || found.contains(meaning)) continue;
         std::vector<double> values = reader.archive.numbers<double>(property, 0);
         const bool usable = !values.empty() && std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
         if (!usable) continue;
         if (!property.is_constant())
             reader.warn(object, "the material's parameters change over time; their first state is used");
-        found.emplace(*meaning, std::move(values));
+        found.emplace(meaning, std::move(values));
     }
 }
 
@@ -82,36 +100,6 @@ void collect_material(AlembicReader& reader, int object, Found& found) {
 
 Material make_neutral(const std::string& name) {
     return {.name = name, .base_color = glm::dvec3(neutral_gray)};
-}
-
-void set_parameters(const Found& found, Material& material) {
-    const auto color = [](const std::vector<double>& values) {
-        const glm::dvec3 rgb = values.size() >= 3 ? glm::dvec3(values[0], values[1], values[2]) : glm::dvec3(values[0]);
-        return glm::max(rgb, glm::dvec3(0.0));
-    };
-    const auto share = [](const std::vector<double>& values) { return std::clamp(values[0], 0.0, 1.0); };
-    for (const auto& [meaning, values] : found) {
-        switch (meaning) {
-            case Meaning::base_color:
-                material.base_color = glm::min(color(values), glm::dvec3(1.0));
-                break;
-            case Meaning::roughness:
-                material.gloss.roughness = share(values);
-                break;
-            case Meaning::metallic:
-                material.gloss.metallic = share(values);
-                break;
-            case Meaning::emission:
-                material.glow.color = color(values);
-                break;
-            case Meaning::ior:
-                if (values[0] >= 1.0) material.gloss.ior = values[0];
-                break;
-            case Meaning::specular:
-                material.gloss.specular = share(values);
-                break;
-        }
-    }
 }
 
 int add_material(AlembicReader& reader, const std::string& path, Material material) {
@@ -141,8 +129,8 @@ int read_material(AlembicReader& reader, int object, const std::string& path) {
     }
     Found found;  // a material inherits what it does not set from the one above it
     for (int i = source; is_material(i); i = reader.archive.objects()[i].parent) collect_material(reader, i, found);
-    set_parameters(found, material);
-    if (!found.contains(Meaning::base_color))
+    for (const auto& [meaning, values] : found) meaning->set(material, values);
+    if (!found.contains(&meanings().front()))
         reader.warn(source, "the material names no colour that is known here; it is a neutral gray");
     return add_material(reader, path, std::move(material));
 }

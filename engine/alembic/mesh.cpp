@@ -1,7 +1,5 @@
 // Polygon meshes: triangles with vertices where point, normal or texture coordinate differ.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>

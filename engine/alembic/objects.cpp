@@ -20,7 +20,8 @@ std::string read_source(const AlembicReader& reader, int instance) {
     return read_text(reader, reader.archive.properties(instance), ".instanceSource");
 }
 
-/// The object that an instance stands for, through instances of instances. @throws InputError where there is none
+/// The object that an instance stands for, through instances of instances; of another object itself. @throws InputError
+/// where there is none
 int resolve_instance(const AlembicReader& reader, int instance) {
     int object = instance;
     for (int hop = 0; object_at(reader, object).is_instance(); ++hop) {
@@ -61,9 +62,7 @@ class TreeReader {
             }
         }();
         open_.push_back(object);
-        for (const int child : source.children)
-            read(object_at(reader_, child).is_instance() ? resolve_instance(reader_, child) : child, child, node,
-                 depth + 1);
+        for (const int child : source.children) read(resolve_instance(reader_, child), child, node, depth + 1);
         open_.pop_back();
     }
 
@@ -144,7 +143,7 @@ std::string read_text(const AlembicReader& reader, const AlembicCompound& compou
 void read_objects(AlembicReader& reader) {
     TreeReader tree(reader);
     for (const int child : object_at(reader, 0).children)
-        tree.read(object_at(reader, child).is_instance() ? resolve_instance(reader, child) : child, child, no_index, 1);
+        tree.read(resolve_instance(reader, child), child, no_index, 1);
 }
 
 }  // namespace aleph

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/alembic/surface.h"
 #include "engine/base/errors.h"
+#include "engine/base/index.h"
 
 namespace aleph {
 namespace {
@@ -37,17 +39,8 @@ ParameterSample read_parameter(const AlembicArchive& archive, const GeometryPara
 
 /// Items that a scope has on a surface.
 std::size_t scope_count(GeometryScope scope, const SurfaceRun& run) {
-    switch (scope) {
-        case GeometryScope::constant:
-            return 1;
-        case GeometryScope::per_face:
-            return run.face_counts.size();
-        case GeometryScope::per_point:
-            return run.point_count;
-        case GeometryScope::per_corner:
-            return run.corner_count();
-    }
-    return 0;
+    const std::array counts{std::size_t{1}, run.face_counts.size(), run.point_count, run.corner_count()};
+    return counts[index_of(scope)];
 }
 
 }  // namespace
@@ -77,17 +70,8 @@ bool is_constant(const GeometryParameter& parameter) {
 }
 
 std::size_t scope_item(GeometryScope scope, const SurfaceRun& run, std::size_t face, std::size_t corner) {
-    switch (scope) {
-        case GeometryScope::constant:
-            return 0;
-        case GeometryScope::per_face:
-            return face;
-        case GeometryScope::per_point:
-            return static_cast<std::size_t>(run.face_points[corner]);
-        case GeometryScope::per_corner:
-            return corner;
-    }
-    return 0;
+    const std::array items{std::size_t{0}, face, static_cast<std::size_t>(run.face_points[corner]), corner};
+    return items[index_of(scope)];
 }
 
 std::optional<ParameterSample> read_fitting(AlembicReader& reader, int object, const GeometryParameter& parameter,

@@ -1,7 +1,6 @@
 #include "engine/alembic/polygons.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <numeric>

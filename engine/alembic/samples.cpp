@@ -89,12 +89,10 @@ AlembicSamples AlembicArchive::samples(const AlembicProperty& property) const {
 
     const bool whole_shutter = sampling.kind == TimeSampling::Kind::cyclic &&
                                sampling.times.back() - sampling.times.front() >= sampling.period * (1.0 - 1e-6);
-    if (sampling.kind == TimeSampling::Kind::uniform) {
+    const bool is_uniform = sampling.kind == TimeSampling::Kind::uniform;
+    if (is_uniform || (sampling.kind == TimeSampling::Kind::cyclic && begin == 0 && !whole_shutter)) {
         samples.sampling = sampling;
-        samples.sampling.start = sample_time(sampling, begin);
-        for (std::uint64_t i = begin; i < end; ++i) samples.indices.push_back(i);
-    } else if (sampling.kind == TimeSampling::Kind::cyclic && begin == 0 && !whole_shutter) {
-        samples.sampling = sampling;
+        if (is_uniform) samples.sampling.start = sample_time(sampling, begin);
         for (std::uint64_t i = begin; i < end; ++i) samples.indices.push_back(i);
     } else {
         // A shutter as long as the frame ends when the next one begins: the first of the two samples is kept.

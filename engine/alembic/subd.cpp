@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 
@@ -40,17 +41,11 @@ Cage::Scheme read_scheme(AlembicReader& reader, int object, const AlembicCompoun
 }
 
 Cage::Boundary read_boundary(AlembicReader& reader, int object, const AlembicCompound& geom, double seconds) {
-    switch (read_rule(reader, geom, ".interpolateBoundary", seconds)) {
-        case 0:
-            return Cage::Boundary::none;
-        case 1:
-            return Cage::Boundary::edge_and_corner;
-        case 2:
-            return Cage::Boundary::edge_only;
-        default:
-            reader.warn(object, "its boundary rule is unknown; edges and corners are kept");
-            return Cage::Boundary::edge_and_corner;
-    }
+    constexpr std::array rules{Cage::Boundary::none, Cage::Boundary::edge_and_corner, Cage::Boundary::edge_only};
+    const int rule = read_rule(reader, geom, ".interpolateBoundary", seconds);
+    if (rule >= 0 && rule < std::ssize(rules)) return rules[rule];
+    reader.warn(object, "its boundary rule is unknown; edges and corners are kept");
+    return Cage::Boundary::edge_and_corner;
 }
 
 /// RenderMan's numbers as OpenSubdiv's rules.

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "engine/base/color.h"
-#include "engine/base/errors.h"
 
 namespace aleph {
 namespace {
@@ -118,11 +117,6 @@ Track<double> make_presence(const std::vector<SurfaceRun>& runs, std::size_t run
     return track;
 }
 
-/// The parts of a surface.
-struct SurfaceSamples {
-    Sampled points, counts, indices;
-};
-
 /// One topology of a surface as stored, with the blocks that hold it.
 struct Topology {
     std::vector<int> face_counts, face_points;
@@ -132,13 +126,17 @@ struct Topology {
 /// Makes runs of a surface's samples, each with its topology and the samples of its points.
 class RunSplitter {
   public:
-    RunSplitter(AlembicReader& reader, int object, const SurfaceSamples& samples)
-        : reader_(reader), object_(object), samples_(samples) {}
+    RunSplitter(AlembicReader& reader, int object, Sampled points, Sampled counts, Sampled indices)
+        : reader_(reader),
+          object_(object),
+          points_(std::move(points)),
+          counts_(std::move(counts)),
+          indices_(std::move(indices)) {}
 
     std::vector<SurfaceRun> split() {
-        for (const double time : merge_times({&samples_.points, &samples_.counts, &samples_.indices})) add(time);
+        for (const double time : merge_times({&points_, &counts_, &indices_})) add(time);
         for (SurfaceRun& run : runs_) run.sampling.kind = TimeSampling::Kind::acyclic;
-        const AlembicSamples& points = samples_.points.samples;
+        const AlembicSamples& points = points_.samples;
         if (runs_.size() == 1 && runs_.front().point_samples == points.indices)
             runs_.front().sampling = points.sampling;  // as the file has it
         return std::move(runs_);
@@ -147,11 +145,11 @@ class RunSplitter {
   private:
     void add(double time) {
         const AlembicArchive& archive = reader_.archive;
-        const std::size_t at = samples_.points.floor(time);
-        const std::uint64_t point_sample = samples_.points.samples.indices[at];
-        const std::size_t point_count = element_count(archive, *samples_.points.property, point_sample);
+        const std::size_t at = points_.floor(time);
+        const std::uint64_t point_sample = points_.samples.indices[at];
+        const std::size_t point_count = element_count(archive, *points_.property, point_sample);
         // Sparse files leave points out where they do not change.
-        const bool has_faces = element_count(archive, *samples_.indices.property, samples_.indices.index_at(time)) > 0;
+        const bool has_faces = element_count(archive, *indices_.property, indices_.index_at(time)) > 0;
         if (point_count == 0 && has_faces) return;
         if (changes_topology(time, point_count)) {
             SurfaceRun run;
@@ -174,21 +172,21 @@ class RunSplitter {
     /// their storage are not read again.
     bool changes_topology(double time, std::size_t point_count) {
         const AlembicArchive& archive = reader_.archive;
-        const std::uint64_t counts_sample = samples_.counts.index_at(time);
-        const std::uint64_t indices_sample = samples_.indices.index_at(time);
-        const std::uint64_t counts_block = archive.storage(*samples_.counts.property, counts_sample);
-        const std::uint64_t indices_block = archive.storage(*samples_.indices.property, indices_sample);
+        const std::uint64_t counts_sample = counts_.index_at(time);
+        const std::uint64_t indices_sample = indices_.index_at(time);
+        const std::uint64_t counts_block = archive.storage(*counts_.property, counts_sample);
+        const std::uint64_t indices_block = archive.storage(*indices_.property, indices_sample);
         const bool same_points = !runs_.empty() && runs_.back().point_count == point_count;
         if (same_points && counts_block == next_.counts_block && indices_block == next_.indices_block) return false;
-        next_ = {archive.numbers<int>(*samples_.counts.property, counts_sample),
-                 archive.numbers<int>(*samples_.indices.property, indices_sample), counts_block, indices_block};
+        next_ = {archive.numbers<int>(*counts_.property, counts_sample),
+                 archive.numbers<int>(*indices_.property, indices_sample), counts_block, indices_block};
         return !same_points || next_.face_counts != runs_.back().face_counts ||
                next_.face_points != runs_.back().face_points;
     }
 
     AlembicReader& reader_;
     int object_;
-    const SurfaceSamples& samples_;
+    const Sampled points_, counts_, indices_;
     std::vector<SurfaceRun> runs_;
     Topology next_;  ///< read last
     std::size_t last_point_sample_ = 0;
@@ -204,8 +202,7 @@ std::vector<SurfaceRun> read_runs(AlembicReader& reader, int object, const Alemb
         reader.warn(object, "a surface without points or faces");
         return {};
     }
-    const SurfaceSamples samples{*points, *counts, *indices};
-    std::vector<SurfaceRun> runs = RunSplitter(reader, object, samples).split();
+    std::vector<SurfaceRun> runs = RunSplitter(reader, object, *points, *counts, *indices).split();
     if (runs.size() > 1) {
         reader.warn(object,
                     fmt::format("its topology changes {} times: there is no motion across a change", runs.size() - 1));

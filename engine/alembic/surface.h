@@ -2,7 +2,6 @@
 // Polygon meshes and subdivision surfaces alike: samples between changes of topology, geometry parameters, face sets.
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/alembic/reader.h"

@@ -1,5 +1,3 @@
-#include "engine/gltf/accessors.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <type_traits>
 
 #include "engine/base/errors.h"
+#include "engine/gltf/reader.h"
 
 namespace aleph {
 
@@ -177,17 +176,9 @@ std::vector<std::uint32_t> GltfAccessors::read_indices(int index, std::size_t li
     return indices;
 }
 
-std::size_t GltfAccessors::count(int accessor) const {
-    return source_.model.accessors[accessor].count;
-}
-
 std::size_t GltfAccessors::components(int accessor) const {
     const int type = source_.model.accessors[accessor].type;
     return static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
-}
-
-bool GltfAccessors::is_float(int accessor) const {
-    return source_.model.accessors[accessor].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
 void GltfAccessors::charge(std::uint64_t bytes, const std::string& place) {

@@ -14,20 +14,11 @@ namespace aleph {
 
 namespace {
 
-/// A channel: where its keys are, and which property they move.
 struct Channel {
     const tinygltf::AnimationSampler& sampler;
     GltfPointer target;
     std::string place;  ///< of the sampler
 };
-
-void clamp_to_range(GltfReader& reader, GltfKeys& keys, const Channel& channel) {
-    const GltfPropertyInfo& info = *channel.target.info;
-    if (clamp_keys(keys, info.low, info.high, info.factor != nullptr && info.factor->takes_zero)) {
-        reader.warn(channel.place, fmt::format("keys of {} leave {} to {} and are clamped",
-                                               pointer_text(channel.target), info.low, info.high));
-    }
-}
 
 void read_weights(GltfReader& reader, const Channel& channel) {
     const std::vector<int>& meshes = reader.morphs_of[channel.target.index];
@@ -51,7 +42,7 @@ void read_node_channel(GltfReader& reader, const Channel& channel) {
     }
     if (channel.target.info->property == GltfProperty::node_weights) return read_weights(reader, channel);
     Node& node = reader.part.nodes[index];
-    const GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
+    GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
     switch (channel.target.info->property) {
         case GltfProperty::node_rotation:
             node.transform.rotation = rotation_track(reader, keys, channel.place,
@@ -63,68 +54,59 @@ void read_node_channel(GltfReader& reader, const Channel& channel) {
         case GltfProperty::node_scale:
             node.transform.scale = vector_track(reader, keys, channel.place);
             break;
-        default: {
-            GltfKeys shown = keys;
-            for (double& value : shown.values) value = value != 0.0 ? 1.0 : 0.0;
-            node.visible = number_track(reader, shown, channel.place);
-        }
-    }
-}
-
-void read_camera_channel(GltfReader& reader, const Channel& channel) {
-    Camera& camera = reader.part.cameras[channel.target.index];
-    GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
-    clamp_to_range(reader, keys, channel);
-    Track<double>& track = channel.target.info->property == GltfProperty::camera_yfov ? camera.fov : camera.half_height;
-    track = number_track(reader, keys, channel.place);
-}
-
-void read_light_channel(GltfReader& reader, const Channel& channel) {
-    Light& light = reader.part.lights[channel.target.index];
-    GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
-    clamp_to_range(reader, keys, channel);
-    switch (channel.target.info->property) {
-        case GltfProperty::light_color:
-            light.color = vector_track(reader, keys, channel.place);
-            break;
-        case GltfProperty::light_intensity:
-            light.intensity = number_track(reader, keys, channel.place);
-            break;
-        case GltfProperty::light_inner_cone:
-            light.inner_cone = number_track(reader, keys, channel.place);
-            break;
-        case GltfProperty::light_outer_cone:
-            light.outer_cone = number_track(reader, keys, channel.place);
-            break;
         default:
-            if (light.kind != Light::Kind::directional) light.range = number_track(reader, keys, channel.place);
+            for (double& value : keys.values) value = value != 0.0 ? 1.0 : 0.0;
+            node.visible = number_track(reader, keys, channel.place);
     }
 }
 
-void read_material_channel(GltfReader& reader, const Channel& channel) {
-    Material& material = reader.part.materials[channel.target.index];
-    GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
-    clamp_to_range(reader, keys, channel);
-    const GltfFactor& factor = *channel.target.info->factor;
-    if (factor.is_color()) {
-        factor.color(material) = vector_track(reader, keys, channel.place);
-    } else {
-        factor.number(material) = number_track(reader, keys, channel.place);
+/// Where the scene keeps a number of a camera, a light or a material; null for colours, and for a range that a
+/// directional light ignores.
+Track<double>* find_number(Scene& part, const GltfPointer& target) {
+    const std::size_t i = target.index;
+    switch (target.info->property) {
+        case GltfProperty::camera_yfov:
+            return &part.cameras[i].fov;
+        case GltfProperty::camera_ymag:
+            return &part.cameras[i].half_height;
+        case GltfProperty::light_intensity:
+            return &part.lights[i].intensity;
+        case GltfProperty::light_inner_cone:
+            return &part.lights[i].inner_cone;
+        case GltfProperty::light_outer_cone:
+            return &part.lights[i].outer_cone;
+        case GltfProperty::light_range:
+            return part.lights[i].kind == Light::Kind::directional ? nullptr : &part.lights[i].range;
+        case GltfProperty::material_factor:
+            return target.info->factor->is_color() ? nullptr : &target.info->factor->number(part.materials[i]);
+        default:
+            return nullptr;
     }
-    if (factor.has_alpha) material.opacity.alpha = number_track(reader, keys, channel.place, 3);
+}
+
+Track<glm::dvec3>* find_color(Scene& part, const GltfPointer& target) {
+    if (target.info->property == GltfProperty::light_color) return &part.lights[target.index].color;
+    const GltfFactor* factor = target.info->factor;
+    return factor != nullptr && factor->is_color() ? &factor->color(part.materials[target.index]) : nullptr;
 }
 
 void read_channel(GltfReader& reader, const Channel& channel) {
-    switch (channel.target.info->owner) {
-        case GltfOwner::node:
-            return read_node_channel(reader, channel);
-        case GltfOwner::camera:
-            return read_camera_channel(reader, channel);
-        case GltfOwner::light:
-            return read_light_channel(reader, channel);
-        case GltfOwner::material:
-            return read_material_channel(reader, channel);
+    const GltfPropertyInfo& info = *channel.target.info;
+    if (info.owner == GltfOwner::node) return read_node_channel(reader, channel);
+    GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
+    if (clamp_keys(keys, info.low, info.high, info.factor != nullptr && info.factor->takes_zero)) {
+        reader.warn(channel.place, fmt::format("keys of {} leave {} to {} and are clamped",
+                                               pointer_text(channel.target), info.low, info.high));
     }
+    if (auto* number = find_number(reader.part, channel.target)) *number = number_track(reader, keys, channel.place);
+    if (auto* color = find_color(reader.part, channel.target)) *color = vector_track(reader, keys, channel.place);
+    if (info.factor != nullptr && info.factor->has_alpha)
+        reader.part.materials[channel.target.index].opacity.alpha = number_track(reader, keys, channel.place, 3);
+}
+
+/// The extension of a channel that names its property by a JSON pointer; null for other channels.
+const nlohmann::json* find_pointer(const nlohmann::json& target) {
+    return target["path"] == "pointer" ? find_extension(target, "KHR_animation_pointer") : nullptr;
 }
 
 /// The property that a validated channel moves; nothing for a channel that is left out.
@@ -132,18 +114,9 @@ std::optional<GltfPointer> find_target(const nlohmann::json& target) {
     if (const auto node = target.find("node"); node != target.end()) {
         return find_node_property(node->get<std::size_t>(), target["path"].get_ref<const std::string&>());
     }
-    const auto extensions = target.find("extensions");
-    if (target["path"] != "pointer" || extensions == target.end()) return std::nullopt;
-    const auto extension = extensions->find("KHR_animation_pointer");
-    if (extension == extensions->end()) return std::nullopt;
-    return find_gltf_property((*extension)["pointer"].get_ref<const std::string&>());
-}
-
-/// A channel that ordinary glTF ignores; the validator has warned of pointers that are not supported.
-bool moves_nothing(const nlohmann::json& target) {
-    const auto extensions = target.find("extensions");
-    const bool has_pointer = extensions != target.end() && extensions->contains("KHR_animation_pointer");
-    return !target.contains("node") && !(target["path"] == "pointer" && has_pointer);
+    const nlohmann::json* pointer = find_pointer(target);
+    if (pointer == nullptr) return std::nullopt;
+    return find_gltf_property((*pointer)["pointer"].get_ref<const std::string&>());
 }
 
 std::string animation_name(const GltfReader& reader, std::size_t i) {
@@ -176,8 +149,10 @@ void read_animations(GltfReader& reader, const std::vector<std::string>* names) 
         const std::string place = fmt::format("/animations/{}", i);
         std::size_t without_node = 0, left_out = 0, first_mover = 0;
         for (const nlohmann::json& channel : raw["channels"]) {
-            if (moves_nothing(channel["target"])) ++without_node;
-            const std::optional<GltfPointer> target = find_target(channel["target"]);
+            const nlohmann::json& named = channel["target"];
+            // glTF ignores such a channel; the validator has warned of pointers that are not supported.
+            if (!named.contains("node") && find_pointer(named) == nullptr) ++without_node;
+            const std::optional<GltfPointer> target = find_target(named);
             if (!target) continue;
             const auto [mover, is_first] = moved_by.emplace(pointer_text(*target), i);
             if (!is_first) {

@@ -32,8 +32,8 @@ int hex_digit(char c) {
 }
 
 constexpr std::array<std::int8_t, 256> make_base64_table() {
-    std::array<std::int8_t, 256> table{};
-    for (auto& entry : table) entry = -1;
+    std::array<std::int8_t, 256> table;
+    table.fill(-1);
     constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (std::size_t i = 0; i < alphabet.size(); ++i)
         table[static_cast<std::uint8_t>(alphabet[i])] = static_cast<std::int8_t>(i);

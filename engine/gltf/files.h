@@ -1,7 +1,6 @@
 #pragma once
 // The binary container of glTF files (.glb), and the files and data that URIs name.
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -1,11 +1,73 @@
 #include "engine/gltf/gltf.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/gltf/reader.h"
 #include "engine/scene/append.h"
 
 namespace aleph {
+
+namespace {
+
+/// A node whose matrix or scale has no larger number shrinks metres to less than an atom.
+constexpr double min_scale = 1e-12;
+
+/// True if the node's own transform is constant and shrinks everything to a point.
+bool shrinks_to_point(const Node& node) {
+    if (!node.transform.matrix) {
+        const glm::dvec3 scale = glm::abs(key_value(node.transform.scale, 0));
+        return !is_animated(node.transform.scale) && std::max({scale.x, scale.y, scale.z}) < min_scale;
+    }
+    if (is_animated(*node.transform.matrix)) return false;
+    const glm::dmat4& matrix = key_value(*node.transform.matrix, 0);
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(matrix[column][row]));
+    return largest < min_scale;
+}
+
+/// Per scene node: a mesh that follows the node's transform hangs on it or below it. Skinned meshes follow joints.
+std::vector<bool> find_nodes_with_meshes(const Scene& part) {
+    std::vector<bool> holds(part.nodes.size(), false);
+    for (std::size_t i = part.nodes.size(); i-- > 0;) {
+        const Node& node = part.nodes[i];
+        for (const int mesh : node.meshes) holds[i] = holds[i] || part.meshes[mesh].deformation.skin == no_index;
+        if (holds[i] && node.parent != no_index) holds[node.parent] = true;
+    }
+    return holds;
+}
+
+/// Warns of a scene without a mesh, and of nodes that always shrink their meshes to a point.
+void warn_of_invisible_meshes(GltfReader& reader) {
+    const tinygltf::Model& model = reader.source.model;
+    bool has_mesh = false;
+    std::size_t count = 0;
+    std::string first;
+    const std::vector<bool> holds = find_nodes_with_meshes(reader.part);
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        const int index = reader.node_of[i];
+        if (index == no_index) continue;
+        has_mesh = has_mesh || model.nodes[i].mesh >= 0;
+        const Node& node = reader.part.nodes[index];
+        if (!holds[index] || !shrinks_to_point(node)) continue;
+        if (count++ == 0) first = fmt::format("/nodes/{}/{}", i, node.transform.matrix ? "matrix" : "scale");
+    }
+    if (!has_mesh) {
+        const std::string place =
+            model.scenes.empty() ? "/nodes" : fmt::format("/scenes/{}", std::max(model.defaultScene, 0));
+        reader.warn(place, "no node of the scene has a mesh: the file shows nothing");
+    }
+    if (count > 0) {
+        const std::string others = count == 1 ? "" : fmt::format(" (and those of {} more nodes)", count - 1);
+        reader.warn(first, fmt::format("shrinks the meshes below the node to a point{}: they cannot be seen", others));
+    }
+}
+
+}  // namespace
 
 void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_node, int include_index,
                  const LoadLimits& limits, const std::vector<std::string>* animations) {

@@ -1,42 +1,109 @@
-// glTF reader: materials with their extensions.
+// glTF reader: materials with their extensions; their textures and images.
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "engine/base/errors.h"
 #include "engine/gltf/reader.h"
-#include "engine/gltf/textures.h"
 #include "engine/gltf/validate/material_table.h"
+#include "engine/image/image_file.h"
 
 namespace aleph {
 
 namespace {
 
-/// The object that has an owner's properties; null where a material lacks it.
-const nlohmann::json* find_owner(const nlohmann::json& material, std::string_view name) {
-    const auto find = [](const nlohmann::json* in, std::string_view key) -> const nlohmann::json* {
-        if (in == nullptr) return nullptr;
-        const auto found = in->find(key);
-        return found == in->end() ? nullptr : &*found;
-    };
-    if (name.empty()) return &material;
-    return find(is_gltf_extension(name) ? find(&material, "extensions") : &material, name);
+/// Bytes of decoded pixels in one file.
+constexpr std::uint64_t max_pixel_bytes = std::uint64_t{2} << 30;
+
+SceneImage read_image(const GltfReader& reader, std::size_t index) {
+    const std::string place = fmt::format("/images/{}", index);
+    SceneImage image;
+    image.name = reader.source.document["images"][index].value("name", fmt::format("image{}", index));
+    const Bytes encoded = load_encoded_image(reader.source, index, image.path);
+    try {
+        image.bytes = decode_texture(encoded, place).bytes;
+    } catch (const InputError& error) {
+        if (error.file() == reader.source.file) throw;
+        throw InputError(reader.source.file, place, error.reason());
+    }
+    return image;
 }
 
-/// Reads materials. Factors out of range are clamped, with a warning.
+Wrap wrap_of(int mode) {
+    switch (mode) {
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirror;
+        default:
+            return Wrap::repeat;
+    }
+}
+
+/// The object that has an owner's properties; null where a material lacks it.
+const nlohmann::json* find_owner(const nlohmann::json& material, const char* name) {
+    if (is_gltf_extension(name)) return find_extension(material, name);
+    if (*name == '\0') return &material;
+    const auto found = material.find(name);
+    return found == material.end() ? nullptr : &*found;
+}
+
+/// Reads materials. Factors out of range are clamped, with a warning. Images that textures use are decoded once.
 class MaterialReader {
   public:
-    explicit MaterialReader(GltfReader& reader) : reader_(reader), textures_(reader) {}
+    explicit MaterialReader(GltfReader& reader) : reader_(reader), image_of_(reader.source.count("images"), no_index) {}
 
     Material read(std::size_t index);
 
   private:
     double clamped(double value, const GltfFactor& factor);
     void read_owner(const char* name, const nlohmann::json& owner, Material& material);
+    TextureRef read_texture(const nlohmann::json& info);
+    int use_image(std::size_t index);
 
     GltfReader& reader_;
-    GltfTextures textures_;
-    std::string place_;  ///< of the material that is read
+    std::string place_;          ///< of the material that is read
+    std::vector<int> image_of_;  ///< glTF image -> scene image, no_index until needed
+    std::uint64_t pixel_bytes_ = 0;
 };
+
+int MaterialReader::use_image(std::size_t index) {
+    if (image_of_[index] != no_index) return image_of_[index];
+    SceneImage image = read_image(reader_, index);
+    pixel_bytes_ += image.bytes.size() * sizeof(glm::u8vec4);
+    if (pixel_bytes_ > max_pixel_bytes) {
+        throw InputError(reader_.source.file, fmt::format("/images/{}", index),
+                         fmt::format("the file's images decode to more than {} bytes", max_pixel_bytes));
+    }
+    reader_.part.images.push_back(std::move(image));
+    return image_of_[index] = static_cast<int>(reader_.part.images.size()) - 1;
+}
+
+TextureRef MaterialReader::read_texture(const nlohmann::json& info) {
+    const tinygltf::Model& model = reader_.source.model;
+    const tinygltf::Texture& texture = model.textures[info["index"].get<std::size_t>()];
+    TextureRef reference;
+    reference.image = use_image(static_cast<std::size_t>(texture.source));
+    reference.uv_set = info.value("texCoord", 0);
+    if (texture.sampler >= 0) {
+        const tinygltf::Sampler& sampler = model.samplers[texture.sampler];
+        reference.wrap_u = wrap_of(sampler.wrapS);
+        reference.wrap_v = wrap_of(sampler.wrapT);
+        reference.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    const nlohmann::json* transform = find_extension(info, "KHR_texture_transform");
+    if (transform == nullptr) return reference;
+    const auto pair = [&](const char* name, const glm::dvec2& absent) {
+        const auto found = transform->find(name);
+        if (found == transform->end()) return absent;
+        return glm::dvec2((*found)[0].get<double>(), (*found)[1].get<double>());
+    };
+    reference.uv_offset = pair("offset", glm::dvec2(0.0));
+    reference.uv_scale = pair("scale", glm::dvec2(1.0));
+    reference.uv_rotation = transform->value("rotation", 0.0);
+    reference.uv_set = transform->value("texCoord", reference.uv_set);
+    return reference;
+}
 
 double MaterialReader::clamped(double value, const GltfFactor& factor) {
     const double inside = std::clamp(value, factor.low, factor.high);
@@ -59,10 +126,10 @@ void MaterialReader::read_owner(const char* name, const nlohmann::json& owner, M
         if (factor.has_alpha) material.opacity.alpha = value(3);
     });
     for_each_of(gltf_textures(), name, [&](const GltfTexture& texture) {
-        material.textures[texture.slot] = textures_.read(owner, texture.key);
         const auto info = owner.find(texture.key);
-        if (info != owner.end() && texture.scale != nullptr)
-            material.textures.*texture.scale = info->value("scale", 1.0);
+        if (info == owner.end()) return;
+        material.textures[texture.slot] = read_texture(*info);
+        if (texture.scale != nullptr) material.textures.*texture.scale = info->value("scale", 1.0);
     });
 }
 

@@ -70,6 +70,28 @@ void read_triangles(GltfReader& reader, const GltfMeshUse& use, int mode, const 
     }
 }
 
+/// Morph targets of a primitive, without weights.
+void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& place, Mesh& mesh) {
+    bool dropped_normals = false;
+    for (const std::map<std::string, int>& source : primitive.targets) {
+        MorphTarget target;
+        target.name = fmt::format("target{}", mesh.deformation.targets.size());
+        if (const auto found = source.find("POSITION"); found != source.end()) {
+            target.positions = to_vectors<glm::vec3>(reader, found->second);
+        }
+        if (const auto found = source.find("NORMAL"); found != source.end()) {
+            if (mesh.normals.empty()) {
+                dropped_normals = true;
+            } else {
+                target.normals = to_vectors<glm::vec3>(reader, found->second);
+            }
+        }
+        mesh.deformation.targets.push_back(std::move(target));
+    }
+    mesh.deformation.target_weights.assign(mesh.deformation.targets.size(), Track<double>(0.0));
+    if (dropped_normals) reader.warn(place, "the mesh is shaded flat, so its morph targets' normals are not used");
+}
+
 Mesh read_primitive(GltfReader& reader, const GltfMeshUse& use, const tinygltf::Primitive& primitive,
                     const std::string& place) {
     Mesh mesh;
@@ -191,10 +213,6 @@ std::vector<int> take_meshes(GltfReader& reader, std::size_t node_index) {
         if (skin != raw.end()) read_joint_weights(reader, use, skin->get<std::size_t>(), mesh);
     }
     return taken;
-}
-
-std::vector<glm::vec3> read_vec3(GltfReader& reader, int accessor) {
-    return to_vectors<glm::vec3>(reader, accessor);
 }
 
 }  // namespace aleph

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "engine/base/errors.h"
 #include "engine/gltf/reader.h"
@@ -29,13 +30,10 @@ std::vector<int> find_roots(const tinygltf::Model& model) {
 
 void read_transform(GltfReader& reader, const tinygltf::Node& source, const std::string& place, Node& node) {
     if (!source.matrix.empty()) {
-        glm::dmat4 matrix;
-        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = source.matrix[i];
-        node.transform.matrix = Track<glm::dmat4>(matrix);
+        node.transform.matrix = Track<glm::dmat4>(glm::make_mat4(source.matrix.data()));
         return;
     }
-    const auto vector = [](const std::vector<double>& v) { return glm::dvec3(v[0], v[1], v[2]); };
-    if (!source.translation.empty()) node.transform.translation = vector(source.translation);
+    if (!source.translation.empty()) node.transform.translation = glm::make_vec3(source.translation.data());
     if (!source.rotation.empty()) {
         const UnitRotation unit = read_rotation(reader, source.rotation.data(), place + "/rotation");
         if (unit.was_far_from_unit()) {
@@ -43,26 +41,49 @@ void read_transform(GltfReader& reader, const tinygltf::Node& source, const std:
         }
         node.transform.rotation = unit.rotation;
     }
-    if (!source.scale.empty()) node.transform.scale = vector(source.scale);
+    if (!source.scale.empty()) node.transform.scale = glm::make_vec3(source.scale.data());
 }
 
-/// tinygltf reads the file's lights, but not which node holds which.
-int find_light(const nlohmann::json& node) {
-    const auto extensions = node.find("extensions");
-    if (extensions == node.end()) return no_index;
-    const auto extension = extensions->find("KHR_lights_punctual");
-    return extension == extensions->end() ? no_index : extension->at("light").get<int>();
+/// Values of an instance attribute in double; empty where it is absent.
+std::vector<double> read_attribute(GltfReader& reader, const nlohmann::json& attributes, const char* name) {
+    const auto found = attributes.find(name);
+    if (found == attributes.end()) return {};
+    return reader.accessors.read<double>(found->get<int>());
 }
 
-bool has_extension(const nlohmann::json& node, const char* name) {
-    const auto extensions = node.find("extensions");
-    return extensions != node.end() && extensions->contains(name);
-}
-
-/// KHR_node_visibility.
-bool is_visible(const nlohmann::json& node) {
-    return !has_extension(node, "KHR_node_visibility") ||
-           node["extensions"]["KHR_node_visibility"].value("visible", true);
+/// Child nodes for EXT_mesh_gpu_instancing in place of the node's own meshes.
+/// @param node_index  of the file; @param parent  its scene node
+/// @return (node, mesh) pairs made
+std::size_t read_instances(GltfReader& reader, const nlohmann::json& instancing, std::size_t node_index, int parent) {
+    const std::string place = fmt::format("/nodes/{}/extensions/EXT_mesh_gpu_instancing", node_index);
+    const nlohmann::json& attributes = instancing["attributes"];
+    const std::size_t count = reader.accessors.count(attributes.begin()->get<int>());
+    // A node takes far more room than its attributes; twice while the list of nodes grows.
+    reader.accessors.charge(count * 2 * sizeof(Node), place);
+    const std::vector<double> translations = read_attribute(reader, attributes, "TRANSLATION");
+    const std::vector<double> rotations = read_attribute(reader, attributes, "ROTATION");
+    const std::vector<double> scales = read_attribute(reader, attributes, "SCALE");
+    const bool is_float = rotations.empty() || reader.accessors.is_float(attributes["ROTATION"].get<int>());
+    const std::string name = reader.part.nodes[parent].name;
+    std::size_t far_from_unit = 0, made = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        Node node{.name = fmt::format("{}.{}", name, i), .parent = parent};
+        if (!translations.empty()) node.transform.translation = glm::make_vec3(&translations[3 * i]);
+        if (!scales.empty()) node.transform.scale = glm::make_vec3(&scales[3 * i]);
+        if (!rotations.empty()) {
+            const UnitRotation unit =
+                read_rotation(reader, &rotations[4 * i], fmt::format("{}/attributes/ROTATION: instance {}", place, i));
+            if (unit.was_far_from_unit(is_float)) ++far_from_unit;
+            node.transform.rotation = unit.rotation;
+        }
+        node.meshes = take_meshes(reader, node_index);
+        made += node.meshes.size();
+        reader.part.nodes.push_back(std::move(node));
+    }
+    if (far_from_unit > 0) {
+        reader.warn(place, fmt::format("{} rotations are not of length 1 and are normalized", far_from_unit));
+    }
+    return made;
 }
 
 }  // namespace
@@ -82,7 +103,7 @@ void read_nodes(GltfReader& reader) {
     reader.node_of.assign(model.nodes.size(), no_index);
     reader.morphs_of.resize(model.nodes.size());
     const nlohmann::json& document = reader.source.document;
-    reader.skin_of.assign(document.contains("skins") ? document["skins"].size() : 0, no_index);
+    reader.skin_of.assign(reader.source.count("skins"), no_index);
     struct Entry {
         int source;
         int parent;
@@ -104,16 +125,18 @@ void read_nodes(GltfReader& reader) {
         node.parent = entry.parent;
         read_transform(reader, source, place, node);
         const nlohmann::json& raw = document["nodes"][source_index];
-        const bool is_instanced = has_extension(raw, "EXT_mesh_gpu_instancing");
-        if (source.mesh >= 0 && !is_instanced) node.meshes = take_meshes(reader, source_index);
+        const nlohmann::json* const instancing = find_extension(raw, "EXT_mesh_gpu_instancing");
+        if (source.mesh >= 0 && instancing == nullptr) node.meshes = take_meshes(reader, source_index);
         node.camera = source.camera;
-        node.light = find_light(raw);
-        if (!is_visible(raw)) node.visible = Track<double>(0.0);
+        // tinygltf reads the file's lights, but not which node holds which.
+        if (const auto* light = find_extension(raw, "KHR_lights_punctual")) node.light = light->at("light").get<int>();
+        const auto* visibility = find_extension(raw, "KHR_node_visibility");
+        if (visibility != nullptr && !visibility->value("visible", true)) node.visible = Track<double>(0.0);
         instances += node.meshes.size();
         const int index = static_cast<int>(reader.part.nodes.size());
         reader.node_of[source_index] = index;
         reader.part.nodes.push_back(std::move(node));
-        if (is_instanced) instances += read_instances(reader, source_index, index);
+        if (instancing != nullptr) instances += read_instances(reader, *instancing, source_index, index);
         if (instances > max_instances) {
             throw InputError(reader.source.file, place, fmt::format("more than {} instances of meshes", max_instances));
         }

@@ -1,14 +1,58 @@
 #pragma once
 // The parts of the glTF reader: each reads one kind of element. Only this folder uses them.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "engine/gltf/accessors.h"
 #include "engine/gltf/source.h"
 #include "engine/scene/scene.h"
 
 namespace aleph {
+
+// Values of accessors: any component type, normalized or not, packed, interleaved or sparse (accessors.cpp).
+
+/// Vertices, indices and keys of a file may decode to decoded_bytes_base bytes, and decoded_bytes_per_buffer_byte more
+/// for each byte of its buffers. Without a limit a small file that refers to the same data a million times would take
+/// all memory.
+inline constexpr std::uint64_t decoded_bytes_base = std::uint64_t{256} << 20;
+inline constexpr std::uint64_t decoded_bytes_per_buffer_byte = 8;
+
+class GltfAccessors {
+  public:
+    /// @param source  validated; must outlive this
+    explicit GltfAccessors(const GltfSource& source);
+
+    /// All components in order. Normalized integers become -1 (or 0) to 1, floats convert exactly.
+    /// Instantiated for float and double.
+    /// @throws InputError where a value is not finite or beyond +-max_value
+    template <class T>
+    std::vector<T> read(int accessor, double max_value = max_json_number);
+
+    /// @param kind  what the indices count, for the message
+    /// @throws InputError where an index is not below `limit`
+    std::vector<std::uint32_t> read_indices(int accessor, std::size_t limit, const char* kind = "vertex");
+
+    std::size_t count(int accessor) const { return source_.model.accessors[accessor].count; }
+    std::size_t components(int accessor) const;  ///< 3 for VEC3
+    bool is_float(int accessor) const {
+        return source_.model.accessors[accessor].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    }
+
+    /// Counts memory before it is taken. Call it wherever data that was read is copied.
+    /// @throws InputError beyond the file's allowance
+    void charge(std::uint64_t bytes, const std::string& place);
+
+  private:
+    /// Calls store(element, component, value) with values of the component type: first the base values, then the sparse
+    /// ones that replace some of them.
+    template <class Store>
+    void for_each_value(int accessor, const Store& store);
+    std::vector<std::uint32_t> read_sparse_indices(int accessor, const nlohmann::json& sparse, std::size_t limit);
+
+    const GltfSource& source_;
+    std::uint64_t bytes_left_ = decoded_bytes_base;
+};
 
 /// How nodes use a scene mesh that was read from a primitive.
 struct GltfMeshUse {
@@ -44,8 +88,6 @@ void read_nodes(GltfReader& reader);
 void read_skins(GltfReader& reader);
 /// @param names  of the animations that are read; null: all
 void read_animations(GltfReader& reader, const std::vector<std::string>* names);
-/// Warns of a scene without a mesh, and of nodes that always shrink their meshes to a point.
-void warn_of_invisible_meshes(GltfReader& reader);
 
 /// The material of primitives that name none, a white metal: added to the part on first use.
 int default_material(GltfReader& reader);
@@ -56,35 +98,18 @@ std::vector<int> take_meshes(GltfReader& reader, std::size_t node);
 
 /// The skin of a vertex: JOINTS_n and WEIGHTS_n, weights brought to a sum of 1.
 void read_joint_weights(GltfReader& reader, const GltfMeshUse& use, std::size_t skin, Mesh& mesh);
-/// The scene skin of a glTF skin; its joints follow once all nodes are read (read_skins).
-int use_skin(GltfReader& reader, std::size_t skin);
-
-/// Morph targets of a primitive, without weights.
-void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& place, Mesh& mesh);
-
-/// Child nodes for EXT_mesh_gpu_instancing in place of the node's own meshes.
-/// @param node  of the file; @param parent  its scene node
-/// @return (node, mesh) pairs made
-std::size_t read_instances(GltfReader& reader, std::size_t node, int parent);
-
-/// The three floats of each element. @param accessor  VEC3
-std::vector<glm::vec3> read_vec3(GltfReader& reader, int accessor);
 
 /// A quaternion made unit, and the length it had.
 struct UnitRotation {
     glm::dquat rotation;
     double length = 1.0;
 
-    /// @param tolerance  1e-3, or what small integers are off by
-    bool was_far_from_unit(double tolerance = 1e-3) const {
+    /// @param is_float  small integers are off by up to 7e-3
+    bool was_far_from_unit(bool is_float = true) const {
+        const double tolerance = is_float ? 1e-3 : 1.6e-2;
         return !(length > 1.0 - tolerance && length < 1.0 + tolerance);
     }
 };
-
-/// How far from unit length a rotation may be without a warning: quantised ones are off by up to 7e-3.
-inline double rotation_tolerance(bool is_float) {
-    return is_float ? 1e-3 : 1.6e-2;
-}
 
 /// From x, y, z, w at `values`, of any length but 0.
 /// @param place  names node and key in the error

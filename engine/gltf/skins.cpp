@@ -1,8 +1,9 @@
-// glTF reader: morph targets, skins and their joints.
+// glTF reader: skins and their joints.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "engine/base/errors.h"
 #include "engine/gltf/reader.h"
@@ -12,10 +13,6 @@ namespace aleph {
 namespace {
 
 constexpr int joints_per_set = 4;
-
-const nlohmann::json& attributes_of(const GltfReader& reader, const GltfMeshUse& use) {
-    return reader.source.document["meshes"][use.mesh]["primitives"][use.primitive]["attributes"];
-}
 
 /// Files round weights: a sum within this of 1 needs no warning.
 constexpr double weight_sum_tolerance = 1e-2;
@@ -50,20 +47,16 @@ std::vector<glm::dmat4> read_inverse_binds(GltfReader& reader, const nlohmann::j
     if (accessor == raw.end()) return matrices;
     const std::vector<double> values = reader.accessors.read<double>(accessor->get<int>());
     for (std::size_t i = 0; i < joints; ++i) {
-        for (int k = 0; k < 16; ++k) matrices[i][k / 4][k % 4] = values[16 * i + k];
-        for (int column = 0; column < 4; ++column) {
-            const double wanted = column == 3 ? 1.0 : 0.0;
-            if (matrices[i][column].w != wanted) {
-                throw InputError(reader.source.file, place + "/inverseBindMatrices",
-                                 fmt::format("matrix {} is not affine: its last row must be 0 0 0 1", i));
-            }
+        matrices[i] = glm::make_mat4(&values[16 * i]);
+        if (glm::row(matrices[i], 3) != glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
+            throw InputError(reader.source.file, place + "/inverseBindMatrices",
+                             fmt::format("matrix {} is not affine: its last row must be 0 0 0 1", i));
         }
     }
     return matrices;
 }
 
-}  // namespace
-
+/// The scene skin of a glTF skin; its joints follow once all nodes are read (read_skins).
 int use_skin(GltfReader& reader, std::size_t skin) {
     int& index = reader.skin_of[skin];
     if (index == no_index) {
@@ -73,10 +66,13 @@ int use_skin(GltfReader& reader, std::size_t skin) {
     return index;
 }
 
+}  // namespace
+
 void read_joint_weights(GltfReader& reader, const GltfMeshUse& use, std::size_t skin, Mesh& mesh) {
     const std::string place = fmt::format("/meshes/{}/primitives/{}", use.mesh, use.primitive);
     const std::size_t joint_count = reader.source.document["skins"][skin]["joints"].size();
-    const nlohmann::json& attributes = attributes_of(reader, use);
+    const nlohmann::json& attributes =
+        reader.source.document["meshes"][use.mesh]["primitives"][use.primitive]["attributes"];
     const int sets = attributes.contains("JOINTS_1") ? 2 : 1;
     const std::size_t per_vertex = static_cast<std::size_t>(sets * joints_per_set);
     reader.accessors.charge(mesh.positions.size() * per_vertex * sizeof(JointWeight), place);
@@ -138,27 +134,6 @@ void read_skins(GltfReader& reader) {
         skin.inverse_binds = read_inverse_binds(reader, raw, skin.joints.size(), place);
         reader.part.skins[reader.skin_of[i]] = std::move(skin);
     }
-}
-
-void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& place, Mesh& mesh) {
-    bool dropped_normals = false;
-    for (const std::map<std::string, int>& source : primitive.targets) {
-        MorphTarget target;
-        target.name = fmt::format("target{}", mesh.deformation.targets.size());
-        if (const auto found = source.find("POSITION"); found != source.end()) {
-            target.positions = read_vec3(reader, found->second);
-        }
-        if (const auto found = source.find("NORMAL"); found != source.end()) {
-            if (mesh.normals.empty()) {
-                dropped_normals = true;
-            } else {
-                target.normals = read_vec3(reader, found->second);
-            }
-        }
-        mesh.deformation.targets.push_back(std::move(target));
-    }
-    mesh.deformation.target_weights.assign(mesh.deformation.targets.size(), Track<double>(0.0));
-    if (dropped_normals) reader.warn(place, "the mesh is shaded flat, so its morph targets' normals are not used");
 }
 
 }  // namespace aleph

@@ -16,30 +16,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The bytes of a data URI, or of the file that a relative one names.
+Bytes read_uri(const GltfSource& source, const std::string& uri, const std::string& place) {
+    if (is_data_uri(uri)) return decode_data_uri(uri, source.file, place);
+    return read_regular_file(resolve_file_uri(uri, source.folder, source.file, place), source.file, place);
+}
+
 Bytes load_buffer(const GltfSource& source, std::size_t i, const GltfChunks& chunks, std::uint64_t bytes_left) {
     const nlohmann::json& buffer = source.document["buffers"][i];
     const std::string place = fmt::format("/buffers/{}", i);
     const auto length = buffer["byteLength"].get<std::size_t>();
-    Bytes bytes;
     if (!buffer.contains("uri")) {
         if (chunks.binary.size() < length) {
             throw InputError(source.file, place,
                              fmt::format("byteLength is {}, the BIN chunk has {} bytes", length, chunks.binary.size()));
         }
-        bytes.assign(chunks.binary.begin(), chunks.binary.begin() + static_cast<std::ptrdiff_t>(length));
-        return bytes;
+        return {chunks.binary.begin(), chunks.binary.begin() + static_cast<std::ptrdiff_t>(length)};
     }
     // Several buffers may name one large file.
     if (length > bytes_left) {
         throw InputError(source.file, place, fmt::format("all buffers together exceed {} bytes", max_file_bytes));
     }
-    const std::string& uri = buffer["uri"].get_ref<const std::string&>();
-    if (is_data_uri(uri)) {
-        bytes = decode_data_uri(uri, source.file, place + "/uri");
-    } else {
-        bytes = read_regular_file(resolve_file_uri(uri, source.folder, source.file, place + "/uri"), source.file,
-                                  place + "/uri");
-    }
+    Bytes bytes = read_uri(source, buffer["uri"].get_ref<const std::string&>(), place + "/uri");
     if (bytes.size() < length) {
         throw InputError(source.file, place,
                          fmt::format("byteLength is {}, the data has {} bytes", length, bytes.size()));
@@ -115,6 +113,18 @@ void parse_model(GltfSource& source) {
 
 }  // namespace
 
+std::size_t GltfSource::count(const char* list) const {
+    const auto found = document.find(list);
+    return found == document.end() ? 0 : found->size();
+}
+
+const nlohmann::json* find_extension(const nlohmann::json& element, const char* name) {
+    const auto extensions = element.find("extensions");
+    if (extensions == element.end()) return nullptr;
+    const auto extension = extensions->find(name);
+    return extension == extensions->end() ? nullptr : &*extension;
+}
+
 GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
     GltfSource source;
     source.file = path.string();
@@ -126,41 +136,35 @@ GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
     validate_gltf(JsonRef(source.document, source.file), chunks.has_binary, source.warnings);
 
     std::uint64_t bytes_left = max_file_bytes;
-    const std::size_t buffer_count = source.document.contains("buffers") ? source.document["buffers"].size() : 0;
-    for (std::size_t i = 0; i < buffer_count; ++i) {
+    for (std::size_t i = 0; i < source.count("buffers"); ++i) {
         source.buffers.push_back(load_buffer(source, i, chunks, bytes_left));
         bytes_left -= source.buffers.back().size();
     }
     std::set<std::size_t> images;
-    if (source.document.contains("textures")) {
-        for (const nlohmann::json& texture : source.document["textures"])
-            images.insert(texture["source"].get<std::size_t>());
-    }
+    for (std::size_t i = 0; i < source.count("textures"); ++i)
+        images.insert(source.document["textures"][i]["source"].get<std::size_t>());
     for (const std::size_t image : images) locate_image(source, image);
     parse_model(source);
     return source;
 }
 
-EncodedImage load_encoded_image(const GltfSource& source, std::size_t i) {
+Bytes load_encoded_image(const GltfSource& source, std::size_t i, std::string& path) {
     const nlohmann::json& image = source.document["images"][i];
     const std::string place = fmt::format("/images/{}", i);
-    EncodedImage encoded;
+    Bytes b;
     if (image.contains("bufferView")) {
         const tinygltf::BufferView& view = source.model.bufferViews[image["bufferView"].get<std::size_t>()];
         const auto begin = source.buffers[view.buffer].begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
-        encoded.bytes.assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
-    } else if (const auto& uri = image["uri"].get_ref<const std::string&>(); is_data_uri(uri)) {
-        encoded.bytes = decode_data_uri(uri, source.file, place + "/uri");
+        b.assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
     } else {
-        encoded.path = percent_decode(uri, source.file, place + "/uri");
-        encoded.bytes = read_regular_file(resolve_file_uri(uri, source.folder, source.file, place + "/uri"),
-                                          source.file, place + "/uri");
+        const auto& uri = image["uri"].get_ref<const std::string&>();
+        if (!is_data_uri(uri)) path = percent_decode(uri, source.file, place + "/uri");
+        b = read_uri(source, uri, place + "/uri");
     }
-    const Bytes& b = encoded.bytes;
     const bool is_png = b.size() > 8 && b[0] == 0x89 && b[1] == 'P' && b[2] == 'N' && b[3] == 'G';
     const bool is_jpeg = b.size() > 3 && b[0] == 0xff && b[1] == 0xd8 && b[2] == 0xff;
     if (!is_png && !is_jpeg) throw InputError(source.file, place, "the data is neither PNG nor JPEG");
-    return encoded;
+    return b;
 }
 
 }  // namespace aleph

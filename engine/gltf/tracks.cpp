@@ -99,7 +99,7 @@ Track<glm::dquat> rotation_track(GltfReader& reader, const GltfKeys& keys, const
         if (!keys.is_value(i)) continue;
         const UnitRotation unit =
             read_rotation(reader, &keys.values[4 * i], fmt::format("{}: {} key {}", place, owner, keys.key_of(i)));
-        if (unit.was_far_from_unit(rotation_tolerance(keys.is_float))) ++far_from_unit;
+        if (unit.was_far_from_unit(keys.is_float)) ++far_from_unit;
         lengths.push_back(unit.length);
     }
     if (far_from_unit > 0) {

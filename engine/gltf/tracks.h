@@ -1,7 +1,6 @@
 #pragma once
 // Keys of a glTF animation sampler, and the tracks made of them.
 
-#include <algorithm>
 #include <string>
 #include <vector>
 

@@ -29,6 +29,12 @@ std::optional<ImageFormat> detect_format(ByteView bytes);
 std::vector<std::uint8_t> strip_png(ByteView bytes, const std::string& name);
 std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name);
 
+/// Reads each attribute of an EXR file's header alone: it has to lie within the file, and to end where its size says.
+/// Imf::InputFile takes the memory that an attribute names before it reads it, and goes on where a value ends, whatever
+/// its size: a file of 4 KB could ask for 2 GB.
+/// @throws InputError
+void check_exr_header(ByteView bytes, const std::string& name);
+
 /// @throws InputError (file = name) if the image is empty or has more than max_pixels
 void check_size(std::int64_t width, std::int64_t height, const std::string& name);
 

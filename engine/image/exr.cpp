@@ -27,7 +27,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/image/codec.h"
-#include "engine/image/exr_header.h"
 #include "engine/image/exr_stream.h"
 
 namespace aleph {

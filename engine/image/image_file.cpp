@@ -11,7 +11,6 @@ namespace aleph {
 
 namespace {
 
-/// Largest file that is read, bytes.
 constexpr std::uint64_t max_image_file_bytes = std::uint64_t{1} << 32;
 
 std::string display_name(const std::filesystem::path& path) {

@@ -2,7 +2,6 @@
 
 #include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -23,19 +22,18 @@ std::size_t max_distance(std::size_t length) {
     return std::max<std::size_t>(length >= 3 ? 2 : 1, length / 3);
 }
 
-std::string quoted(const std::string& name) {
-    return '"' + printable(name, 64) + '"';
-}
-
-std::string join(const std::vector<std::string>& names) {
-    std::vector<std::string> out;
-    for (const std::string& name : names) out.push_back(quoted(name));
-    const std::string last = out.back();
-    out.pop_back();
-    return out.empty() ? last : fmt::format("{} or {}", fmt::join(out, ", "), last);
+std::string join_quoted(std::vector<std::string> names) {
+    for (std::string& name : names) name = '"' + printable(name, 64) + '"';
+    return join_choices(names);
 }
 
 }  // namespace
+
+std::string join_choices(const std::vector<std::string>& choices) {
+    std::string text = choices.front();
+    for (std::size_t i = 1; i < choices.size(); ++i) text += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
+    return text;
+}
 
 std::vector<std::string> close_names(std::string_view name, const std::vector<std::string>& known) {
     if (name.empty() || name.size() > max_compared_length) return {};
@@ -60,14 +58,14 @@ std::vector<std::string> close_names(std::string_view name, const std::vector<st
 
 std::string close_suggestion(std::string_view name, const std::vector<std::string>& known) {
     const std::vector<std::string> close = close_names(name, known);
-    return close.empty() ? "" : fmt::format("; did you mean {}?", join(close));
+    return close.empty() ? "" : fmt::format("; did you mean {}?", join_quoted(close));
 }
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
     const std::string close = close_suggestion(name, known);
     if (!close.empty()) return close;
     if (known.empty() || known.size() > max_listed) return "";
-    return fmt::format("; there is {}", join(known));
+    return fmt::format("; there is {}", join_quoted(known));
 }
 
 }  // namespace aleph

@@ -7,6 +7,9 @@
 
 namespace aleph {
 
+/// "a, b or c". @param choices  at least one
+std::string join_choices(const std::vector<std::string>& choices);
+
 /// Up to three names that differ from `name` by a few letters (a third of them; at least two, one in names of one or
 /// two letters; regardless of case), or of which one contains the other. Nearest first, then in the order given.
 std::vector<std::string> close_names(std::string_view name, const std::vector<std::string>& known);

@@ -11,17 +11,7 @@ namespace aleph {
 std::string JsonRef::pointer() const {
     if (parent_ == nullptr) return "";
     if (key_.empty()) return fmt::format("{}/{}", parent_->pointer(), index_);
-    std::string escaped;
-    for (const char c : printable(key_)) {
-        if (c == '~') {
-            escaped += "~0";
-        } else if (c == '/') {
-            escaped += "~1";
-        } else {
-            escaped += c;
-        }
-    }
-    return parent_->pointer() + "/" + escaped;
+    return parent_->pointer() + (nlohmann::json::json_pointer() / printable(key_)).to_string();
 }
 
 void JsonRef::fail(const std::string& reason) const {
@@ -111,26 +101,21 @@ std::size_t JsonRef::index(std::size_t count, std::string_view kind) const {
 
 std::optional<std::size_t> JsonRef::find_index(std::string_view key, std::size_t count, std::string_view kind) const {
     const std::optional<JsonRef> member = find(key);
-    if (!member) return std::nullopt;
-    return member->index(count, kind);
+    return member ? std::optional(member->index(count, kind)) : std::nullopt;
 }
 
 std::optional<std::int64_t> JsonRef::find_integer(std::string_view key, std::int64_t low, std::int64_t high) const {
     const std::optional<JsonRef> member = find(key);
-    if (!member) return std::nullopt;
-    return member->integer(low, high);
+    return member ? std::optional(member->integer(low, high)) : std::nullopt;
 }
 
 std::optional<std::string> JsonRef::find_string(std::string_view key) const {
     const std::optional<JsonRef> member = find(key);
-    if (!member) return std::nullopt;
-    return member->string();
+    return member ? std::optional(member->string()) : std::nullopt;
 }
 
-bool JsonRef::check_number(std::string_view key) const {
-    const std::optional<JsonRef> member = find(key);
-    if (member) member->number();
-    return member.has_value();
+void JsonRef::check_number(std::string_view key) const {
+    if (const std::optional<JsonRef> member = find(key)) member->number();
 }
 
 bool JsonRef::check_numbers(std::string_view key, std::size_t count) const {
@@ -139,10 +124,8 @@ bool JsonRef::check_numbers(std::string_view key, std::size_t count) const {
     return member.has_value();
 }
 
-bool JsonRef::check_boolean(std::string_view key) const {
-    const std::optional<JsonRef> member = find(key);
-    if (member) member->boolean();
-    return member.has_value();
+void JsonRef::check_boolean(std::string_view key) const {
+    if (const std::optional<JsonRef> member = find(key)) member->boolean();
 }
 
 std::size_t count_of(const JsonRef& parent, std::string_view key) {

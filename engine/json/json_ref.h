@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace aleph {
 
@@ -54,9 +53,9 @@ class JsonRef {
     std::optional<std::size_t> find_index(std::string_view key, std::size_t count, std::string_view kind) const;
     std::optional<std::int64_t> find_integer(std::string_view key, std::int64_t low, std::int64_t high) const;
     std::optional<std::string> find_string(std::string_view key) const;
-    bool check_number(std::string_view key) const;
+    void check_number(std::string_view key) const;
     bool check_numbers(std::string_view key, std::size_t count) const;
-    bool check_boolean(std::string_view key) const;
+    void check_boolean(std::string_view key) const;
 
   private:
     JsonRef(const nlohmann::json& value, const JsonRef& parent, std::string_view key, std::size_t index)

@@ -12,7 +12,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/json/close_names.h"
-#include "engine/json/schema_titles.h"
 
 namespace aleph {
 
@@ -24,6 +23,52 @@ using Adapter = valijson::adapters::NlohmannJsonAdapter;
 using Visitor = valijson::ValidationVisitor<Adapter>;
 using Mismatch = std::optional<SchemaMismatch>;
 using Patterns = std::unordered_map<std::string, std::regex>;
+
+std::string describe_number(const json& schema) {
+    std::string out = schema["type"] == "integer" ? "a whole number" : "a number";
+    if (schema.contains("minimum") && schema.contains("maximum")) {
+        return fmt::format("{} from {} to {}", out, schema["minimum"].dump(), schema["maximum"].dump());
+    }
+    if (schema.contains("minimum")) out += " of at least " + schema["minimum"].dump();
+    if (schema.contains("exclusiveMinimum")) out += " above " + schema["exclusiveMinimum"].dump();
+    return out;
+}
+
+std::string describe(const json& schema, const json& root) {
+    if (schema.contains("$ref")) {
+        return describe(root.at(json::json_pointer(schema["$ref"].get_ref<const std::string&>().substr(1))), root);
+    }
+    if (schema.contains("title")) return schema["title"];
+    std::vector<std::string> parts;
+    if (schema.contains("anyOf")) {
+        for (const json& alternative : schema["anyOf"]) parts.push_back(describe(alternative, root));
+        return join_choices(parts);
+    }
+    if (schema.contains("enum")) {
+        for (const json& value : schema["enum"]) parts.push_back(value.dump());
+        return join_choices(parts);
+    }
+    const std::string type = schema["type"];
+    if (type == "number" || type == "integer") return describe_number(schema);
+    if (type == "boolean") return "true or false";
+    if (type == "string") return "text";
+    return type == "array" ? "a list" : "an object";
+}
+
+/// True for a schema that checks something. A property may be called "type": its value is an object.
+bool is_schema(const json& value) {
+    if (!value.is_object()) return false;
+    const auto type = value.find("type");
+    return value.contains("anyOf") || value.contains("enum") || (type != value.end() && !type->is_object());
+}
+
+/// Gives every part of a schema without a `title` one: its type and limits ("a number from 0 to 1"), the values of
+/// its `enum`, or the titles of its `anyOf`. Knows $ref to "#/...".
+void add_titles(json& value, const json& root) {
+    if (!value.is_structured()) return;
+    for (json& inner : value) add_titles(inner, root);
+    if (is_schema(value) && !value.contains("title")) value["title"] = describe(value, root);
+}
 
 std::string describe_value(const json& value) {
     if (value.is_string()) return fmt::format("the text \"{}\"", printable(value.get_ref<const std::string&>(), 40));
@@ -179,7 +224,7 @@ class FirstMismatch : public Visitor {
 }  // namespace
 
 JsonSchema::JsonSchema(json schema) : compiled_(std::make_unique<valijson::Schema>()) {
-    add_titles(schema);
+    add_titles(schema, json(schema));
     valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(schema), *compiled_);
 }
 

@@ -6,9 +6,6 @@
 #include <unordered_set>
 
 #include "engine/base/errors.h"
-#include "engine/json/memory.h"
-#include "engine/json/scan.h"
-#include "engine/json/syntax_error.h"
 
 namespace aleph {
 
@@ -27,6 +24,101 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
         }
     }
     return fmt::format("line {}, column {}", line, column);
+}
+
+/// Position of the last character of the comment that begins at `at`; `at` if none does.
+std::size_t skip_json_comment(std::string_view text, std::size_t at) {
+    const std::string_view start = text.substr(at, 2);
+    if (start != "//" && start != "/*") return at;
+    const std::size_t end = text.find(start == "//" ? "\n" : "*/", at + 2);
+    return end == std::string_view::npos ? text.size() : end + (start == "//" ? 0 : 1);
+}
+
+/// Calls mark(character) for each character outside strings, and string(bytes) for each string.
+/// @param comments  the text may hold // and /* */
+template <class Mark, class String>
+void scan_json(std::string_view text, bool comments, const Mark& mark, const String& string) {
+    std::size_t string_start = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '\\') {
+                ++i;
+            } else if (c == '"') {
+                in_string = false;
+                string(i - string_start);
+            }
+        } else if (c == '"') {
+            in_string = true;
+            string_start = i;
+        } else if (c == '/' && comments) {
+            i = skip_json_comment(text, i);
+        } else {
+            mark(c);
+        }
+    }
+}
+
+/// Refuses a text whose values would take more than limits.json_values().
+/// @param advice  what to do about it
+void check_json_memory(std::string_view text, bool comments, const LoadLimits& limits, const std::string& file,
+                       std::string_view advice) {
+    const std::size_t bytes = estimate_json_memory(text, comments);
+    if (bytes <= limits.json_values()) return;
+    throw InputError(file, "",
+                     fmt::format("its JSON holds so many values that they would take about {} MiB, more than {}; {}",
+                                 bytes >> 20, limits.json_values() >> 20, advice));
+}
+
+/// Why a text is not JSON, in plain words.
+struct SyntaxError {
+    std::size_t offset = 0;  ///< of the byte to look at
+    std::string reason;
+};
+
+/// The part after the place of "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error ...".
+std::string parser_reason(const std::string& what) {
+    const auto column = what.find(", column ");
+    const auto colon = what.find(": ", column == std::string::npos ? 0 : column);
+    return printable(colon == std::string::npos ? what : what.substr(colon + 2), 300);
+}
+
+/// Where the token that ends at `position` begins. The parser keeps the bytes of strings and numbers only.
+std::size_t token_start(std::string_view text, std::size_t position, std::string_view token) {
+    const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+    std::size_t start = position - 1;
+    if (std::string_view("{}[]").find(text[start]) != std::string_view::npos) return start;
+    if (!is_letter(text[start])) return position - std::min(std::max<std::size_t>(token.size(), 1), position);
+    while (start > 0 && is_letter(text[start - 1])) --start;
+    return start;
+}
+
+bool begins_value(char c) {
+    return c == '"' || c == '{' || c == '[' || c == '-' || (c >= '0' && c <= '9') || c == 't' || c == 'f' || c == 'n';
+}
+
+/// Recognizes a missing comma and one too many. Other reasons are the parser's.
+/// @param position  bytes read when the parser stopped
+/// @param token     the bytes of the last token
+/// @param what      the message of nlohmann's parser
+SyntaxError explain_syntax_error(std::string_view text, std::size_t position, std::string_view token,
+                                 const std::string& what) {
+    if (position > 0 && position <= text.size() && what.find("unexpected end of input") == std::string::npos) {
+        const std::size_t start = token_start(text, position, token);
+        const std::size_t before = start == 0 ? std::string_view::npos : text.find_last_not_of(" \t\r\n", start - 1);
+        const char first = text[start];
+        const bool closing_expected =
+            what.find("; expected '}'") != std::string::npos || what.find("; expected ']'") != std::string::npos;
+        const bool apart = start > before + 1 || std::string_view("{[\"").find(first) != std::string_view::npos;
+        if (before != std::string_view::npos && apart && closing_expected && begins_value(first)) {
+            return {before + 1, "not valid JSON: a comma is missing here"};
+        }
+        if (before != std::string_view::npos && text[before] == ',' && (first == '}' || first == ']')) {
+            return {before, "not valid JSON: this comma is one too many"};
+        }
+    }
+    return {position == 0 ? 0 : position - 1, "not valid JSON: " + parser_reason(what)};
 }
 
 /// Builds the value. nlohmann's own builder silently keeps the last of two equal keys.
@@ -140,6 +232,22 @@ constexpr const char* large_mesh_advice =
     "(LoadLimits)";
 
 }  // namespace
+
+std::size_t estimate_json_memory(std::string_view text, bool comments) {
+    constexpr std::size_t element = 48, container = 96, member = 250, string = 48;
+    std::size_t bytes = 0;
+    const auto add_mark = [&](char c) {
+        if (c == ',') {
+            bytes += element;
+        } else if (c == ':') {
+            bytes += member;
+        } else if (c == '[' || c == '{') {
+            bytes += element + container;
+        }
+    };
+    scan_json(text, comments, add_mark, [&](std::size_t length) { bytes += string + length; });
+    return bytes;
+}
 
 nlohmann::json parse_strict_json(std::string_view text, const std::string& file, const LoadLimits& limits,
                                  std::string_view advice) {

@@ -33,4 +33,10 @@ struct JsonText {
 /// with a JSON pointer
 JsonText parse_json_text(std::string_view text, const std::string& file, const LoadLimits& limits = {});
 
+/// Upper estimate of the memory of the text's values in nlohmann::json, bytes, without parsing. A number of two bytes
+/// becomes 48 (16 in a list whose capacity may be twice its length, 16 more when the list is destroyed), the member of
+/// an object 250.
+/// @param comments  the text may hold // and /* */
+std::size_t estimate_json_memory(std::string_view text, bool comments);
+
 }  // namespace aleph

@@ -18,7 +18,6 @@ FileTiming append_gltf_file(const AppendRequest& request, Scene& scene) {
     return {};
 }
 
-/// The buffers and images that are not there.
 void list_missing_of_gltf(const LoadRequest& request, std::vector<MissingFile>& missing) {
     const Bytes bytes = read_regular_file(request.path, request.file, "");
     const nlohmann::json root =

@@ -1,19 +1,16 @@
-#include "engine/load/load_includes.h"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numbers>
 
 #include "engine/base/errors.h"
 #include "engine/json/close_names.h"
+#include "engine/load/format_rows.h"
 #include "engine/scene/append.h"
 
 namespace aleph {
 
 namespace {
 
-/// The nodes that an include appended.
 struct Included {
     int begin = 0, end = 0;
 };

@@ -22,7 +22,6 @@ void set_timing(const FileTiming& timing, Scene& scene) {
     scene.film.range = frame_range(ends);
 }
 
-/// A scene of what the format appends.
 Scene load_alone(const SceneFormat& format, const LoadRequest& request) {
     Scene scene;
     scene.source.file = request.file;

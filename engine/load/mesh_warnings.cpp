@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "engine/base/errors.h"
-#include "engine/load/source_file.h"
 #include "engine/load/warnings.h"
 
 namespace aleph {

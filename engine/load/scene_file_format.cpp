@@ -1,18 +1,18 @@
 // The format of aleph's own scene files (.json): the pictures and files that they name, and saving.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-
 #include <set>
 #include <system_error>
 
 #include "engine/base/atomic_file.h"
+#include "engine/base/color.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/image/image_file.h"
-#include "engine/load/environment_picture.h"
 #include "engine/load/format_rows.h"
-#include "engine/load/load_includes.h"
 #include "engine/pose/pose.h"
 #include "engine/scene_file/scene_text.h"
 
@@ -56,6 +56,51 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
             throw InputError(file, place, fmt::format("{}: {}", error.file(), error.reason()));
         }
     }
+}
+
+bool is_texture(const Scene& scene, int image) {
+    return std::ranges::any_of(scene.materials, [&](const Material& material) {
+        return std::ranges::any_of(material.textures.all,
+                                   [&](const TextureRef& texture) { return texture.image == image; });
+    });
+}
+
+std::string unused_name(const Scene& scene, const std::string& name) {
+    const auto is_used = [&](const std::string& candidate) {
+        return std::ranges::any_of(scene.images, [&](const SceneImage& image) { return image.name == candidate; });
+    };
+    std::string candidate = name;
+    for (int i = 2; is_used(candidate); ++i) candidate = fmt::format("{} {}", name, i);
+    return candidate;
+}
+
+Image<glm::vec4> to_linear(const Image<glm::u8vec4>& bytes) {
+    std::array<float, 256> linear;
+    for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = srgb_to_linear(static_cast<float>(i) / 255.0f);
+    Image<glm::vec4> floats(bytes.width, bytes.height);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        const glm::u8vec4& c = bytes.pixels[i];
+        floats.pixels[i] = {linear[c.x], linear[c.y], linear[c.z], static_cast<float>(c.w) / 255.0f};
+    }
+    return floats;
+}
+
+/// Turns the pixels of the environment's picture into linear floats where they are 8-bit sRGB. A picture that is a
+/// texture too stays as it is: the environment gets a copy, under a name of its own and with the same path.
+/// Called before includes are appended, as the scene's own images come first.
+void make_environment_linear(Scene& scene) {
+    if (scene.environment.image == no_index) return;
+    const SceneImage& picture = scene.images[scene.environment.image];
+    if (picture.bytes.empty()) return;
+    if (is_texture(scene, scene.environment.image)) {
+        SceneImage copy = picture;
+        copy.name = unused_name(scene, copy.name);
+        scene.environment.image = static_cast<int>(scene.images.size());
+        scene.images.push_back(std::move(copy));
+    }
+    SceneImage& own = scene.images[scene.environment.image];
+    own.floats = to_linear(own.bytes);
+    own.bytes = {};
 }
 
 void check_cameras(const Scene& scene, const std::string& file) {

@@ -6,6 +6,7 @@
 #include "engine/alembic/alembic.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "engine/json/close_names.h"
 #include "engine/load/format_rows.h"
 
 namespace aleph {
@@ -13,15 +14,8 @@ namespace aleph {
 namespace {
 
 bool serves(const SceneFormat& format, FormatUse use) {
-    switch (use) {
-        case FormatUse::load:
-            return format.load != nullptr || format.append != nullptr;
-        case FormatUse::include:
-            return format.append != nullptr;
-        case FormatUse::save:
-            return format.save != nullptr;
-    }
-    return false;
+    if (use == FormatUse::save) return format.save != nullptr;
+    return format.append != nullptr || (use == FormatUse::load && format.load != nullptr);
 }
 
 }  // namespace
@@ -54,12 +48,7 @@ std::string list_endings(const SceneFormats& formats, FormatUse use) {
     for (const SceneFormat& format : formats) {
         if (serves(format, use)) endings.insert(endings.end(), format.endings.begin(), format.endings.end());
     }
-    std::string text;
-    for (std::size_t i = 0; i < endings.size(); ++i) {
-        if (i > 0) text += i + 1 < endings.size() ? ", " : " or ";
-        text += endings[i];
-    }
-    return text;
+    return endings.empty() ? "" : join_choices(endings);
 }
 
 const SceneFormat& require_format(const SceneFormats& formats, FormatUse use, const std::filesystem::path& path,

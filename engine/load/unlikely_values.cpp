@@ -89,10 +89,8 @@ std::set<std::int64_t> find_jumps(const Scene& scene, const Node* node, const Fr
         if (node->parent == no_index) break;
     }
     std::set<std::int64_t> frames;
-    const double rate =
-        static_cast<double>(scene.film.frame_rate.numerator) / static_cast<double>(scene.film.frame_rate.denominator);
     for (const double time : seconds) {
-        const double frame = std::ceil(time * rate - 1e-6);
+        const double frame = std::ceil(time * scene.film.frame_rate.per_second() - 1e-6);
         if (frame > static_cast<double>(range.first) && frame <= static_cast<double>(range.last))
             frames.insert(static_cast<std::int64_t>(frame));
     }

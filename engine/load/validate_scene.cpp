@@ -65,6 +65,12 @@ class Element {
     std::string place_;
 };
 
+/// Calls check(element for messages, element) for each of a list.
+template <class List, class Check>
+void check_each(const Scene& scene, const char* kind, const List& list, const Check& check) {
+    for (std::size_t i = 0; i < list.size(); ++i) check(Element(scene, kind, i, list[i].name), list[i]);
+}
+
 bool is_positive(double value) {
     return std::isfinite(value) && value > 0.0;
 }
@@ -123,9 +129,7 @@ void validate_nodes(const Scene& scene) {
 }
 
 void validate_materials(const Scene& scene) {
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const Material& material = scene.materials[i];
-        const Element at(scene, "material", i, material.name);
+    check_each(scene, "material", scene.materials, [&](const Element& at, const Material& material) {
         visit_tracks(material, [&](const auto& track) { at.check_track(track); });
         for (const MaterialTexture& texture : material_textures) {
             const TextureRef& reference = material.textures[texture.slot];
@@ -134,28 +138,23 @@ void validate_materials(const Scene& scene) {
                 at.refuse(fmt::format("{}: texture coordinates 0 and 1 exist, not {}", texture.key, reference.uv_set));
             }
         }
-    }
-    for (std::size_t i = 0; i < scene.images.size(); ++i) {
-        const SceneImage& image = scene.images[i];
-        const Element at(scene, "image", i, image.name);
+    });
+    check_each(scene, "image", scene.images, [&](const Element& at, const SceneImage& image) {
         at.require(image.bytes.empty() || image.floats.empty(), "has both 8-bit and floating-point pixels");
-    }
+    });
 }
 
 void validate_lights_and_cameras(const Scene& scene) {
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const Element at(scene, "light", i, scene.lights[i].name);
-        visit_tracks(scene.lights[i], [&](const auto& track) { at.check_track(track); });
-    }
-    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        const Camera& camera = scene.cameras[i];
-        const Element at(scene, "camera", i, camera.name);
+    check_each(scene, "light", scene.lights, [](const Element& at, const Light& light) {
+        visit_tracks(light, [&](const auto& track) { at.check_track(track); });
+    });
+    check_each(scene, "camera", scene.cameras, [&](const Element& at, const Camera& camera) {
         visit_tracks(camera, [&](const auto& track) { at.check_track(track); });
         at.require(is_positive(camera.near_plane), "its near plane has to be above 0");
         at.require(
             std::isfinite(camera.shutter.x) && std::isfinite(camera.shutter.y) && camera.shutter.x <= camera.shutter.y,
             "its shutter has to close when it opens or later");
-    }
+    });
 }
 
 void validate_motion_sources(const Scene& scene) {
@@ -169,18 +168,14 @@ void validate_motion_sources(const Scene& scene) {
             at.require(std::ranges::all_of(points, is_finite), "a point is not finite");
         }
     }
-    for (std::size_t i = 0; i < scene.skins.size(); ++i) {
-        const Skin& skin = scene.skins[i];
-        const Element at(scene, "skin", i, skin.name);
+    check_each(scene, "skin", scene.skins, [&](const Element& at, const Skin& skin) {
         at.require(skin.joints.size() == skin.inverse_binds.size(), "needs one inverse bind matrix for each joint");
         for (const int joint : skin.joints) at.check_index(joint, scene.nodes.size(), "node", false);
-    }
-    for (std::size_t i = 0; i < scene.cages.size(); ++i) {
-        const Cage& cage = scene.cages[i];
-        const Element at(scene, "cage", i, cage.name);
+    });
+    check_each(scene, "cage", scene.cages, [&](const Element& at, const Cage& cage) {
         at.check_index(cage.points, scene.point_caches.size(), "point cache", false);
         validate(cage, scene.point_caches[cage.points].point_count());
-    }
+    });
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "engine/base/errors.h"
-#include "engine/load/source_file.h"
 #include "engine/pose/parts.h"
 #include "engine/scene/transforms.h"
 
@@ -57,6 +56,11 @@ bool is_positive_somewhere(const Track<T>& track) {
 }
 
 }  // namespace
+
+std::string source_file(const Scene& scene, int include) {
+    if (include == no_index) return scene.source.file;
+    return (std::filesystem::path(scene.source.file).parent_path() / scene.source.includes[include].path).string();
+}
 
 void check_scales(Scene& scene, const SceneFormats& formats) {
     std::vector<std::uint8_t> blind, flat;  // at every frame so far

@@ -5,6 +5,9 @@
 
 namespace aleph {
 
+/// The path of the file that brought an element: of the include, or of the scene itself for no_index.
+std::string source_file(const Scene& scene, int include);
+
 /// At the first, the middle and the last frame:
 /// - refuses a camera whose node and parents scale two or all axes to 0: it has no axes left;
 /// - warns of nodes with meshes whose transform flattens them: rays leave out what has no volume (RayScene::update).

@@ -1,6 +1,5 @@
 #include "engine/scene_file/aim.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "engine/scene/transforms.h"

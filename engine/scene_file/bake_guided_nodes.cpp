@@ -12,7 +12,6 @@
 #include "engine/scene/transforms.h"
 #include "engine/scene/visit.h"
 #include "engine/scene_file/aim.h"
-#include "engine/scene_file/bake_times.h"
 #include "engine/scene_file/baked_track.h"
 #include "engine/scene_file/guided_nodes.h"
 #include "engine/scene_file/reader.h"

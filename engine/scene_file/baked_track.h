@@ -1,14 +1,28 @@
 #pragma once
-// A function of time as a cubic track: exact at given times, within a tolerance between them.
+// A computed motion as a cubic track: the times of its keys, where it is exact, and a tolerance between them.
 
 #include <functional>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/scene/track.h"
+#include "engine/scene/scene.h"
 
 namespace aleph {
+
+/// The frames that are shown, with those beside them that motion or a shutter reads.
+struct BakedFrames {
+    FrameRate rate;
+    std::int64_t first = 0, last = 0;
+};
+
+/// The scene's range (frame_range), and on both sides one frame, or as far as the shutter of a camera is open.
+BakedFrames find_baked_frames(const Scene& scene);
+
+/// The frames between the first and the last key of what a motion depends on, outside which it stands still, and the
+/// keys that lie between frames. Ascending, at least one. A key within a millionth of a frame of one is on it.
+/// @param keys    s, in any order
+/// @param charge  called with the number of frames before they are listed
+std::vector<double> list_bake_times(const BakedFrames& frames, std::vector<double> keys,
+                                    const std::function<void(std::size_t)>& charge);
 
 template <class T>
 struct Motion {

@@ -25,7 +25,6 @@ int read_cage_points(SceneReader& reader, const JsonRef& at, const std::string& 
                   : add_points(reader, *positions, reader.names.points.unused(name));
 }
 
-/// Each face is a list of points.
 void read_faces(const JsonRef& at, std::size_t points, Cage& cage) {
     for (std::size_t i = 0; i < at.array_size(); ++i) {
         const JsonRef face = at[i];

@@ -1,18 +1,28 @@
-#include "engine/scene_file/easing.h"
+// Words of "interpolation" whose keys are plain values: their tangents are computed on load, and the track is cubic.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <type_traits>
 
 #include "engine/scene/components.h"
 #include "engine/scene/transforms.h"
+#include "engine/scene_file/tracks.h"
 
 namespace aleph {
 
 namespace {
+
+enum class Easing {
+    smooth,    ///< one curve through all keys, at rest at the first and the last
+    ease,      ///< at rest at every key
+    ease_in,   ///< leaves every key at rest and arrives at full speed: f + (g - f) u^2 of the way u
+    ease_out,  ///< leaves at full speed and arrives at rest: the mirror of ease_in
+};
+inline constexpr std::array easing_words{"smooth", "ease", "ease_in", "ease_out"};
 
 /// Slope at a key between two intervals. No steeper than twice the flatter of them, so that the curve stays monotone;
 /// 0 where the key is an extreme.

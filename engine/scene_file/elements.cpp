@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "engine/base/errors.h"
-#include "engine/json/close_names.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/tracks.h"
 
@@ -108,8 +104,7 @@ int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const FrameRate& rate = reader.scene.film.frame_rate;
     reader.charge(sizeof(Light) + 300, at, "it has too many lights");
     Light light{.name = name};
-    const JsonRef type = at.require("type");
-    light.kind = read_word<Light::Kind>(type, light_words);
+    light.kind = read_word<Light::Kind>(at.require("type"), light_words);
     if (const auto value = at.find("color")) light.color = read_vector(*value, rate, not_negative);
     if (const auto value = at.find("intensity")) light.intensity = read_number(*value, rate, not_negative);
     if (const auto value = at.find("range")) {
@@ -159,8 +154,7 @@ void read_named(SceneReader& reader, const JsonRef& root, const KeyOrder& key_or
 }
 
 void add_mesh(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    const JsonRef shape = at.require("shape");
-    read_mesh(reader, shape, at.find("material"), at.find("present"), name);
+    read_mesh(reader, at.require("shape"), at.find("material"), at.find("present"), name);
 }
 
 }  // namespace

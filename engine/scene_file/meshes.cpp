@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/base/errors.h"
 #include "engine/scene_file/lists.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/tracks.h"
@@ -19,8 +18,7 @@ namespace {
 void check_shape_keys(const JsonRef& at, const char* kind, const std::vector<std::string>& known) {
     for (const auto& member : at.json().items()) {
         if (member.key() == "type" || std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
-        const JsonRef value = at.require(member.key());
-        value.fail(fmt::format("a {} has no \"{}\"", kind, member.key()));
+        at.require(member.key()).fail(fmt::format("a {} has no \"{}\"", kind, member.key()));
     }
 }
 

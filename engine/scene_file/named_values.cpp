@@ -1,5 +1,3 @@
-#include "engine/scene_file/named_values.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,8 +7,8 @@
 
 #include "engine/json/close_names.h"
 #include "engine/json/json_ref.h"
-#include "engine/json/memory.h"
 #include "engine/json/text.h"
+#include "engine/scene_file/reader.h"
 
 namespace aleph {
 
@@ -28,7 +26,7 @@ bool has_names_for_keys(std::string_view key) {
 }
 
 struct Extent {
-    std::size_t bytes = 0;  ///< upper estimate as in json/memory.h
+    std::size_t bytes = 0;  ///< upper estimate as by estimate_json_memory
     int depth = 0;          ///< of lists and objects
 };
 
@@ -123,8 +121,7 @@ class NamedValues {
         found.open = true;
         open_.push_back(name);
         const JsonRef at_named = at_root_.require("named");
-        const JsonRef definition = at_named.require(name);
-        replace(*found.value, definition, depth);
+        replace(*found.value, at_named.require(name), depth);
         open_.pop_back();
         found.extent = measure(*found.value);
         found.done = true;
@@ -152,15 +149,6 @@ class NamedValues {
     std::vector<std::string> names_, open_;
 };
 
-/// "a~1b" is the key "a/b".
-std::string unescape(std::string token) {
-    for (const auto& [escape, character] : {std::pair("~1", "/"), std::pair("~0", "~")}) {
-        for (std::size_t at = token.find(escape); at != std::string::npos; at = token.find(escape, at + 1))
-            token.replace(at, 2, character);
-    }
-    return token;
-}
-
 }  // namespace
 
 void replace_named_values(json& root, std::string_view text, const std::string& file, const LoadLimits& limits) {
@@ -171,37 +159,25 @@ void replace_named_values(json& root, std::string_view text, const std::string& 
 InputError with_definition(const InputError& error, const json& root) {
     const auto named = root.find("named");
     if (named == root.end() || !named->is_object() || error.place().starts_with("/settings")) return error;
+    std::vector<std::string> tokens;  // of the place, the last first
+    for (json::json_pointer place(error.place()); !place.empty(); place.pop_back()) tokens.push_back(place.back());
     const json* value = &root;
-    std::string defined;  // place of the value, from its last definition on
-    const auto follow_uses = [&] {
+    json::json_pointer defined;  // place of the value, from its last definition on
+    for (; !tokens.empty(); tokens.pop_back()) {
+        const json::json_pointer token = json::json_pointer() / tokens.back();
+        if (!value->contains(token)) break;
+        value = &value->at(token);
+        if (!defined.empty()) defined /= token;
         for (int i = 0; i < max_json_depth && is_use(*value); ++i) {
             const auto found = named->find(value->begin()->get<std::string>());
-            if (found == named->end()) return;
-            defined = (json::json_pointer("/named") / found.key()).to_string();
+            if (found == named->end()) break;
+            defined = json::json_pointer("/named") / found.key();
             value = &*found;
         }
-    };
-    const std::string& place = error.place();
-    for (std::size_t start = 1; start <= place.size();) {
-        const std::size_t end = std::min(place.find('/', start), place.size());
-        const std::string token = place.substr(start, end - start);
-        start = end + 1;
-        if (value->is_array()) {
-            const bool is_index =
-                !token.empty() && token.size() < 10 && token.find_first_not_of("0123456789") == std::string::npos;
-            if (!is_index || std::stoul(token) >= value->size()) break;
-            value = &(*value)[std::stoul(token)];
-        } else {
-            const auto found = value->is_object() ? value->find(unescape(token)) : value->end();
-            if (!value->is_object() || found == value->end()) break;
-            value = &*found;
-        }
-        if (!defined.empty()) defined += '/' + token;
-        follow_uses();
     }
     if (defined.empty()) return error;
-    return {error.file(), place,
-            fmt::format("{}; this value is defined at {}", error.reason(), printable(defined, 300))};
+    return {error.file(), error.place(),
+            fmt::format("{}; this value is defined at {}", error.reason(), printable(defined.to_string(), 300))};
 }
 
 }  // namespace aleph

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "engine/base/errors.h"
 #include "engine/json/json_ref.h"
 #include "engine/scene_file/guided_nodes.h"
 #include "engine/scene_file/scene_text.h"
@@ -112,5 +113,18 @@ void read_nodes(SceneReader& reader, const JsonRef& root);
 
 /// Paths under the key "include" of the root or of a node. @param node  no_index for the root
 void read_includes(SceneReader& reader, const JsonRef& parent, int node);
+
+// Named values: numbers, vectors and tracks of the root's object "named", used elsewhere as {"named": "door height"}.
+
+/// Puts the values in the places where they are used; values may use others. Not in "settings", and not directly in
+/// "images" and "materials", where "named" is a name of the file's own.
+/// @param text  of the file; its values and the copies together take at most limits.json_values()
+/// @throws InputError with the place of use: no value of that name, one that holds itself, too many copies, too deep
+void replace_named_values(nlohmann::json& root, std::string_view text, const std::string& file,
+                          const LoadLimits& limits);
+
+/// The error, and where the value at its place is defined if that is a named one.
+/// @param root  of the file, before replace_named_values
+InputError with_definition(const InputError& error, const nlohmann::json& root);
 
 }  // namespace aleph

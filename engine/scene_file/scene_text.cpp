@@ -8,7 +8,6 @@
 #include "engine/json/close_names.h"
 #include "engine/json/text.h"
 #include "engine/scene_file/guided_nodes.h"
-#include "engine/scene_file/named_values.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/schema.h"
 #include "engine/scene_file/tracks.h"

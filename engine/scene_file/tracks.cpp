@@ -6,9 +6,7 @@
 #include <numbers>
 #include <type_traits>
 
-#include "engine/base/errors.h"
 #include "engine/scene/transforms.h"
-#include "engine/scene_file/easing.h"
 
 namespace aleph {
 
@@ -27,7 +25,6 @@ void check_range(const JsonRef& at, double value, const ValueRange& range) {
     if (!inside) at.fail(fmt::format("{}, found {}", describe(range), value));
 }
 
-/// Reads one kind of value.
 template <class T>
 struct ValueReader {
     T (*value)(const JsonRef&, const ValueRange&);
@@ -63,37 +60,29 @@ Interpolation read_interpolation(const JsonRef& at, Interpolation absent) {
     return static_cast<Interpolation>(found - interpolation_words.begin());  // one of them, by the schema
 }
 
+/// @param list       of "keys", or of "values"
+/// @param with_time  each element begins with its time
 template <class T>
-void read_keys(const JsonRef& keys, Track<T>& track, const ValueReader<T>& read) {
+void read_list(const JsonRef& list, bool with_time, Track<T>& track, const ValueReader<T>& read) {
     const bool cubic = track.interpolation == Interpolation::cubic;
-    for (std::size_t i = 0; i < keys.array_size(); ++i) {
-        const JsonRef key = keys[i];
-        const std::size_t parts = key.array_size();
-        if (parts != (cubic ? 4u : 2u)) {
-            key.fail(cubic ? "a cubic key is [time, in-tangent, value, out-tangent]"
-                           : "a key is [time, value]; tangents need \"interpolation\": \"cubic\"");
-        }
-        for (std::size_t part = 1; part < parts; ++part) {
-            const JsonRef value = key[part];
-            track.values.push_back(cubic && part != 2 ? read.read_tangent(value) : read.read(value));
-        }
-    }
-}
-
-template <class T>
-void read_values(const JsonRef& values, Track<T>& track, const ValueReader<T>& read) {
-    const bool cubic = track.interpolation == Interpolation::cubic;
-    for (std::size_t i = 0; i < values.array_size(); ++i) {
-        const JsonRef value = values[i];
-        if (!cubic) {
-            track.values.push_back(read.read(value));
+    const std::size_t first = with_time ? 1 : 0, end = first + (cubic ? 3 : 1);
+    for (std::size_t i = 0; i < list.array_size(); ++i) {
+        const JsonRef item = list[i];
+        if (!with_time && !cubic) {
+            track.values.push_back(read.read(item));
             continue;
         }
-        if (!value.json().is_array() || value.array_size() != 3) {
-            value.fail("a cubic value is [in-tangent, value, out-tangent]");
+        if (with_time && item.array_size() != end) {
+            item.fail(cubic ? "a cubic key is [time, in-tangent, value, out-tangent]"
+                            : "a key is [time, value]; tangents need \"interpolation\": \"cubic\"");
         }
-        for (const std::size_t part : {0u, 1u, 2u})
-            track.values.push_back(part == 1 ? read.read(value[part]) : read.read_tangent(value[part]));
+        if (!item.json().is_array() || item.array_size() != end) {
+            item.fail("a cubic value is [in-tangent, value, out-tangent]");
+        }
+        for (std::size_t part = first; part < end; ++part) {
+            const JsonRef value = item[part];
+            track.values.push_back(cubic && part != first + 1 ? read.read_tangent(value) : read.read(value));
+        }
     }
 }
 
@@ -140,8 +129,8 @@ Track<T> read_track(const JsonRef& at, const FrameRate& rate, const ValueReader<
     } else {
         track.interpolation = read_interpolation(at, absent);
         track.sampling = read_sampling(at, rate);
-        if (const auto keys = at.find("keys")) read_keys(*keys, track, read);
-        if (const auto values = at.find("values")) read_values(*values, track, read);
+        if (const auto keys = at.find("keys")) read_list(*keys, true, track, read);
+        if (const auto values = at.find("values")) read_list(*values, false, track, read);
     }
     validate(track, at.file(), at.pointer());
     if constexpr (!std::is_same_v<T, glm::dmat4>) {

@@ -25,6 +25,16 @@ Track<double> read_visibility(const JsonRef& at, const FrameRate& rate);
 /// Degrees in the file, radians in the track. @param range  degrees
 Track<double> read_degrees(const JsonRef& at, const FrameRate& rate, const ValueRange& range);
 
+/// The track with the tangents of the easing that the "interpolation" at `at` names; as it is where that names none,
+/// and with a single key. Every component stays between its values at the two keys around it. Quaternions come back
+/// unit, each with the sign that is nearer to the key before it.
+/// The tangents of `smooth` are those of a parabola through the key and its neighbours, limited as by Steffen 1990,
+/// Astronomy and Astrophysics 239, 443 (equations 8 and 11).
+/// @param track  valid, linear. Instantiated for double, dvec3 and dquat
+/// @throws InputError where keys are so near in time that a file cannot hold their tangents
+template <class T>
+Track<T> apply_easing(const JsonRef& at, Track<T> track);
+
 /// Values of any kind over time: calls visit for each value of "keys" or "values" and returns their times.
 TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::function<void(const JsonRef&)>& visit);
 

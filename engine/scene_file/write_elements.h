@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "engine/base/errors.h"
 #include "engine/scene/scene.h"
@@ -58,7 +57,7 @@ nlohmann::ordered_json write_material(const SceneWriting& at, const Material& ma
 nlohmann::ordered_json write_light(const SceneWriting& at, const Light& light);
 nlohmann::ordered_json write_camera(const SceneWriting& at, const Camera& camera);
 
-// Points, cages, shapes and triangles (write_meshes.cpp). The reader: meshes.cpp and cages.cpp.
+// The reader: meshes.cpp and cages.cpp.
 
 nlohmann::ordered_json write_points(const PointCache& cache, const FrameRate& rate);
 

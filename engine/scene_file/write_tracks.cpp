@@ -32,7 +32,6 @@ bool has_whole_frames(const TimeSampling& sampling, const FrameRate& rate) {
                        [&](double time) { return whole_frame(time, rate).has_value(); });
 }
 
-/// @param write  value to JSON
 template <class T, class Write>
 ordered_json write_track(const Track<T>& track, const FrameRate& rate, const Write& write,
                          Interpolation absent = Interpolation::linear) {

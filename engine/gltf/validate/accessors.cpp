@@ -20,6 +20,13 @@ struct ElementType {
 constexpr std::array<ElementType, 7> element_types = {
     {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1, 3}, {"VEC4", 1, 4}, {"MAT2", 2, 2}, {"MAT3", 3, 3}, {"MAT4", 4, 4}}};
 
+/// Bytes of one component; 0 for a number that is no component type.
+std::int64_t component_bytes(std::int64_t type) {
+    if (type == type_i8 || type == type_u8) return 1;
+    if (type == type_i16 || type == type_u16) return 2;
+    return type == type_u32 || type == type_float ? 4 : 0;
+}
+
 /// Bytes of one element; a matrix column starts at a multiple of 4 bytes.
 std::int64_t element_bytes(const ElementType& type, std::int64_t component) {
     const std::int64_t column = type.rows * component;
@@ -38,7 +45,7 @@ struct Block {
 Block check_block(const GltfCheck& check, const JsonRef& owner, const JsonRef& view_index, std::int64_t count,
                   std::int64_t element, std::int64_t component) {
     const JsonRef views = check.root.require("bufferViews");
-    const JsonRef view = views[view_index.index(check.counts.views, "buffer view")];
+    const JsonRef view = views[view_index.index(check.count("bufferViews"), "buffer view")];
     const std::int64_t view_offset = view.find_integer("byteOffset", 0, max_gltf_count).value_or(0);
     const std::int64_t view_length = view.require("byteLength").integer(1, max_gltf_count);
     const std::int64_t offset = owner.find_integer("byteOffset", 0, max_gltf_count).value_or(0);
@@ -69,7 +76,7 @@ void check_sparse(const GltfCheck& check, const JsonRef& sparse, std::int64_t el
     const std::int64_t kind = type.integer(0, max_gltf_count);
     if (kind != type_u8 && kind != type_u16 && kind != type_u32) type.fail("sparse indices must be unsigned integers");
     const JsonRef index_view = indices.require("bufferView");
-    const std::int64_t index_bytes = *component_bytes(kind);
+    const std::int64_t index_bytes = component_bytes(kind);
     if (check_block(check, indices, index_view, count, index_bytes, index_bytes).is_strided) {
         index_view.fail("the view of sparse indices must not have a byteStride");
     }
@@ -80,7 +87,6 @@ void check_sparse(const GltfCheck& check, const JsonRef& sparse, std::int64_t el
     }
 }
 
-/// Bytes that the file's buffers say they have.
 std::int64_t total_buffer_bytes(const GltfCheck& check) {
     std::int64_t total = 0;
     for_each_object(check.root, "buffers", [&](const JsonRef& buffer, std::size_t) {
@@ -94,8 +100,8 @@ void check_accessor(GltfCheck& check, const JsonRef& accessor, std::int64_t buff
     AccessorInfo info;
     const JsonRef component = accessor.require("componentType");
     info.component_type = component.integer(0, max_gltf_count);
-    const std::optional<std::int64_t> bytes = component_bytes(info.component_type);
-    if (!bytes) component.fail(fmt::format("{} is no component type", info.component_type));
+    const std::int64_t bytes = component_bytes(info.component_type);
+    if (bytes == 0) component.fail(fmt::format("{} is no component type", info.component_type));
 
     const JsonRef type = accessor.require("type");
     info.type = type.string();
@@ -107,16 +113,15 @@ void check_accessor(GltfCheck& check, const JsonRef& accessor, std::int64_t buff
     info.count = count.integer(1, max_gltf_count);
     if (const std::optional<JsonRef> normalized = accessor.find("normalized")) {
         info.normalized = normalized->boolean();
-        if (info.normalized && *bytes == 4) normalized->fail("only 8-bit and 16-bit integers can be normalized");
+        if (info.normalized && bytes == 4) normalized->fail("only 8-bit and 16-bit integers can be normalized");
     }
-    const std::int64_t element = element_bytes(*shape, *bytes);
+    const std::int64_t element = element_bytes(*shape, bytes);
     if (const std::optional<JsonRef> view_index = accessor.find("bufferView")) {
-        const Block block = check_block(check, accessor, *view_index, info.count, element, *bytes);
+        const Block block = check_block(check, accessor, *view_index, info.count, element, bytes);
         info.interleaved = block.is_strided;
         info.aligned = block.first % 4 == 0 && (block.stride % 4 == 0 || info.count == 1);
     } else {
         // All values are zero. No data supports the count, so it is limited by the size of the buffers.
-        info.has_view = false;
         if (info.count > buffer_bytes) {
             count.fail(fmt::format("{} elements without a buffer view, the buffers have {} bytes in all", info.count,
                                    buffer_bytes));
@@ -126,28 +131,12 @@ void check_accessor(GltfCheck& check, const JsonRef& accessor, std::int64_t buff
         }
     }
     if (const std::optional<JsonRef> sparse = accessor.find("sparse")) {
-        check_sparse(check, *sparse, info.count, element, *bytes);
+        check_sparse(check, *sparse, info.count, element, bytes);
     }
     check.accessors.push_back(std::move(info));
 }
 
 }  // namespace
-
-std::optional<std::int64_t> component_bytes(std::int64_t component_type) {
-    switch (component_type) {
-        case 5120:
-        case 5121:
-            return 1;
-        case 5122:
-        case 5123:
-            return 2;
-        case 5125:
-        case 5126:
-            return 4;
-        default:
-            return std::nullopt;
-    }
-}
 
 void check_accessors(GltfCheck& check) {
     const std::int64_t buffer_bytes = total_buffer_bytes(check);

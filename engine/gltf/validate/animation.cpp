@@ -1,9 +1,11 @@
 // Validator: animations: what channels move, and that the keys fit it.
 #include <fmt/format.h>
 
+#include <array>
 #include <set>
 
 #include "engine/base/errors.h"
+#include "engine/base/index.h"
 #include "engine/gltf/validate/parts.h"
 #include "engine/gltf/validate/pointer.h"
 
@@ -14,23 +16,11 @@ namespace {
 /// Pointers to the properties that an animation moves already.
 using Taken = std::set<std::string>;
 
-std::size_t owner_count(const GltfCheck& check, GltfOwner owner) {
-    switch (owner) {
-        case GltfOwner::node:
-            return check.counts.nodes;
-        case GltfOwner::camera:
-            return check.counts.cameras;
-        case GltfOwner::light:
-            return check.counts.lights;
-        case GltfOwner::material:
-            return check.counts.materials;
-    }
-    return 0;
-}
-
 /// Refuses a KHR_animation_pointer whose element is missing or has no such property.
 void check_owner(const GltfCheck& check, const GltfPointer& pointer, const JsonRef& place) {
-    const std::size_t count = owner_count(check, pointer.info->owner);
+    const std::array counts{check.count("nodes"), check.count("cameras"), check.light_count(),
+                            check.count("materials")};
+    const std::size_t count = counts[index_of(pointer.info->owner)];
     const std::string text = pointer_text(pointer);
     if (pointer.index >= count) place.fail(fmt::format("\"{}\" leads to nothing: the file has {}", text, count));
     const nlohmann::json& root = check.root.json();
@@ -49,7 +39,7 @@ void check_owner(const GltfCheck& check, const GltfPointer& pointer, const JsonR
 std::optional<GltfPointer> check_target(GltfCheck& check, const JsonRef& target) {
     const JsonRef path = target.require("path");
     const std::string& name = path.string();
-    const std::optional<std::size_t> node = target.find_index("node", check.counts.nodes, "node");
+    const std::optional<std::size_t> node = target.find_index("node", check.count("nodes"), "node");
     const ExtensionRef extension(target, "KHR_animation_pointer");
     if (name == "pointer" && extension) {
         if (node) path.fail("a channel has either a node or a pointer");
@@ -77,7 +67,7 @@ std::int64_t values_per_key(const GltfCheck& check, const GltfPointer& pointer, 
     if (pointer.info->property != GltfProperty::node_weights) return 1;
     const JsonRef nodes = check.root.require("nodes");
     const JsonRef node = nodes[pointer.index];
-    const std::optional<std::size_t> mesh = node.find_index("mesh", check.counts.meshes, "mesh");
+    const std::optional<std::size_t> mesh = node.find_index("mesh", check.count("meshes"), "mesh");
     const std::size_t targets = mesh ? check.target_counts[*mesh] : 0;
     if (targets == 0) place.fail(fmt::format("node {} has no morph targets whose weights could move", pointer.index));
     return static_cast<std::int64_t>(targets);
@@ -89,11 +79,6 @@ void check_output(const GltfPointer& pointer, const AccessorInfo& info, const Js
         output.fail(fmt::format("keys of {} must be a {} accessor", text, pointer.info->type));
     }
     switch (pointer.info->property) {
-        case GltfProperty::node_rotation:
-        case GltfProperty::node_weights:
-            if (!is_unit_range(info))
-                output.fail(fmt::format("keys of {} must be floats or normalized integers", text));
-            return;
         case GltfProperty::node_visible:
             if (info.component_type != type_u8 || info.normalized) {
                 output.fail(fmt::format("keys of {} must be 8-bit unsigned integers, not normalized", text));
@@ -103,15 +88,14 @@ void check_output(const GltfPointer& pointer, const AccessorInfo& info, const Js
         case GltfProperty::node_scale:
             if (!is_float(info)) output.fail(fmt::format("keys of {} must be floats", text));
             return;
-        default:  // KHR_animation_pointer: floats, or normalized integers
+        default:
             if (!is_unit_range(info))
                 output.fail(fmt::format("keys of {} must be floats or normalized integers", text));
     }
 }
 
 void check_keys(const GltfCheck& check, const GltfPointer& pointer, const JsonRef& sampler, const JsonRef& place) {
-    const std::optional<std::string> stated = sampler.find_string("interpolation");
-    const std::string interpolation = stated.value_or("LINEAR");
+    const std::string interpolation = sampler.find_string("interpolation").value_or("LINEAR");
     const JsonRef input = sampler.require("input");
     const JsonRef output = sampler.require("output");
     const AccessorInfo& times = check.accessor(input);
@@ -128,8 +112,7 @@ void check_keys(const GltfCheck& check, const GltfPointer& pointer, const JsonRe
 }
 
 void check_channel(GltfCheck& check, const JsonRef& channel, const JsonRef& samplers, Taken& taken) {
-    const JsonRef sampler_index = channel.require("sampler");
-    const JsonRef sampler = samplers[sampler_index.index(samplers.array_size(), "sampler")];
+    const JsonRef sampler = samplers[channel.require("sampler").index(samplers.array_size(), "sampler")];
     const JsonRef target = channel.require("target");
     const std::optional<GltfPointer> pointer = check_target(check, target);
     if (!pointer) return;
@@ -147,17 +130,12 @@ void check_channel(GltfCheck& check, const JsonRef& channel, const JsonRef& samp
 }
 
 void check_sampler(const GltfCheck& check, const JsonRef& sampler) {
-    if (const std::optional<JsonRef> interpolation = sampler.find("interpolation")) {
-        const std::string& name = interpolation->string();
-        if (name != "LINEAR" && name != "STEP" && name != "CUBICSPLINE") {
-            interpolation->fail(fmt::format("\"{}\" is no interpolation", printable(name)));
-        }
-    }
+    if (const std::optional<JsonRef> interpolation = sampler.find("interpolation"))
+        expect_word(*interpolation, {"LINEAR", "STEP", "CUBICSPLINE"}, "interpolation");
     const JsonRef input = sampler.require("input");
     const AccessorInfo& times = check.accessor(input);
     if (times.type != "SCALAR" || !is_float(times)) input.fail("key times must be a float SCALAR accessor");
-    const JsonRef output = sampler.require("output");
-    check.accessor(output);
+    check.accessor(sampler.require("output"));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ void check_views(const GltfCheck& check) {
     for_each_object(check.root, "bufferViews", [&](const JsonRef& view, std::size_t) {
         view.find_string("name");
         const JsonRef buffer = view.require("buffer");
-        const JsonRef owner = (*buffers)[buffer.index(buffers ? buffers->array_size() : 0, "buffer")];
+        const JsonRef owner = (*buffers)[buffer.index(check.count("buffers"), "buffer")];
         const std::int64_t buffer_length = owner.require("byteLength").integer(1, max_gltf_count);
         const std::int64_t offset = view.find_integer("byteOffset", 0, max_gltf_count).value_or(0);
         const std::int64_t length = view.require("byteLength").integer(1, max_gltf_count);
@@ -53,17 +53,17 @@ void check_buffers(GltfCheck& check) {
 }
 
 void check_images(GltfCheck& check) {
-    std::vector<bool> used(check.counts.images);  // others belong to extensions that may be ignored
+    std::vector<bool> used(check.count("images"));  // others belong to extensions that may be ignored
     for_each_object(check.root, "textures", [&](const JsonRef& texture, std::size_t) {
-        texture.find_index("sampler", check.counts.samplers, "sampler");
-        const std::optional<std::size_t> source = texture.find_index("source", check.counts.images, "image");
+        texture.find_index("sampler", check.count("samplers"), "sampler");
+        const std::optional<std::size_t> source = texture.find_index("source", check.count("images"), "image");
         if (!source) texture.fail("\"source\" is missing: images from extensions are not supported");
         used[*source] = true;
     });
     for_each_object(check.root, "images", [&](const JsonRef& image, std::size_t i) {
         image.find_string("name");
         const bool has_uri = image.find_string("uri").has_value();
-        const bool has_view = image.find_index("bufferView", check.counts.views, "buffer view").has_value();
+        const bool has_view = image.find_index("bufferView", check.count("bufferViews"), "buffer view").has_value();
         if (has_uri == has_view) image.fail("needs either \"uri\" or \"bufferView\"");
         const std::optional<JsonRef> mime = image.find("mimeType");
         if (has_view && !mime) image.fail("\"mimeType\" is missing");

@@ -3,7 +3,6 @@
 
 #include <numbers>
 
-#include "engine/base/errors.h"
 #include "engine/gltf/validate/material_table.h"
 #include "engine/gltf/validate/parts.h"
 #include "engine/gltf/validate/pointer.h"
@@ -16,8 +15,7 @@ void check_texture_info(const GltfCheck& check, const JsonRef& owner, std::strin
     const std::optional<JsonRef> info = owner.find(key);
     if (!info) return;
     info->expect_object();
-    const JsonRef index = info->require("index");
-    index.index(check.counts.textures, "texture");
+    info->require("index").index(check.count("textures"), "texture");
     const ExtensionRef transform(*info, "KHR_texture_transform");
     if (transform) {
         transform->check_numbers("offset", 2);
@@ -59,6 +57,7 @@ void check_far_plane(const JsonRef& lens) {
 void check_camera(const JsonRef& camera) {
     camera.find_string("name");
     const JsonRef type = camera.require("type");
+    expect_word(type, {"perspective", "orthographic"}, "camera type");
     if (type.string() == "perspective") {
         const JsonRef lens = camera.require("perspective");
         const JsonRef yfov = lens.require("yfov");
@@ -69,7 +68,7 @@ void check_camera(const JsonRef& camera) {
         lens.require("znear").number_above(0.0);
         check_far_plane(lens);
         if (const std::optional<JsonRef> aspect = lens.find("aspectRatio")) aspect->number_above(0.0);
-    } else if (type.string() == "orthographic") {
+    } else {
         const JsonRef lens = camera.require("orthographic");
         for (const char* const key : {"xmag", "ymag"}) {
             const JsonRef size = lens.require(key);
@@ -79,8 +78,6 @@ void check_camera(const JsonRef& camera) {
         if (near.number() < 0.0) near.fail(fmt::format("must not be negative, found {}", near.number()));
         lens.require("zfar");
         check_far_plane(lens);
-    } else {
-        type.fail(fmt::format("\"{}\" is no camera type", printable(type.string())));
     }
 }
 
@@ -103,9 +100,7 @@ void check_cone(const JsonRef& spot) {
 void check_light(const JsonRef& light) {
     light.find_string("name");
     const JsonRef type = light.require("type");
-    if (type.string() != "point" && type.string() != "directional" && type.string() != "spot") {
-        type.fail(fmt::format("\"{}\" is no light type", printable(type.string())));
-    }
+    expect_word(type, {"point", "directional", "spot"}, "light type");
     light.check_numbers("color", 3);
     light.check_number("intensity");
     if (const std::optional<JsonRef> range = light.find("range")) range->number_above(0.0);
@@ -135,12 +130,8 @@ void check_materials(GltfCheck& check) {
         if (const std::optional<JsonRef> cutoff = material.find("alphaCutoff"); cutoff && cutoff->number() < 0.0) {
             cutoff->fail(fmt::format("must not be negative, found {}", cutoff->number()));
         }
-        if (const std::optional<JsonRef> mode = material.find("alphaMode")) {
-            const std::string& name = mode->string();
-            if (name != "MASK" && name != "BLEND" && name != "OPAQUE") {
-                mode->fail(fmt::format("\"{}\" is no alpha mode", printable(name)));
-            }
-        }
+        if (const std::optional<JsonRef> mode = material.find("alphaMode"))
+            expect_word(*mode, {"MASK", "BLEND", "OPAQUE"}, "alpha mode");
     });
 }
 

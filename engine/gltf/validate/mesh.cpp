@@ -1,7 +1,8 @@
-// Validator: meshes, and that their accessors fit their use.
+// Validator: meshes, and that their accessors fit their use; skins, and the nodes that deform or multiply a mesh.
 #include <fmt/format.h>
 
-#include "engine/base/errors.h"
+#include <set>
+
 #include "engine/gltf/validate/parts.h"
 
 namespace aleph {
@@ -53,12 +54,11 @@ void check_attribute(const GltfCheck& check, const JsonRef& attribute, std::stri
     }
 }
 
-/// @param vertices  of the primitive
 void check_accessor_use(const JsonRef& attribute, const AccessorInfo& info, std::int64_t vertices) {
     if (info.count != vertices) {
         attribute.fail(fmt::format("{} elements, POSITION has {}", info.count, vertices));
     }
-    if (info.has_view && !info.aligned) attribute.fail("vertex attributes must start at multiples of 4 bytes");
+    if (!info.aligned) attribute.fail("vertex attributes must start at multiples of 4 bytes");
 }
 
 /// Points need one vertex, lines two, and so on. glTF 2.0, 3.7.2.1.
@@ -109,7 +109,7 @@ void check_joint_sets(const JsonRef& attributes) {
 /// @return the number of morph targets
 std::size_t check_primitive(const GltfCheck& check, const JsonRef& primitive) {
     const std::int64_t mode = primitive.find_integer("mode", 0, 6).value_or(4);
-    primitive.find_index("material", check.counts.materials, "material");
+    primitive.find_index("material", check.count("materials"), "material");
 
     const JsonRef attributes = primitive.require("attributes");
     attributes.expect_object();
@@ -134,8 +134,7 @@ std::size_t check_primitive(const GltfCheck& check, const JsonRef& primitive) {
     return count;
 }
 
-}  // namespace
-
+/// Optional "weights" of a mesh or a node: one number for each morph target.
 void check_weights(const JsonRef& owner, std::size_t target_count) {
     const std::optional<JsonRef> weights = owner.find("weights");
     if (!weights) return;
@@ -144,6 +143,64 @@ void check_weights(const JsonRef& owner, std::size_t target_count) {
     }
     weights->numbers(target_count);
 }
+
+void check_skin(const GltfCheck& check, const JsonRef& skin) {
+    skin.find_string("name");
+    skin.find_index("skeleton", check.count("nodes"), "node");
+    const JsonRef joints = skin.require("joints");
+    const std::size_t count = joints.array_size(1);
+    std::set<std::size_t> seen;
+    for (std::size_t i = 0; i < count; ++i) {
+        const JsonRef joint = joints[i];
+        const std::size_t node = joint.index(check.count("nodes"), "node");
+        if (!seen.insert(node).second) joint.fail(fmt::format("node {} is listed twice", node));
+    }
+    const std::optional<JsonRef> binds = skin.find("inverseBindMatrices");
+    if (!binds) return;
+    const AccessorInfo& info = check.accessor(*binds);
+    if (info.type != "MAT4" || !is_float(info)) binds->fail("inverse bind matrices must be a float MAT4 accessor");
+    if (static_cast<std::size_t>(info.count) < count) {
+        binds->fail(fmt::format("{} inverse bind matrices for {} joints", info.count, count));
+    }
+}
+
+void check_skinned_node(const GltfCheck& check, const JsonRef& node, const JsonRef& skin) {
+    skin.index(check.count("skins"), "skin");
+    const std::optional<std::size_t> mesh_index = node.find_index("mesh", check.count("meshes"), "mesh");
+    if (!mesh_index) skin.fail("a node with a skin needs a mesh");
+    const JsonRef meshes = check.root.require("meshes");
+    const JsonRef mesh = meshes[*mesh_index];
+    for_each_object(mesh, "primitives", [&](const JsonRef& primitive, std::size_t) {
+        const JsonRef attributes = primitive.require("attributes");
+        if (!attributes.has("JOINTS_0")) attributes.fail("the mesh is used with a skin and has no JOINTS_0, WEIGHTS_0");
+    });
+}
+
+void check_instances(const GltfCheck& check, const JsonRef& node, const JsonRef& instancing) {
+    instancing.expect_object();
+    if (!node.has("mesh")) instancing.fail("instances of a node without a mesh");
+    if (node.has("skin")) instancing.fail("a skinned mesh cannot be instanced");
+    const JsonRef attributes = instancing.require("attributes");
+    attributes.expect_object();
+    if (attributes.json().empty()) attributes.fail("there is no attribute");
+    std::int64_t count = -1;
+    for (const auto& [name, value] : attributes.json().items()) {
+        const JsonRef attribute = attributes.require(name);
+        const AccessorInfo& info = check.accessor(attribute);
+        if (count >= 0 && info.count != count) {
+            attribute.fail(fmt::format("{} elements, other instance attributes have {}", info.count, count));
+        }
+        count = info.count;
+        if ((name == "TRANSLATION" || name == "SCALE") && (info.type != "VEC3" || !is_float(info))) {
+            attribute.fail(fmt::format("{} must be a float VEC3 accessor", name));
+        }
+        if (name == "ROTATION" && (info.type != "VEC4" || !is_unit_range(info))) {
+            attribute.fail("ROTATION must be a VEC4 accessor of floats or normalized integers");
+        }
+    }
+}
+
+}  // namespace
 
 void check_meshes(GltfCheck& check) {
     for_each_object(check.root, "meshes", [&](const JsonRef& mesh, std::size_t) {
@@ -160,6 +217,24 @@ void check_meshes(GltfCheck& check) {
         });
         check_weights(mesh, targets);
         check.target_counts.push_back(targets);
+    });
+}
+
+void check_skins(GltfCheck& check) {
+    for_each_object(check.root, "skins", [&](const JsonRef& skin, std::size_t) { check_skin(check, skin); });
+    for_each_object(check.root, "nodes", [&](const JsonRef& node, std::size_t) {
+        if (const std::optional<JsonRef> skin = node.find("skin")) check_skinned_node(check, node, *skin);
+        if (const std::optional<JsonRef> weights = node.find("weights")) {
+            const std::optional<std::size_t> mesh = node.find_index("mesh", check.count("meshes"), "mesh");
+            if (!mesh) weights->fail("morph target weights of a node without a mesh");
+            check_weights(node, check.target_counts[*mesh]);
+        }
+        if (const ExtensionRef instancing(node, "EXT_mesh_gpu_instancing"); instancing) {
+            check_instances(check, node, *instancing);
+        }
+        if (const ExtensionRef visibility(node, "KHR_node_visibility"); visibility) {
+            visibility->check_boolean("visible");
+        }
     });
 }
 

@@ -10,12 +10,11 @@ namespace aleph {
 namespace {
 
 void check_node_transform(const JsonRef& node) {
-    bool separate = node.check_numbers("translation", 3);
-    if (node.check_numbers("rotation", 4)) separate = true;
-    if (node.check_numbers("scale", 3)) separate = true;
+    const bool translates = node.check_numbers("translation", 3), rotates = node.check_numbers("rotation", 4),
+               scales = node.check_numbers("scale", 3);
     if (!node.check_numbers("matrix", 16)) return;
     const JsonRef matrix = node.require("matrix");
-    if (separate) matrix.fail("a node has either a matrix or translation, rotation and scale");
+    if (translates || rotates || scales) matrix.fail("a node has either a matrix or translation, rotation and scale");
     for (const std::size_t i : {3u, 7u, 11u, 15u}) {
         const JsonRef element = matrix[i];
         if (element.number() != (i == 15 ? 1.0 : 0.0)) element.fail("the matrix is not affine");
@@ -24,25 +23,24 @@ void check_node_transform(const JsonRef& node) {
 
 void check_node(const GltfCheck& check, const JsonRef& node) {
     node.find_string("name");
-    node.find_index("mesh", check.counts.meshes, "mesh");
-    node.find_index("camera", check.counts.cameras, "camera");
+    node.find_index("mesh", check.count("meshes"), "mesh");
+    node.find_index("camera", check.count("cameras"), "camera");
     check_node_transform(node);
-    if (const ExtensionRef light(node, "KHR_lights_punctual"); light) {
-        const JsonRef index = light->require("light");
-        index.index(check.counts.lights, "light");
-    }
+    if (const ExtensionRef light(node, "KHR_lights_punctual"); light)
+        light->require("light").index(check.light_count(), "light");
 }
 
 /// Every node has at most one parent and none is above itself. Without recursion: chains of 10^5 nodes are fine.
 /// @return per node whether it has a parent
 std::vector<bool> check_graph(const GltfCheck& check) {
-    std::vector<std::vector<std::size_t>> children(check.counts.nodes);
-    std::vector<bool> has_parent(check.counts.nodes, false);
+    const std::size_t count = check.count("nodes");
+    std::vector<std::vector<std::size_t>> children(count);
+    std::vector<bool> has_parent(count, false);
     for_each_object(check.root, "nodes", [&](const JsonRef& node, std::size_t i) {
         const std::optional<JsonRef> list = node.find("children");
         for (std::size_t k = 0; list && k < list->array_size(); ++k) {
             const JsonRef child = (*list)[k];
-            const std::size_t index = child.index(check.counts.nodes, "node");
+            const std::size_t index = child.index(count, "node");
             if (index == i) child.fail(fmt::format("node {} is its own child: the node graph has a cycle", i));
             if (has_parent[index]) child.fail(fmt::format("node {} has two parents", index));
             has_parent[index] = true;
@@ -50,9 +48,9 @@ std::vector<bool> check_graph(const GltfCheck& check) {
         }
     });
     // As each has one parent at most, a node that no root reaches lies on a cycle or below one.
-    std::vector<bool> reached(check.counts.nodes, false);
+    std::vector<bool> reached(count, false);
     std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < check.counts.nodes; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         if (!has_parent[i]) open.push_back(i);
     }
     while (!open.empty()) {
@@ -61,7 +59,7 @@ std::vector<bool> check_graph(const GltfCheck& check) {
         reached[i] = true;
         open.insert(open.end(), children[i].begin(), children[i].end());
     }
-    for (std::size_t i = 0; i < check.counts.nodes; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         if (reached[i]) continue;
         const JsonRef nodes = check.root.require("nodes");
         const JsonRef node = nodes[i];
@@ -81,12 +79,12 @@ void check_nodes(GltfCheck& check) {
         std::set<std::size_t> seen;
         for (std::size_t k = 0; roots && k < roots->array_size(); ++k) {
             const JsonRef root = (*roots)[k];
-            const std::size_t index = root.index(check.counts.nodes, "node");
+            const std::size_t index = root.index(check.count("nodes"), "node");
             if (has_parent[index]) root.fail(fmt::format("node {} has a parent and cannot be a root", index));
             if (!seen.insert(index).second) root.fail(fmt::format("node {} is listed twice", index));
         }
     });
-    const std::size_t scenes = count_of(check.root, "scenes");
+    const std::size_t scenes = check.count("scenes");
     check.root.find_index("scene", scenes, "scene");
     if (scenes > 1) {
         check.warn(check.root, fmt::format("of {} scenes only the default one is read", scenes));

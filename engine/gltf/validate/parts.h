@@ -1,6 +1,7 @@
 #pragma once
 // The validator's parts, one per kind of element; only this folder uses them.
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,27 +18,41 @@ struct AccessorInfo {
     std::int64_t count = 0;
     bool normalized = false;
     bool interleaved = false;  ///< its view has a byteStride
-    bool has_view = true;
-    bool aligned = true;  ///< every element starts at a multiple of 4 bytes, as vertex attributes must
+    bool aligned = true;       ///< every element starts at a multiple of 4 bytes, as vertex attributes must
 };
 
-/// How many elements of each kind the file has: what indices are checked against.
-struct GltfCounts {
-    std::size_t buffers = 0, views = 0, accessors = 0, images = 0, samplers = 0, textures = 0, materials = 0,
-                meshes = 0, nodes = 0, cameras = 0, skins = 0, lights = 0;
+/// Extension `name` of an element, with its parents kept alive for error messages.
+class ExtensionRef {
+  public:
+    ExtensionRef(const JsonRef& element, std::string_view name) : extensions_(element.find("extensions")) {
+        if (extensions_) extension_ = extensions_->find(name);
+    }
+    ExtensionRef(const ExtensionRef&) = delete;
+    ExtensionRef& operator=(const ExtensionRef&) = delete;
+    explicit operator bool() const { return extension_.has_value(); }
+    const JsonRef& operator*() const { return *extension_; }
+    const JsonRef* operator->() const { return &*extension_; }
+
+  private:
+    std::optional<JsonRef> extensions_, extension_;
 };
 
 struct GltfCheck {
     const JsonRef& root;
     bool has_binary_chunk;
     std::vector<std::string>& warnings;
-    GltfCounts counts;
-    std::vector<AccessorInfo> accessors;
-    std::vector<std::size_t> target_counts;  ///< morph targets of each mesh
-    bool is_quantized = false;               ///< KHR_mesh_quantization: vertex attributes may be small integers
+    std::vector<AccessorInfo> accessors{};
+    std::vector<std::size_t> target_counts{};  ///< morph targets of each mesh
+    bool is_quantized = false;                 ///< KHR_mesh_quantization: vertex attributes may be small integers
 
+    /// Elements of a list of the file: what indices are checked against.
+    std::size_t count(const char* list) const { return count_of(root, list); }
+    std::size_t light_count() const {
+        const ExtensionRef lights(root, "KHR_lights_punctual");
+        return lights ? count_of(*lights, "lights") : 0;
+    }
     const AccessorInfo& accessor(const JsonRef& index) const {
-        return accessors[index.index(counts.accessors, "accessor")];
+        return accessors[index.index(accessors.size(), "accessor")];
     }
     void warn(const JsonRef& place, const std::string& text) {
         const std::string pointer = place.pointer();
@@ -64,27 +79,8 @@ inline bool is_positive_unit_range(const AccessorInfo& info) {
     return is_float(info) || (is_unsigned && info.normalized);
 }
 
-/// Bytes of one component, or nothing for a number that is no component type.
-std::optional<std::int64_t> component_bytes(std::int64_t component_type);
-
-/// Extension `name` of an element, with its parents kept alive for error messages.
-class ExtensionRef {
-  public:
-    ExtensionRef(const JsonRef& element, std::string_view name) : extensions_(element.find("extensions")) {
-        if (extensions_) extension_ = extensions_->find(name);
-    }
-    ExtensionRef(const ExtensionRef&) = delete;
-    ExtensionRef& operator=(const ExtensionRef&) = delete;
-    explicit operator bool() const { return extension_.has_value(); }
-    const JsonRef& operator*() const { return *extension_; }
-    const JsonRef* operator->() const { return &*extension_; }
-
-  private:
-    std::optional<JsonRef> extensions_, extension_;
-};
-
-/// Optional "weights" of a mesh or a node: one number for each morph target.
-void check_weights(const JsonRef& owner, std::size_t target_count);
+/// Refuses a text that is none of the words. @param kind  of the words, for messages
+void expect_word(const JsonRef& at, std::initializer_list<std::string_view> words, std::string_view kind);
 
 // Called in this order: each relies on the ones before.
 void check_extensions(GltfCheck& check);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <span>
 
 #include "engine/base/errors.h"
 #include "engine/gltf/validate/parts.h"
@@ -38,12 +39,8 @@ constexpr std::array<MissingLook, 7> missing_looks = {{
 constexpr std::array<std::string_view, 2> refused_extensions = {"EXT_meshopt_compression",
                                                                 "KHR_draco_mesh_compression"};
 
-template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& names, std::string_view name) {
-    for (const std::string_view candidate : names) {
-        if (candidate == name) return true;
-    }
-    return false;
+bool contains(std::span<const std::string_view> names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
 }
 
 /// Names in all "extensions" objects of the document. "extras" are left out: applications may put anything there.
@@ -74,39 +71,21 @@ void check_asset(const JsonRef& root) {
     }
 }
 
-GltfCounts count_elements(const JsonRef& root) {
-    GltfCounts counts;
-    counts.buffers = count_of(root, "buffers");
-    counts.views = count_of(root, "bufferViews");
-    counts.accessors = count_of(root, "accessors");
-    counts.images = count_of(root, "images");
-    counts.samplers = count_of(root, "samplers");
-    counts.textures = count_of(root, "textures");
-    counts.materials = count_of(root, "materials");
-    counts.meshes = count_of(root, "meshes");
-    counts.nodes = count_of(root, "nodes");
-    counts.cameras = count_of(root, "cameras");
-    counts.skins = count_of(root, "skins");
-    if (const ExtensionRef lights(root, "KHR_lights_punctual"); lights) counts.lights = count_of(*lights, "lights");
-    return counts;
-}
-
 }  // namespace
 
+void expect_word(const JsonRef& at, std::initializer_list<std::string_view> words, std::string_view kind) {
+    if (std::find(words.begin(), words.end(), at.string()) == words.end())
+        at.fail(fmt::format("\"{}\" is no {}", printable(at.string()), kind));
+}
+
 void check_extensions(GltfCheck& check) {
-    if (const std::optional<JsonRef> required = check.root.find("extensionsRequired")) {
-        for (std::size_t i = 0; i < required->array_size(); ++i) {
-            const JsonRef name = (*required)[i];
+    for (const char* const list : {"extensionsRequired", "extensionsUsed"}) {
+        const std::optional<JsonRef> named = check.root.find(list);
+        for (std::size_t i = 0; named && i < named->array_size(); ++i) {
+            const JsonRef name = (*named)[i];
             if (name.string() == "KHR_mesh_quantization") check.is_quantized = true;
-            if (!contains(supported_extensions, name.string())) {
+            if (list == std::string_view("extensionsRequired") && !contains(supported_extensions, name.string()))
                 name.fail(fmt::format("the required extension {} is not supported", printable(name.string())));
-            }
-        }
-    }
-    if (const std::optional<JsonRef> used = check.root.find("extensionsUsed")) {
-        for (std::size_t i = 0; i < used->array_size(); ++i) {
-            const JsonRef name = (*used)[i];
-            if (name.string() == "KHR_mesh_quantization") check.is_quantized = true;
         }
     }
     std::set<std::string> names;
@@ -128,7 +107,7 @@ void check_extensions(GltfCheck& check) {
 void validate_gltf(const JsonRef& root, bool has_binary_chunk, std::vector<std::string>& warnings) {
     root.expect_object();
     check_asset(root);
-    GltfCheck check{root, has_binary_chunk, warnings, count_elements(root), {}, {}, false};
+    GltfCheck check{root, has_binary_chunk, warnings};
     check_extensions(check);
     check_nodes(check);
     check_buffers(check);

@@ -83,9 +83,8 @@ int GlbBuffer::add_times(const std::vector<float>& seconds) {
     return known->second;
 }
 
-int GlbBuffer::add_bytes(std::span<const std::uint8_t> values, const char* type, Target target) {
-    return add_accessor(add_view(values.data(), values.size_bytes(), target), component_u8,
-                        values.size() / component_count(type), type);
+int GlbBuffer::add_bytes(std::span<const std::uint8_t> values) {
+    return add_accessor(add_view(values.data(), values.size()), component_u8, values.size(), "SCALAR");
 }
 
 int GlbBuffer::add_shorts(std::span<const std::uint16_t> values, const char* type, Target target) {

@@ -29,8 +29,8 @@ class GlbBuffer {
                    bool with_bounds = false);
     int add_times(const std::vector<float>& seconds);
     int add_indices(std::span<const std::uint32_t> indices, std::size_t vertices);
-    int add_bytes(std::span<const std::uint8_t> values, const char* type, Target target = Target::none);
-    int add_shorts(std::span<const std::uint16_t> values, const char* type, Target target = Target::none);
+    int add_bytes(std::span<const std::uint8_t> values);
+    int add_shorts(std::span<const std::uint16_t> values, const char* type, Target target);
     /// Elements that are all zero take no bytes.
     int add_zeros(std::size_t count, const char* type, bool with_bounds = false);
 

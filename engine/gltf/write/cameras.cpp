@@ -36,7 +36,6 @@ OrderedJson write_camera(GltfWriter& writer, const Camera& camera, const std::st
     return written;
 }
 
-/// Writes a number, and its keys if it changes.
 void add_number(GltfWriter& writer, OrderedJson& owner, const char* key, const Track<double>& track,
                 const std::string& place) {
     owner[key] = first_value(track);

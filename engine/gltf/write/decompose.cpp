@@ -1,8 +1,8 @@
 #include "engine/gltf/write/decompose.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
+#include <initializer_list>
 
 #include "engine/scene/transforms.h"
 

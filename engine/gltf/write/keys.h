@@ -4,7 +4,6 @@
 // A key's time moves to a float near it. Where values interpolate, the value is the track's at that float, so that the
 // keys lie on the track. Where they step, the time moves down, so that the new value holds at the track's own time.
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>

@@ -1,10 +1,6 @@
 // glTF writer: the tree of nodes, with what stands at each.
-#include <fmt/format.h>
-
-#include <algorithm>
 
 #include "engine/gltf/write/meshes.h"
-#include "engine/scene/visit.h"
 
 namespace aleph {
 
@@ -24,27 +20,23 @@ bool shows_below_hidden(const Scene& scene) {
 }
 
 /// When something is there: 1, else 0.
-struct Presence {
-    std::vector<const Track<double>*> tracks;  ///< step or nearest
-
-    /// @param value  from a time in s to 0 or 1
-    template <class Value>
-    Track<double> make(const Value& value) const {
-        SampledTimes sampled;
-        for (const Track<double>* track : tracks) sampled.add(*track);
-        std::vector<double> times = sampled.steps;
-        times.insert(times.end(), sampled.smooth.begin(), sampled.smooth.end());
-        sort_and_unite(times);
-        if (times.empty()) return Track<double>(value(0.0) ? 1.0 : 0.0);
-        Track<double> made;
-        made.sampling.kind = TimeSampling::Kind::acyclic;
-        made.sampling.times = times;
-        made.interpolation = Interpolation::step;
-        made.values.clear();
-        for (const double t : times) made.values.push_back(value(t) ? 1.0 : 0.0);
-        return made;
-    }
-};
+/// @param tracks  on which that depends, step or nearest
+/// @param value   from a time in s to 0 or 1
+template <class Value>
+Track<double> make_presence(const std::vector<const Track<double>*>& tracks, const Value& value) {
+    SampledTimes sampled;
+    for (const Track<double>* track : tracks) sampled.add(*track);
+    std::vector<double> times = sampled.steps;
+    times.insert(times.end(), sampled.smooth.begin(), sampled.smooth.end());
+    sort_and_unite(times);
+    if (times.empty()) return Track<double>(value(0.0) ? 1.0 : 0.0);
+    Track<double> made;
+    made.sampling.kind = TimeSampling::Kind::acyclic;
+    made.sampling.times = times;
+    made.interpolation = Interpolation::step;
+    for (const double t : times) made.values.push_back(value(t) ? 1.0 : 0.0);
+    return made;
+}
 
 class NodeWriter {
   public:
@@ -93,13 +85,13 @@ class NodeWriter {
         if (is_nested) {
             inner = add_node(node.name);
             adopt(top, inner);
-            set_rotation(inner, transform.inner);
+            set_rotation(inner, transform.parts.inner);
             writer_.animate(inner, "rotation", transform.inner_keys);
         }
         writer_.node_of[index] = inner;
         if (node.camera != no_index) writer_.node(inner)["camera"] = node.camera;
         if (!at_content_)
-            show(top, Presence{{&node.visible}}.make([&](double t) { return evaluate(node.visible, t) != 0.0; }));
+            show(top, make_presence({&node.visible}, [&](double t) { return evaluate(node.visible, t) != 0.0; }));
         write_content(index, inner);
         return top;
     }
@@ -109,10 +101,10 @@ class NodeWriter {
     }
 
     void write_place(int index, const WrittenTransform& transform) {
-        if (transform.translation != glm::dvec3(0.0))
-            writer_.node(index)["translation"] = to_json(transform.translation);
-        set_rotation(index, transform.rotation);
-        if (transform.scale != glm::dvec3(1.0)) writer_.node(index)["scale"] = to_json(transform.scale);
+        if (transform.parts.translation != glm::dvec3(0.0))
+            writer_.node(index)["translation"] = to_json(transform.parts.translation);
+        set_rotation(index, transform.parts.rotation);
+        if (transform.parts.scale != glm::dvec3(1.0)) writer_.node(index)["scale"] = to_json(transform.parts.scale);
         writer_.animate(index, "translation", transform.translation_keys);
         writer_.animate(index, "rotation", transform.rotation_keys);
         writer_.animate(index, "scale", transform.scale_keys);
@@ -138,11 +130,11 @@ class NodeWriter {
 
     /// When a mesh or light at a node is there, as far as the nodes above it do not say that in the file.
     Track<double> presence_at(int index, const Mesh* mesh) const {
-        Presence presence;
-        if (mesh != nullptr) presence.tracks.push_back(&mesh->present);
+        std::vector<const Track<double>*> tracks;
+        if (mesh != nullptr) tracks.push_back(&mesh->present);
         for (int n = at_content_ ? index : no_index; n != no_index; n = writer_.scene.nodes[n].parent)
-            presence.tracks.push_back(&writer_.scene.nodes[n].visible);
-        return presence.make([&](double t) {
+            tracks.push_back(&writer_.scene.nodes[n].visible);
+        return make_presence(tracks, [&](double t) {
             return (mesh == nullptr || evaluate(mesh->present, t) != 0.0) && (!at_content_ || is_visible(index, t));
         });
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/gltf/write/decompose.h"
 #include "engine/gltf/write/writer.h"
 #include "engine/pose/parts.h"
 #include "engine/scene/operations.h"
@@ -14,85 +13,61 @@ namespace aleph {
 
 namespace {
 
-std::string place_of_node(const Scene& scene, int node) {
-    return "node \"" + scene.nodes[node].name + "\"";
+/// Times between which the angle changes by at most max_key_turn, if they are few enough.
+std::vector<KeyTime> split_axis_turns(GltfWriter& writer, const AxisRotation& turn, const std::string& place,
+                                      SampledTimes& sampled) {
+    constexpr double most_per_key = 1e4;
+    const std::vector<KeyTime> times = sampled.make_key_times();
+    for (std::size_t i = 1; i < times.size(); ++i) {
+        const double change = evaluate(turn.angle, times[i].own) - evaluate(turn.angle, times[i - 1].own);
+        const double parts = std::ceil(std::abs(change) / max_key_turn);
+        if (!(parts > 1.0)) continue;
+        if (parts > most_per_key) {  // too fast for anything between frames
+            writer.add_frames(sampled, place);
+            std::vector<KeyTime> frames = sampled.make_key_times();
+            for (KeyTime& key : frames) key.at = key.own;
+            return frames;
+        }
+        const double begin = times[i - 1].own, step = (times[i].own - begin) / parts;
+        writer.buffer.charge(static_cast<std::uint64_t>(parts) * 5 * sizeof(float), place);
+        for (double k = 1.0; k < parts; ++k) sampled.smooth.push_back(begin + k * step);
+    }
+    return sampled.make_key_times();
 }
 
-/// Fills a rotation from turns about an axis. More keys than the frames need come from turns below half a circle only.
-class AxisKeys {
-  public:
-    AxisKeys(GltfWriter& writer, const AxisRotation& turn, const std::string& place)
-        : writer_(writer), turn_(turn), place_(place) {}
-
-    WrittenKeys make() const {
-        const Track<double>& angle = turn_.angle;
-        if (angle.interpolation == Interpolation::step || angle.interpolation == Interpolation::nearest) {
-            Track<glm::dquat> turns;
-            turns.sampling = angle.sampling;
-            turns.interpolation = angle.interpolation;
-            turns.values.clear();
-            for (std::size_t i = 0; i < angle.key_count(); ++i)
-                turns.values.push_back(rotation_at(turn_, sample_time(angle.sampling, i)));
-            return make_keys(turns);
-        }
-        SampledTimes sampled;
-        sampled.add(angle);
-        const bool is_linear = angle.interpolation == Interpolation::linear;
-        if (!is_linear) writer_.add_frames(sampled, place_);
-        return make_sampled_keys(split(sampled), [&](double t) { return rotation_at(turn_, t); });
+WrittenKeys make_axis_keys(GltfWriter& writer, const AxisRotation& turn, const std::string& place) {
+    const Track<double>& angle = turn.angle;
+    if (angle.interpolation == Interpolation::step || angle.interpolation == Interpolation::nearest) {
+        Track<glm::dquat> turns;
+        turns.sampling = angle.sampling;
+        turns.interpolation = angle.interpolation;
+        for (std::size_t i = 0; i < angle.key_count(); ++i)
+            turns.values.push_back(rotation_at(turn, sample_time(angle.sampling, i)));
+        return make_keys(turns);
     }
-
-  private:
-    /// Times between which the angle changes by at most max_key_turn, if they are few enough.
-    std::vector<KeyTime> split(SampledTimes& sampled) const {
-        constexpr double most_per_key = 1e4;
-        const std::vector<KeyTime> times = sampled.make_key_times();
-        for (std::size_t i = 1; i < times.size(); ++i) {
-            const double turn = std::abs(evaluate(turn_.angle, times[i].own) - evaluate(turn_.angle, times[i - 1].own));
-            const double parts = std::ceil(turn / max_key_turn);
-            if (!(parts > 1.0)) continue;
-            if (parts > most_per_key) {  // too fast for anything between frames
-                writer_.add_frames(sampled, place_);
-                std::vector<KeyTime> frames = sampled.make_key_times();
-                for (KeyTime& key : frames) key.at = key.own;
-                return frames;
-            }
-            const double begin = times[i - 1].own, step = (times[i].own - begin) / parts;
-            writer_.buffer.charge(static_cast<std::uint64_t>(parts) * 5 * sizeof(float), place_);
-            for (double k = 1.0; k < parts; ++k) sampled.smooth.push_back(begin + k * step);
-        }
-        return sampled.make_key_times();
-    }
-
-    GltfWriter& writer_;
-    const AxisRotation& turn_;
-    std::string place_;
-};
+    SampledTimes sampled;
+    sampled.add(angle);
+    if (angle.interpolation != Interpolation::linear) writer.add_frames(sampled, place);
+    return make_sampled_keys(split_axis_turns(writer, turn, place, sampled),
+                             [&](double t) { return rotation_at(turn, t); });
+}
 
 void write_tracks(GltfWriter& writer, const LocalTransform& local, const std::string& place,
                   WrittenTransform& written) {
-    written.translation = first_value(local.translation);
-    written.scale = first_value(local.scale);
+    written.parts.translation = first_value(local.translation);
+    written.parts.scale = first_value(local.scale);
     if (is_animated(local.translation)) written.translation_keys = writer.keys_of(local.translation, place);
     if (is_animated(local.scale)) written.scale_keys = writer.keys_of(local.scale, place);
     if (!local.axis_rotation) {
-        written.rotation = safe_normalize(first_value(local.rotation));
+        written.parts.rotation = safe_normalize(first_value(local.rotation));
         if (is_animated(local.rotation)) written.rotation_keys = writer.keys_of(local.rotation, place);
         return;
     }
     const Track<double>& angle = local.axis_rotation->angle;
-    written.rotation = rotation_at(*local.axis_rotation, first_time(angle));
-    if (is_animated(angle)) written.rotation_keys = AxisKeys(writer, *local.axis_rotation, place).make();
+    written.parts.rotation = rotation_at(*local.axis_rotation, first_time(angle));
+    if (is_animated(angle)) written.rotation_keys = make_axis_keys(writer, *local.axis_rotation, place);
 }
 
-void set_parts(const TransformParts& parts, WrittenTransform& written) {
-    written.translation = parts.translation;
-    written.rotation = parts.rotation;
-    written.scale = parts.scale;
-    written.inner = parts.inner;
-}
-
-/// @param matrices  one per key time
 void write_matrices(const std::vector<KeyTime>& times, const std::vector<glm::dmat4>& matrices,
                     WrittenTransform& written) {
     TransformParts parts;
@@ -100,7 +75,7 @@ void write_matrices(const std::vector<KeyTime>& times, const std::vector<glm::dm
     written.rotation_keys.row = written.inner_keys.row = 4;
     for (std::size_t i = 0; i < times.size(); ++i) {
         parts = decompose(matrices[i], parts);
-        if (i == 0) set_parts(parts, written);
+        if (i == 0) written.parts = parts;
         written.translation_keys.append(times[i].time, components(parts.translation));
         written.rotation_keys.append(times[i].time, components(parts.rotation));
         written.scale_keys.append(times[i].time, components(parts.scale));
@@ -144,23 +119,19 @@ bool is_linear_in_parts(const Track<glm::dmat4>& matrix) {
     return true;
 }
 
-void write_matrix_track(GltfWriter& writer, const Track<glm::dmat4>& matrix, const std::string& place,
-                        WrittenTransform& written) {
-    const auto at = [&](double t) { return evaluate(matrix, t); };
-    if (!is_animated(matrix)) return set_parts(decompose(at(0.0), {}), written);
+/// @param property  a track of matrices, or a stack of operations
+/// @param is_exact  of its own times: whether keys there, straight between them, are the property's
+template <class Property, class IsExact>
+void write_property(GltfWriter& writer, const Property& property, const std::string& place, const IsExact& is_exact,
+                    WrittenTransform& written) {
+    const auto at = [&](double t) { return evaluate(property, t); };
+    if (!is_animated(property)) {
+        written.parts = decompose(at(0.0), {});
+        return;
+    }
     SampledTimes sampled;
-    sampled.add(matrix);
-    if (sampled.steps.empty() && !is_linear_in_parts(matrix)) writer.add_frames(sampled, place);
-    write_sampled(at, sampled, written);
-}
-
-void write_operations(GltfWriter& writer, const OperationStack& stack, const std::string& place,
-                      WrittenTransform& written) {
-    const auto at = [&](double t) { return evaluate(stack, t); };
-    if (!is_animated(stack)) return set_parts(decompose(at(0.0), {}), written);
-    SampledTimes sampled;
-    sampled.add(stack);
-    writer.add_frames(sampled, place);
+    sampled.add(property);
+    if (!is_exact(sampled)) writer.add_frames(sampled, place);
     write_sampled(at, sampled, written);
 }
 
@@ -180,8 +151,11 @@ void write_world(GltfWriter& writer, int node, const std::string& place, Written
         for (const int n : chain) place_node(writer.scene, n, t, writer.placed);
         return writer.placed.world[node];
     };
-    if (sampled.count() == 0) return set_parts(decompose(at(0.0), {}), written);
-    write_sampled(at, sampled, written);
+    if (sampled.count() == 0) {
+        written.parts = decompose(at(0.0), {});
+    } else {
+        write_sampled(at, sampled, written);
+    }
 }
 
 }  // namespace
@@ -198,14 +172,18 @@ bool is_detached(const Node& node) {
 
 WrittenTransform write_transform(GltfWriter& writer, int index) {
     const Node& node = writer.scene.nodes[index];
-    const std::string place = place_of_node(writer.scene, index);
+    const std::string place = "node \"" + node.name + "\"";
     WrittenTransform written;
     if (is_detached(node) && is_animated(node.inherits)) {
         write_world(writer, index, place, written);
     } else if (node.transform.operations) {
-        write_operations(writer, *node.transform.operations, place, written);
+        write_property(
+            writer, *node.transform.operations, place, [](const SampledTimes&) { return false; }, written);
     } else if (node.transform.matrix) {
-        write_matrix_track(writer, *node.transform.matrix, place, written);
+        const auto is_exact = [&](const SampledTimes& sampled) {
+            return !sampled.steps.empty() || is_linear_in_parts(*node.transform.matrix);
+        };
+        write_property(writer, *node.transform.matrix, place, is_exact, written);
     } else {
         write_tracks(writer, node.transform, place, written);
     }

@@ -1,6 +1,12 @@
 #include "engine/gltf/write/write.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
 #include "engine/base/atomic_file.h"
+#include "engine/base/index.h"
 #include "engine/gltf/write/writer.h"
 
 namespace aleph {
@@ -11,16 +17,39 @@ const char* accessor_type(const WrittenKeys& keys) {
     return keys.row == 1 ? "SCALAR" : keys.row == 3 ? "VEC3" : "VEC4";
 }
 
-const char* interpolation_word(Interpolation interpolation) {
-    return interpolation == Interpolation::step    ? "STEP"
-           : interpolation == Interpolation::cubic ? "CUBICSPLINE"
-                                                   : "LINEAR";
+/// In the order of Interpolation.
+constexpr std::array interpolation_names{"STEP", "LINEAR", "STEP", "CUBICSPLINE"};
+
+bool has_lens(const Camera& camera) {
+    const auto is_set = [](const Track<double>& track) { return is_animated(track) || key_value(track, 0) != 0.0; };
+    return camera.shutter.x != camera.shutter.y || is_set(camera.aperture) || is_set(camera.shift_x) ||
+           is_set(camera.shift_y);
 }
 
-OrderedJson list_names(const std::set<std::string>& names) {
-    OrderedJson list = OrderedJson::array();
-    for (const std::string& name : names) list.push_back(name);
-    return list;
+/// True where the camera that looks first is not the first of the file.
+bool chooses_camera(const Scene& scene) {
+    const bool has_camera = std::ranges::any_of(scene.nodes, [](const Node& n) { return n.camera != no_index; });
+    return has_camera && CameraNames(scene).find("") != 0;
+}
+
+bool is_black(const Track<glm::dvec3>& radiance) {
+    return std::ranges::all_of(radiance.values, [](const glm::dvec3& value) { return value == glm::dvec3(0.0); });
+}
+
+/// Adds a warning for each kind of thing that the scene says and glTF cannot hold.
+void warn_of_losses(GltfWriter& writer) {
+    const Scene& scene = writer.scene;
+    const auto warn = [&](bool is_lost, const char* what) {
+        if (is_lost) writer.warnings.push_back(fmt::format("not written, because glTF cannot hold it: {}", what));
+    };
+    warn(scene.environment.radiance && !is_black(*scene.environment.radiance), "the environment's light");
+    warn(scene.film.exposure.has_value(), "the exposure");
+    warn(!scene.film.cuts.empty(), "cuts");
+    warn(!scene.film.camera_keys.empty(), "the change of cameras over time");
+    warn(scene.film.camera_keys.empty() && chooses_camera(scene), "the choice of the camera");
+    warn(std::ranges::any_of(scene.cameras, has_lens), "the lens (aperture, focus, shift) and shutter of cameras");
+    warn(scene.film.viewing != ViewingConditions{}, "the display and the viewer's distance");
+    warn(!scene.source.settings.empty(), "render settings");
 }
 
 }  // namespace
@@ -51,7 +80,7 @@ template WrittenKeys GltfWriter::keys_of(const Track<glm::dquat>&, const std::st
 
 int GltfWriter::add_sampler(const WrittenKeys& keys, int output) {
     samplers.push_back({{"input", buffer.add_times(keys.times)},
-                        {"interpolation", interpolation_word(keys.interpolation)},
+                        {"interpolation", interpolation_names[index_of(keys.interpolation)]},
                         {"output", output}});
     return static_cast<int>(samplers.size()) - 1;
 }
@@ -80,7 +109,7 @@ void GltfWriter::animate_visibility(int node, const WrittenKeys& keys) {
     if (keys.times.empty() || keys.is_constant()) return;
     const std::vector<std::uint8_t> values(keys.values.begin(), keys.values.end());
     add_channel("/nodes/" + std::to_string(node) + "/extensions/KHR_node_visibility/visible",
-                add_sampler(keys, buffer.add_bytes(values, "SCALAR")));
+                add_sampler(keys, buffer.add_bytes(values)));
 }
 
 std::vector<std::string> write_gltf(const Scene& scene, const std::filesystem::path& path) {
@@ -97,7 +126,7 @@ std::vector<std::string> write_gltf(const Scene& scene, const std::filesystem::p
         animation["channels"] = std::move(writer.channels);
         writer.add("animations", std::move(animation));
     }
-    if (!writer.extensions.empty()) writer.document["extensionsUsed"] = list_names(writer.extensions);
+    if (!writer.extensions.empty()) writer.document["extensionsUsed"] = writer.extensions;
     warn_of_losses(writer);
     write_file(path, writer.buffer.take_file(std::move(writer.document)));
     return writer.warnings;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/gltf/write/buffer.h"
+#include "engine/gltf/write/decompose.h"
 #include "engine/gltf/write/keys.h"
 #include "engine/pose/pose.h"
 
@@ -72,8 +73,6 @@ void write_materials(GltfWriter& writer);
 void write_cameras_and_lights(GltfWriter& writer);
 void write_nodes(GltfWriter& writer);
 void write_skins(GltfWriter& writer);
-/// Adds a warning for each kind of thing that the scene says and glTF cannot hold.
-void warn_of_losses(GltfWriter& writer);
 
 /// The glTF material of a mesh; of one without a material the scene's default, which differs from glTF's.
 int material_of(GltfWriter& writer, int material);
@@ -94,14 +93,10 @@ T first_value(const Track<T>& track) {
 
 /// A node's transform with respect to what it is written under, as one node or two.
 struct WrittenTransform {
-    glm::dvec3 translation{0.0};
-    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
-    glm::dvec3 scale{1.0};
-    /// A shear is a rotation below a scale. Identity without keys: one node will do.
-    glm::dquat inner{1.0, 0.0, 0.0, 0.0};
+    TransformParts parts;  ///< one node will do where the inner rotation is the identity without keys
     WrittenKeys translation_keys, rotation_keys, scale_keys, inner_keys;
 
-    bool is_nested() const { return inner != glm::dquat(1.0, 0.0, 0.0, 0.0) || !inner_keys.times.empty(); }
+    bool is_nested() const { return parts.inner != glm::dquat(1.0, 0.0, 0.0, 0.0) || !inner_keys.times.empty(); }
 };
 
 /// @param node  of the scene

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <cstdio>
 
-#include "engine/json/memory.h"
+#include "engine/json/text.h"
 #include "engine/scene_file/scene_text.h"
 #include "tests/support/files/load_cost.h"
 #include "tests/support/test.h"
