@@ -65,8 +65,9 @@ double largest_turn_degrees(const Track<glm::dquat>& track);
 /// Accurate for every angle, also near 0 and 180 degrees: theta = 2 atan2(|a - b|, |a + b|).
 glm::dquat slerp_short(const glm::dquat& a, const glm::dquat& b, double fraction);
 
-/// Between two affine matrices: M = R S each (polar), R by slerp, S and translation by lerp; exact at the ends.
-/// A reflection is factored out once, with the sign of both determinants.
+/// Between two affine matrices: M = R S each (polar), R by slerp, S and translation by lerp; exact at the ends
+/// (Shoemake and Duff 1992, "Matrix animation and polar decomposition"). A reflection is factored out once, with the
+/// sign of both determinants.
 glm::dmat4 interpolate_matrix(const glm::dmat4& a, const glm::dmat4& b, double fraction);
 
 }  // namespace aleph
