@@ -3,7 +3,6 @@
 // Everything here is in single precision, in metres relative to the anchor (compute_anchor), so that a scene far from
 // the origin renders as well as one at it.
 
-#include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>

@@ -19,8 +19,6 @@ class LimitSurface {
     ///         would be too many
     LimitSurface(const Cage& cage, std::size_t cage_points, int level);
     ~LimitSurface();
-    LimitSurface(const LimitSurface&) = delete;
-    LimitSurface& operator=(const LimitSurface&) = delete;
 
     /// The level asked for; 1 in place of 0 where some face is no quad (triangle for Loop).
     int level() const;
@@ -48,9 +46,6 @@ class LimitSurface {
     struct State;
     std::unique_ptr<State> state_;
 };
-
-/// The cage's points at a time, in double. Points that do not move have the same bits at every time.
-std::vector<glm::dvec3> cage_points_at(const Scene& scene, const Cage& cage, double seconds);
 
 /// (Re)makes the triangles, normals and first texture coordinates of every mesh that a cage has in the scene, at the
 /// cage's level and its points' first sample, and sets MeshSubdivision::limit. Adds what list_warnings (cage_checks.h)
