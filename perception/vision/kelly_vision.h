@@ -47,14 +47,12 @@ class KellyRow final : public ElevationRow {
     /// Reads retinal velocities only, and keeps no pointer.
     void load(const StimulusRow& row) override;
     void elevations(int band, float* out) const override;
-    bool is_one(int band) const override;
 
   private:
     KellyModel model_;
     std::array<float, band_count> slope_;  ///< rho / rho_peak = slope * (c2 v + 2)
     std::vector<float> spread_;            ///< c2 v + 2
-    float max_spread_ = 0.0f;
-    std::vector<float> peak_;  ///< CSF_max
+    std::vector<float> peak_;              ///< CSF_max
 };
 
 }  // namespace aleph
