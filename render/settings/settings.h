@@ -89,8 +89,7 @@ struct GuideSettings {
 
 /// The irradiance cache.
 struct CacheSettings {
-    double accuracy =
-        0.15;        ///< ambient accuracy alpha_Acc: smaller is more accurate; 0: every sample has rays of its own
+    double accuracy = 0.15;  ///< ambient accuracy alpha_Acc: smaller is exacter; 0: every sample has rays of its own
     int gather = 0;  ///< rays over the hemisphere, of a record; 0: what the accuracy needs (choose_rays), 2 of a sample
     double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
     int light_step = 10;  ///< frames between lighting keyframes of indirect light; 0: every frame computes its own
