@@ -5,7 +5,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scenes/common/build.h"

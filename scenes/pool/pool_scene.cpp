@@ -3,7 +3,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/common/build.h"
-#include "scenes/common/generator.h"
 #include "scenes/common/keys.h"
 
 namespace aleph {
@@ -37,7 +36,7 @@ void add_camera(Scene& scene, bool moves) {
     };
     const double end = last_frame / 30.0, t = (end - begin) / (rest - begin);
     const glm::dvec3 velocity = 6.0 * t * (1.0 - t) / (rest - begin) * move;
-    node_at(scene, rig).transform.translation =
+    scene.nodes[rig].transform.translation =
         cubic_track<glm::dvec3>({{begin, {}, pivot, {}}, {end, velocity, pivot + share(end) * move, velocity}});
     // The pitch has one key per frame, because other formats have no cubic rotations about an axis.
     Track<double> tilt;
