@@ -120,14 +120,13 @@ T evaluate(const Track<T>& track, double seconds) {
 }
 
 template <class T>
-bool is_animated(const Track<T>& track) {
-    const std::size_t keys = track.key_count();
-    for (std::size_t i = 1; i < keys; ++i)
-        if (key_value(track, i) != key_value(track, 0)) return true;
-    if (track.interpolation != Interpolation::cubic || keys <= 1) return false;
-    for (std::size_t i = 2; i + 2 < track.values.size(); ++i)  // the outermost tangents do nothing
-        if (i % 3 != 1 && std::ranges::any_of(components(track.values[i]), [](double c) { return c != 0.0; }))
-            return true;
+bool do_keys_differ(const Track<T>& track, std::size_t first, std::size_t last) {
+    for (std::size_t key = first + 1; key <= last; ++key)
+        if (key_value(track, key) != key_value(track, first)) return true;
+    if (track.interpolation != Interpolation::cubic) return false;
+    const auto is_zero = [](double c) { return c == 0.0; };
+    for (std::size_t i = 3 * first + 2; i + 2 < 3 * (last + 1); ++i)
+        if (i % 3 != 1 && !std::ranges::all_of(components(track.values[i]), is_zero)) return true;
     return false;
 }
 
@@ -150,9 +149,9 @@ void validate(const Track<T>& track, const std::string& file, const std::string&
             throw InputError(file, place, fmt::format("key {}: {}", i, fault));
 }
 
-#define ALEPH_INSTANTIATE_TRACK(T)                \
-    template T evaluate(const Track<T>&, double); \
-    template bool is_animated(const Track<T>&);   \
+#define ALEPH_INSTANTIATE_TRACK(T)                                           \
+    template T evaluate(const Track<T>&, double);                            \
+    template bool do_keys_differ(const Track<T>&, std::size_t, std::size_t); \
     template void validate(const Track<T>&, const std::string&, const std::string&);
 ALEPH_INSTANTIATE_TRACK(double)
 ALEPH_INSTANTIATE_TRACK(glm::dvec3)

@@ -39,14 +39,20 @@ struct Track {
 template <class T>
 T evaluate(const Track<T>& track, double seconds);
 
-/// False only where evaluate gives the same value at every time (one key, or all keys and tangents alike).
-template <class T>
-bool is_animated(const Track<T>& track);
-
 /// Value of a key: the middle one of a cubic key's three.
 template <class T>
 const T& key_value(const Track<T>& track, std::size_t key) {
     return track.values[track.interpolation == Interpolation::cubic ? 3 * key + 1 : key];
+}
+
+/// True where keys from the first to the last differ, or a tangent between them is not 0. Same types as evaluate.
+template <class T>
+bool do_keys_differ(const Track<T>& track, std::size_t first, std::size_t last);
+
+/// False only where evaluate gives the same value at every time (one key, or all keys and tangents alike).
+template <class T>
+bool is_animated(const Track<T>& track) {
+    return track.key_count() > 1 && do_keys_differ(track, 0, track.key_count() - 1);
 }
 
 /// Readers call this for every track. There must be keys, three values for each key of a cubic track, finite values, no
