@@ -1,6 +1,5 @@
 #pragma once
-// Parallel loops over chunks that do not depend on the number of threads, so that results combined in chunk order are
-// the same for any number of threads.
+// Parallel loops over chunks that are the same for any number of threads; so are results combined in chunk order.
 // ALEPH_STD_THREADS replaces oneTBB by std::thread for ThreadSanitizer, which reports false races in oneTBB.
 
 #include <algorithm>

@@ -23,7 +23,6 @@ struct FlatPlan {
 /// An instance stays outside the flat tree if rounding to single precision relative to `origin` could change its shape
 /// or move the start of rays that leave it (fits() in flat_plan.cpp), or if its mesh has many instances, whose copies
 /// would take too much memory: at most as many triangles are added as the scene has, and a quarter of a million.
-/// @param scene  its meshes' positions are finite
 /// @param flatten  false: no instance is flat
 FlatPlan make_flat_plan(const Scene& scene, const PosePlan& plan, bool flatten = true);
 

@@ -1,6 +1,5 @@
-// Balls that fall under a ring, and those that roll off their plinths: they fall, bounce and come to rest. Between
-// impacts the path is a parabola, which a cubic track through the positions and velocities at the impacts represents
-// exactly.
+// Balls that fall under a ring, or roll off their plinths, bounce and come to rest. Between impacts the path is a
+// parabola, which a cubic track through the positions and velocities at the impacts represents exactly.
 
 #include <fmt/format.h>
 

@@ -8,9 +8,9 @@
 namespace aleph {
 
 void add_camera(Scene& scene, bool moves) {
-    // The camera pans on an arm of 60 cm: the walls move by about 3 pixels per frame at 640x480, the table by less. It
-    // starts where the whole break stays in the picture. When the balls have spread, it approaches over the near rail
-    // and down towards them, and is still moving at the end.
+    // The camera pans on an arm of 60 cm: the walls move by about 3 pixels per frame at 640x480, the table by less.
+    // When the balls have spread, it approaches over the near rail and down towards them, and is still moving at the
+    // end.
     const int first_of_move = 32;                           // frame
     const double arm = 0.6, height = 1.4;                   // m
     const double first = 68.8, last = 93.2, pitch = -15.2;  // degrees; 90 looks along -x
