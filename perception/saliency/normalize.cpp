@@ -195,29 +195,16 @@ class QuantizedMap {
     std::vector<Row> rows_;
 };
 
-/// The local maxima that N(.) averages: 8-connected plateaus of a map quantised to 16 bits that are higher than all
-/// their neighbours. The map is streamed row by row, never stored: what is kept is one position per possible maximum
-/// and the rows of plateaus of more than one pixel.
-struct LocalMaxima {
-    float minimum = 0.0f, maximum = 0.0f;  ///< of the map
-    /// Heights in [.1, 1] after min-max of the map to [0,1], lower ones left out; one per plateau, in raster order.
-    /// Empty where the map's range is not above the floor.
-    std::vector<double> heights;
-};
-
-LocalMaxima find_local_maxima(const ExpandedMap& map, double floor) {
-    const LevelSize size = map.size();
-    RowExpander expander(*map.sizes);
-    expander.load(*map.image, map.level, 0, size.height);
-    const MapScan scan = MapScanner(size, expander, floor).run();
-    LocalMaxima out{scan.minimum, scan.maximum, {}};
-    const Quantizer quantize{scan.minimum, static_cast<double>(scan.maximum) - scan.minimum};
-    if (!(quantize.range > floor)) return out;
-
+/// Heights in [.1, 1], after min-max of the map to [0,1], of the local maxima that N(.) averages: 8-connected plateaus
+/// of the map quantised to 16 bits that are higher than all their neighbours; lower ones are left out. In raster order.
+/// The map is streamed row by row, never stored: what is kept is one position per possible maximum and the rows of
+/// plateaus of more than one pixel.
+std::vector<double> find_heights(const MapScan& scan, LevelSize size, RowExpander& expander) {
     struct Maximum {
         std::int64_t first;  ///< raster index
         int level;
     };
+    const Quantizer quantize{scan.minimum, static_cast<double>(scan.maximum) - scan.minimum};
     std::vector<Maximum> maxima;
     QuantizedMap quantized(size, expander, quantize);
     for (const Candidate& c : scan.candidates) {
@@ -230,21 +217,25 @@ LocalMaxima find_local_maxima(const ExpandedMap& map, double floor) {
         const QuantizedMap::Plateau plateau = quantized.fill(c.x, c.y);
         if (plateau.is_maximum) maxima.push_back({plateau.first, level});
     }
-    std::sort(maxima.begin(), maxima.end(), [](const Maximum& a, const Maximum& b) { return a.first < b.first; });
-    for (const Maximum& m : maxima) out.heights.push_back(m.level / quantization_steps);
-    return out;
+    std::ranges::sort(maxima, {}, &Maximum::first);
+    std::vector<double> heights;
+    for (const Maximum& m : maxima) heights.push_back(m.level / quantization_steps);
+    return heights;
 }
 
 }  // namespace
 
 Normalization compute_normalization(const ExpandedMap& map, double floor) {
-    const LocalMaxima maxima = find_local_maxima(map, floor);
-    Normalization result{maxima.minimum, maxima.maximum, 0.0, true};
+    RowExpander expander(*map.sizes);
+    expander.load(*map.image, map.level, 0, map.size().height);
+    const MapScan scan = MapScanner(map.size(), expander, floor).run();
+    Normalization result{scan.minimum, scan.maximum, 0.0, true};
     if (!(result.maximum - result.minimum > floor)) return result;
     result.empty = false;
+    const std::vector<double> heights = find_heights(scan, map.size(), expander);
     // Leaves out one global maximum, whose height is 1.
-    const auto others = static_cast<double>(maxima.heights.size()) - 1.0;
-    const double sum = std::accumulate(maxima.heights.begin(), maxima.heights.end(), 0.0);
+    const auto others = static_cast<double>(heights.size()) - 1.0;
+    const double sum = std::accumulate(heights.begin(), heights.end(), 0.0);
     const double mean = others > 0.0 ? (sum - 1.0) / others : 0.0;
     result.weight = (1.0 - mean) * (1.0 - mean);
     return result;
