@@ -79,14 +79,10 @@ class GridBuilder : private SharedVertices {
                 int& vertex = rows[j * (n + 1) + i];
                 if (j == 0)
                     vertex = edge_vertex(f, 0, i);
-                else if (grid_.faces.triangular && i + j == n)
+                else if (i == (grid_.faces.triangular ? n - j : n))
                     vertex = edge_vertex(f, 1, j);
-                else if (grid_.faces.triangular && i == 0)
-                    vertex = edge_vertex(f, 2, n - j);
                 else if (i == 0)
-                    vertex = edge_vertex(f, 3, n - j);
-                else if (i == n)
-                    vertex = edge_vertex(f, 1, j);
+                    vertex = edge_vertex(f, grid_.faces.triangular ? 2 : 3, n - j);
                 else if (j == n)
                     vertex = edge_vertex(f, 2, n - i);
                 else
