@@ -37,8 +37,6 @@ class PlainOpenCv {
         cv::setUseOptimized(optimized_);
         cv::setNumThreads(threads_);
     }
-    PlainOpenCv(const PlainOpenCv&) = delete;
-    PlainOpenCv& operator=(const PlainOpenCv&) = delete;
 
   private:
     static std::mutex& mutex() {
@@ -102,13 +100,11 @@ FlowPair compute_flow(const Image<std::uint8_t>& first, const Image<std::uint8_t
     }
     const PlainOpenCv plain;
     FlowPair pair;
-    parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            if (i == 0) {
-                pair.there = search(first, second);
-            } else {
-                pair.back = search(second, first);
-            }
+    parallel_each(2, 1, [&](std::size_t i) {
+        if (i == 0) {
+            pair.there = search(first, second);
+        } else {
+            pair.back = search(second, first);
         }
     });
     return pair;

@@ -23,8 +23,7 @@ struct FlowPair {
 /// Returns whether this was built with OpenCV.
 bool has_flow();
 
-/// The same bits for any number of threads. Meanwhile OpenCV has one thread and no code chosen by processor, in the
-/// whole program.
+/// Meanwhile OpenCV has one thread and no code chosen by processor, in the whole program: the bits are always the same.
 /// @throws InputError if the sizes differ or are empty, or if this was built without OpenCV
 FlowPair compute_flow(const Image<std::uint8_t>& first, const Image<std::uint8_t>& second);
 

@@ -1,8 +1,6 @@
 #pragma once
 // Image-based motion, Yee 2000, 5.1.1: a hierarchical search for the census-transformed neighbourhood of every pixel in
-// the other frame. For frames without a scene. Known limits: uniform colour gives no motion; motion along an edge is
-// not found; background that appears from behind an object seems to move with it; white noise has no coarse level to
-// search.
+// the other frame. motion/README.md has its limits; white noise has no coarse level to search.
 
 #include <cstdint>
 #include <vector>
@@ -37,9 +35,8 @@ CensusLevel make_census_level(const Image<float>& level);
 /// Whole pixels, for every pixel. Cost of an offset: sum of Hamming distances over 3x3, borders clamped; targets
 /// outside the frame are excluded. Exhaustive within 8 pixels at the coarsest level; at each finer level three steps
 /// (4, 2, 1) from twice the coarser result (of pixel floor(x/2), floor(y/2); brought back inside where it leads one
-/// pixel out). Ties go to the smaller |offset|^2, then dy, then dx, of the whole offset from the pixel, so that
-/// areas without texture stand still. Reach: 53 pixels with three levels, 23 with two, 8 with one. Every pixel has a
-/// target, so that all are `valid`. The same bits for any number of threads.
+/// pixel out). Ties go to the smaller |offset|^2, then dy, then dx, so that areas without texture stand still. Reach:
+/// 53 pixels with three levels, 23 with two, 8 with one. All pixels are `valid`.
 /// @throws InputError if the sizes differ or are empty
 MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other);
 MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other);

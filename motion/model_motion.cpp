@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
 #include "engine/base/errors.h"
@@ -44,34 +43,6 @@ namespace {
 
 /// The turn (of an object or the camera) that one chord of the path may stand for, radians.
 constexpr double max_chord_turn = 20.0 * std::numbers::pi / 180.0;
-
-/// Index of the scene's camera that both views look through; no_index for views made by hand.
-int find_viewing_camera(const PosedView& now, const PosedView& other) {
-    const auto matches = [](const CameraView& view, const CameraValues& camera) {
-        return view.orthographic == camera.orthographic && view.position == camera.position && view.axes == camera.axes;
-    };
-    const std::size_t count = std::min(now.pose.cameras.size(), other.pose.cameras.size());
-    for (std::size_t i = 0; i < count; ++i) {
-        if (matches(now.view, now.pose.cameras[i]) && matches(other.view, other.pose.cameras[i])) {
-            return static_cast<int>(i);
-        }
-    }
-    return no_index;
-}
-
-/// A view between two others, for views made without a camera of the scene.
-CameraView interpolate_view(const CameraView& a, const CameraView& b, double fraction) {
-    CameraView view = a;
-    view.position = glm::mix(a.position, b.position, fraction);
-    view.axes = glm::mat3_cast(glm::slerp(glm::quat_cast(a.axes), glm::quat_cast(b.axes), fraction));
-    view.pixels_per_unit = std::lerp(a.pixels_per_unit, b.pixels_per_unit, fraction);
-    view.axis_offset = glm::mix(a.axis_offset, b.axis_offset, fraction);
-    return view;
-}
-
-double turn_between(const CameraView& a, const CameraView& b) {
-    return glm::angle(glm::normalize(glm::quat_cast(glm::transpose(a.axes) * b.axes)));
-}
 
 struct PixelMotion {
     glm::dvec2 displacement{0.0};
@@ -223,26 +194,21 @@ const ScenePose& ModelMotion::pose_between(double seconds) {
 }
 
 void ModelMotion::add_steps(PreparedMotion& motion, const PosedView& now, const PosedView& other) {
-    const int camera = find_viewing_camera(now, other);
-    const int camera_node = camera == no_index ? no_index : now.pose.cameras[camera].node;
+    const int camera_node = now.pose.cameras[now.camera].node;
     const double begin = now.pose.seconds, end = other.pose.seconds;
-    const double view_turn = camera == no_index ? turn_between(now.view, other.view) : 0.0;
-    const std::vector<double> times = turns_.subdivide(camera_node, begin, end, max_chord_turn, view_turn);
+    const std::vector<double> times = turns_.subdivide(camera_node, begin, end, max_chord_turn);
     if (times.empty()) return;
 
     turns_.find(camera_node, begin, end);
-    const auto is_fast = [&](double turn) { return turn + view_turn > max_chord_turn; };
-    const bool background_is_fast = !now.view.orthographic && is_fast(turns_.background());
+    const bool background_is_fast = !now.view.orthographic && turns_.background() > max_chord_turn;
     for (const double seconds : times) {
         const ScenePose& posed = pose_between(seconds);
-        const CameraView view = camera == no_index
-                                    ? interpolate_view(now.view, other.view, (seconds - begin) / (end - begin))
-                                    : make_camera_view(posed.cameras[camera], now.view.width, now.view.height);
+        const CameraView view = make_camera_view(posed.cameras[now.camera], now.view.width, now.view.height);
         motion.steps.push_back(view);
         if (background_is_fast) motion.background.steps.push_back({make_background_map(now.view, view), {}});
         for (std::size_t i = 0; i < motion.objects.size(); ++i) {
             const Instance& instance = now.pose.instances[seen_.instances()[i]];
-            if (!motion.objects[i].counterpart || !is_fast(turns_.of_node(instance.node))) continue;
+            if (!motion.objects[i].counterpart || !(turns_.of_node(instance.node) > max_chord_turn)) continue;
             motion.objects[i].steps.push_back(
                 {make_camera_from_object(view, posed.world[instance.node]), posed.meshes[instance.mesh]});
         }
@@ -253,8 +219,7 @@ MotionField ModelMotion::compute(const PosedView& now, const PosedView& other, c
                                  OtherFrame which) {
     ALEPH_CHECK(hits.width == now.view.width && hits.height == now.view.height,
                 fmt::format("{}x{} hits, {}x{} view", hits.width, hits.height, now.view.width, now.view.height));
-    if (which == OtherFrame::none)
-        return make_motion_field(hits.width, hits.height, MotionValidity::no_counterpart);
+    if (which == OtherFrame::none) return make_motion_field(hits.width, hits.height, MotionValidity::no_counterpart);
     MotionField field = make_motion_field(hits.width, hits.height, MotionValidity::background);
     seen_.find(hits, now.pose.instances.size());
     PreparedMotion all = prepare_motion(scene_, now, other, which, seen_);

@@ -2,16 +2,41 @@
 // Model-based motion, Yee 2000, 5.1.2: project the same surface point Q(u,v) at both times and subtract.
 
 #include <optional>
+#include <vector>
 
 #include "engine/pose/posed_view.h"
 #include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
 #include "motion/motion_field.h"
 #include "motion/other_frame.h"
-#include "motion/seen_instances.h"
 #include "motion/turn.h"
 
 namespace aleph {
+
+/// The instances that an image of hits shows, numbered from 0, so that work per instance follows what is seen.
+class SeenInstances {
+  public:
+    /// Numbers the instances in the order of their first pixels.
+    /// @param instance_count  of the scene
+    void find(const Image<Hit>& hits, std::size_t instance_count) {
+        for (const int instance : instances_) numbers_[instance] = no_index;
+        instances_.clear();
+        numbers_.resize(instance_count, no_index);
+        for (const Hit& hit : hits.pixels) {
+            if (hit.instance == no_index || numbers_[hit.instance] != no_index) continue;
+            numbers_[hit.instance] = static_cast<int>(instances_.size());
+            instances_.push_back(hit.instance);
+        }
+    }
+
+    const std::vector<int>& instances() const { return instances_; }
+    /// Place of a seen instance in instances().
+    int number(int instance) const { return numbers_[instance]; }
+
+  private:
+    std::vector<int> instances_;
+    std::vector<int> numbers_;  ///< per instance; no_index: not seen
+};
 
 struct PreparedMotion;
 

@@ -22,12 +22,11 @@ struct SearchedPicture {
 /// @throws InputError if the picture is empty
 SearchedPicture prepare_picture(const Image<Rgb>& picture, PictureSearch search);
 
-/// Motion from the first of two pictures to the second.
-/// The check: a pixel is `valid` if the motion found where it arrives leads back to it, to within
-/// sqrt(.01 (a^2 + b^2) + .5) pixels for motions of lengths a and b (Sundaram et al., "Dense Point Trajectories by
-/// GPU-Accelerated Large Displacement Optical Flow", ECCV 2010). Otherwise it has `no_counterpart` and does not move;
-/// where the motion leads out of the picture, nothing can be checked: `leaves_screen`.
-/// The same bits for any number of threads.
+/// Motion from the first of two pictures to the second. The check: a pixel is `valid` if the motion found where it
+/// arrives leads back to it, to within sqrt(.01 (a^2 + b^2) + .5) pixels for motions of lengths a and b (Sundaram et
+/// al., "Dense Point Trajectories by GPU-Accelerated Large Displacement Optical Flow", ECCV 2010). Otherwise it has
+/// `no_counterpart` and does not move; where the motion leads out of the picture, nothing can be checked:
+/// `leaves_screen`.
 /// @throws InputError as compute_image_motion and compute_flow
 MotionField compute_picture_motion(const SearchedPicture& first, const SearchedPicture& second, PictureSearch search);
 

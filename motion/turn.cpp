@@ -181,21 +181,20 @@ double TurnFinder::largest() const {
     return most;
 }
 
-std::vector<double> TurnFinder::subdivide(int camera_node, double begin, double end, double max_turn,
-                                          double extra_turn) {
-    const auto turn_within = [&](double from, double to, int count) {
+std::vector<double> TurnFinder::subdivide(int camera_node, double begin, double end, double max_turn) {
+    const auto turn_within = [&](double from, double to) {
         find(camera_node, from, to);
-        return largest() + extra_turn / count;
+        return largest();
     };
     // The allowance keeps equal parts of a steady spin from being split again by rounding.
     const double limit = max_turn * (1.0 + 1e-9);
-    const double turn = turn_within(begin, end, 1);
+    const double turn = turn_within(begin, end);
     if (!(turn > limit)) return {};
     int count = static_cast<int>(std::min<double>(std::ceil(turn / limit), max_step_count));
     const auto is_too_coarse = [&] {
         for (int step = 0; step < count; ++step) {
-            const double from = step_time(begin, end, step, count), to = step_time(begin, end, step + 1, count);
-            if (turn_within(from, to, count) > limit) return true;
+            if (turn_within(step_time(begin, end, step, count), step_time(begin, end, step + 1, count)) > limit)
+                return true;
         }
         return false;
     };

@@ -31,8 +31,7 @@ class TurnFinder {
     /// Times evenly between `begin` and `end`, in that direction, so many that from one to the next nothing that has a
     /// mesh, nor the background, turns by more than `max_turn` (radians). Empty where nothing turns further anyway. At
     /// most 511: a spin beyond 512 times `max_turn` gets longer steps. Leaves the turns of its last step behind.
-    /// @param extra_turn  radians from `begin` to `end`, at a constant rate, in addition to what the tracks say
-    std::vector<double> subdivide(int camera_node, double begin, double end, double max_turn, double extra_turn = 0.0);
+    std::vector<double> subdivide(int camera_node, double begin, double end, double max_turn);
 
   private:
     double turn_against_camera(int node) const;

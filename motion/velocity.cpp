@@ -26,13 +26,10 @@ Image<float> compute_image_velocity(const MotionField& motion, const ViewingCond
 
     Image<float> velocity(motion.path_length.width, motion.path_length.height);
     constexpr std::size_t pixels_per_chunk = 1 << 14;
-    parallel_for(velocity.size(), pixels_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const MotionValidity validity = motion.validity.pixels[i];
-            const bool unknown =
-                validity == MotionValidity::behind_camera || validity == MotionValidity::no_counterpart;
-            velocity.pixels[i] = unknown ? 0.0f : static_cast<float>(motion.path_length.pixels[i] * degrees_per_second);
-        }
+    parallel_each(velocity.size(), pixels_per_chunk, [&](std::size_t i) {
+        const MotionValidity validity = motion.validity.pixels[i];
+        const bool unknown = validity == MotionValidity::behind_camera || validity == MotionValidity::no_counterpart;
+        velocity.pixels[i] = unknown ? 0.0f : static_cast<float>(motion.path_length.pixels[i] * degrees_per_second);
     });
     return velocity;
 }

@@ -32,23 +32,13 @@ void add_band(const float* band, const float* elevation, std::size_t width, floa
     }
 }
 
-/// Adds a band whose elevation is 1 everywhere.
-void add_flat_band(const float* band, std::size_t width, float* sum) {
-    for (std::size_t x = 0; x < width; ++x) sum[x] += std::abs(band[x]);
-}
-
 /// Sums all bands of one row, and keeps f_6.
 void sum_bands(const BandRows& bands, const ElevationRow& elevation, RowBuffers& b) {
     const std::size_t width = b.sum.size();
     for (int i = 0; i < band_count; ++i) {
-        if (elevation.is_one(i)) {
-            add_flat_band(bands.band(i), width, b.sum.data());
-        } else {
-            elevation.elevations(i, b.flat.data());
-            add_band(bands.band(i), b.flat.data(), width, b.sum.data(), b.above.data());
-        }
+        elevation.elevations(i, b.flat.data());
+        add_band(bands.band(i), b.flat.data(), width, b.sum.data(), b.above.data());
     }
-    if (elevation.is_one(band_count - 1)) std::fill(b.flat.begin(), b.flat.end(), 1.0f);
 }
 
 /// (5.11) from the sums; a pixel without contrast gets f_6.

@@ -12,14 +12,9 @@ BandLevels make_band_levels(std::vector<Image<float>>& a, float grey) {
     BandLevels out;
     out.sizes = pyramid_sizes(a[0].width, a[0].height, band_count + 1);
     out.grey = grey;
-    parallel_for(band_count - 1, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin + 1; i < end + 1; ++i) {
-            Image<float> difference = expand(a[i + 1], out.sizes[i]);
-            for (std::size_t p = 0; p < difference.size(); ++p) {
-                difference.pixels[p] = a[i].pixels[p] - difference.pixels[p];
-            }
-            out.differences[i] = std::move(difference);
-        }
+    parallel_each(band_count - 1, 1, [&](std::size_t below) {
+        const std::size_t i = below + 1;
+        out.differences[i] = difference(a[i], expand(a[i + 1], out.sizes[i]));
     });
     out.finest = std::move(a[0]);
     out.second = a[1];

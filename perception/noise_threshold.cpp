@@ -1,7 +1,6 @@
 #include "perception/noise_threshold.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -147,7 +146,7 @@ std::vector<BandContrasts> find_contrasts(const Image<Rgb>& picture, double whit
     const std::vector<BandShape> shapes = visible_bands(picture.width, picture.height);
     const std::vector<LevelSize> sizes = pyramid_sizes(picture.width, picture.height, shapes.back().level + 1);
     const std::vector<Image<float>> bands = split_bands(compute_visual_channel(picture, white, 0), noise_bands);
-    parallel_for(bands.size(), 1, [&](std::size_t b, std::size_t) {
+    parallel_each(bands.size(), 1, [&](std::size_t b) {
         const Image<float> amplitude = expand_to_level(local_amplitude(bands[b], shapes[b]), sizes, shapes[b].level, 0);
         for (std::size_t i = 0; i < contrasts.size(); ++i)
             contrasts[i][b] = std::max(0.0f, amplitude.pixels[i]) / clamp_threshold_luminance(adaptation.pixels[i]);
@@ -175,7 +174,7 @@ NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRa
         for (int i = 0; i < frequency_nodes; ++i) held[f].squares[i] = std::pow(at(rho[i]), 2.0);
         for (std::size_t b = 0; b < noise_bands; ++b) held[f].bands[b] = at(pattern_rho[b]);
     }
-    parallel_for(luminance_nodes, 1, [&](std::size_t l, std::size_t) {
+    parallel_each(luminance_nodes, 1, [&](std::size_t l) {
         const double luminance = node_luminance(static_cast<int>(l));
         std::vector<Sensitivities> of_noise, of_bands;
         for (const double frequency : rho) of_noise.emplace_back(frequency, luminance);
@@ -229,12 +228,10 @@ Image<float> compute_noise_threshold(const NoiseVisibility& noise, const Image<R
         throw InputError("", "noise threshold", "picture, adaptation luminance and velocities differ in size");
     const std::vector<BandContrasts> contrasts = find_contrasts(picture, white, adaptation_luminance);
     Image<float> out(retinal.width, retinal.height);
-    parallel_for(out.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const float moved = retinal.pixels[i], seen = velocity.empty() ? 0.0f : velocity.pixels[i];
-            out.pixels[i] = noise.threshold(adaptation_luminance.pixels[i], moved, seen > moved ? seen - moved : 0.0f,
-                                            contrasts[i]);
-        }
+    parallel_each(out.size(), 4096, [&](std::size_t i) {
+        const float moved = retinal.pixels[i], seen = velocity.empty() ? 0.0f : velocity.pixels[i];
+        out.pixels[i] =
+            noise.threshold(adaptation_luminance.pixels[i], moved, seen > moved ? seen - moved : 0.0f, contrasts[i]);
     });
     return out;
 }

@@ -40,8 +40,7 @@ class NoiseVisibility {
     /// The standard deviation of one pixel's luminance that is just visible, cd/m2. In proportion to luminance from 1e4
     /// cd/m2 up, to 1e12.
     /// @param luminance  that the eye is adapted to, cd/m2; NaN and values below 1e-3 count as 1e-3
-    /// @param retinal    motion over the retina, deg/s; NaN and negative values count as 0
-    /// @param tracked    what the eye follows, deg/s, likewise
+    /// @param retinal, tracked  motion over the retina, and what the eye follows, deg/s; NaN and below 0 count as 0
     /// @param contrasts  amplitudes of the picture's bands over that luminance, finite, 0 and up
     float threshold(float luminance, float retinal, float tracked, const BandContrasts& contrasts = {}) const;
 
@@ -55,8 +54,7 @@ class NoiseVisibility {
 };
 
 /// NoiseVisibility::threshold of every pixel.
-/// @param picture   what is shown; white = 1
-/// @param white     luminance of the display's white, cd/m2
+/// @param picture, white  what is shown, white = 1; luminance of the display's white, cd/m2
 /// @param adaptation_luminance  cd/m2, of the picture as the display shows it: from screen_reflection to white and that
 /// @param retinal   deg/s (perception.h)
 /// @param velocity  image velocity, deg/s: what is not retinal motion is tracked; empty: nothing is

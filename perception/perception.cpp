@@ -49,7 +49,6 @@ std::vector<Image<float>> make_coarse_levels(Image<float> channel) {
     return levels;
 }
 
-/// Pyramids of the channels, and their saliency.
 /// @param motion  as cap_motion gives it
 /// @param a       Gaussian levels of A
 Saliency find_saliency(const Image<Rgb>& estimate, Image<float> motion, std::vector<Image<float>> a, float a_maximum,

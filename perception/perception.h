@@ -14,9 +14,8 @@
 namespace aleph {
 
 struct PerceptionMaps {
-    Image<float> aleph;  ///< (5.11) contrast elevation, no unit, 1 (strictest) to 250.6
-    Image<float>
-        adaptation;  ///< compute_adaptation_luminance of the estimate, cd/m2; empty unless the model of vision uses it
+    Image<float> aleph;             ///< (5.11) contrast elevation, no unit, 1 (strictest) to 250.6
+    Image<float> adaptation;        ///< compute_adaptation_luminance, cd/m2; empty unless the model of vision uses it
     Image<float> retinal_velocity;  ///< (5.5) deg/s, at least .15; empty if not requested
     Image<float> saliency;          ///< S, [0,1]; empty unless the guide is `saliency`
     /// Sums of N(feature map) per channel; empty if not requested or if the guide is not `saliency`

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/base/color.h"
 #include "engine/base/pixel_loops.h"
 
 namespace aleph {

@@ -13,9 +13,9 @@ struct SanitizeCounts {
     std::uint64_t clamped = 0;   ///< fireflies: they are scaled down to 10 times the 99.9 % quantile of luminance
 };
 
-/// Works in place. Negative values become 0. Holes of more than one pixel fill from their rim inwards; a frame without
-/// a valid pixel becomes black. If the 99.9 % quantile is 0 because most of the frame is black, the quantile of the
-/// pixels above 0 is used. In frames of fewer than 1000 pixels the quantile is the maximum: nothing is clamped.
+/// Works in place. Negative values become 0. Holes fill from their rim inwards; a frame without a valid pixel becomes
+/// black. If the 99.9 % quantile is 0, that of the pixels above 0 is used. In frames of fewer than 1000 pixels it is
+/// the maximum: nothing is clamped.
 SanitizeCounts sanitize_estimate(Image<Rgb>& estimate);
 
 }  // namespace aleph

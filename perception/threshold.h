@@ -12,8 +12,7 @@ namespace aleph {
 /// @throws InputError if the estimate is empty, or viewing is not positive and finite
 Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const ViewingConditions& viewing);
 
-/// The luminance error that goes unseen if it lasts, cd/m2: aleph times the threshold of the model at the adaptation
-/// luminance (6.9).
+/// The luminance error that goes unseen if it lasts, cd/m2: aleph times the model's threshold at that luminance (6.9).
 /// @throws InputError if the sizes differ
 Image<float> compute_threshold(const Image<float>& aleph, const Image<float>& adaptation_luminance,
                                const VisionModel& vision = thesis_vision());

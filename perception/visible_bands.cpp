@@ -59,11 +59,6 @@ Image<float> soften(const Image<float>& image) {
     return out;
 }
 
-Image<float> difference(Image<float> a, const Image<float>& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a.pixels[i] -= b.pixels[i];
-    return a;
-}
-
 }  // namespace
 
 Image<float> compute_visual_channel(const Image<Rgb>& picture, double white, int channel) {

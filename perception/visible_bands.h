@@ -30,10 +30,9 @@ VisualChannels compute_visual_channels(const Image<Rgb>& picture, double white);
 struct BandShape {
     double frequency = 0.0;  ///< at which sensitivity is taken, cycles per pixel of the picture
     double gain = 1.0;       ///< amplitudes times gain add up, as squares, to the amplitude of any grating
-    int signal_level =
-        0;          ///< of its signal: 4 pixels a cycle or more from the third band on, to be read between pixels
-    int level = 0;  ///< of its amplitude
-    int blurs = 0;  ///< passes of low_pass that average energy over about half a cycle
+    int signal_level = 0;    ///< of its signal: from the third band on 4 pixels a cycle or more, read between pixels
+    int level = 0;           ///< of its amplitude
+    int blurs = 0;           ///< passes of low_pass that average energy over about half a cycle
 };
 
 /// Bands of a picture, finest first, down to where a side has less than 4 pixels. With the frequencies and gains here

@@ -18,34 +18,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The reason of a failed system call; strerror is not safe between threads.
-std::string reason(const char* what, int error) {
-    return fmt::format("{}: {}", what, std::generic_category().message(error));
+std::string shown(const fs::path& path) {
+    return printable(path.string(), 4096);
 }
 
+/// A failed system call; strerror is not safe between threads.
 [[noreturn]] void fail(const fs::path& named, const char* what, int error) {
-    throw OutputError(printable(named.string(), 4096), reason(what, error));
+    throw OutputError(shown(named), fmt::format("{}: {}", what, std::generic_category().message(error)));
 }
 
 /// The file to write: `path`, or what it links to. Refuses what cannot be replaced.
 fs::path checked_target(const fs::path& path) {
-    if (!path.has_filename()) throw OutputError(printable(path.string(), 4096), "this is a folder, not a file name");
+    if (!path.has_filename()) throw OutputError(shown(path), "this is a folder, not a file name");
     std::error_code error;
     const fs::path target = follow_links(path);
     if (fs::is_symlink(target, error)) fail(path, "cannot follow the link", ELOOP);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     const bool is_folder = fs::is_directory(folder, error);
     if (error && error != std::errc::no_such_file_or_directory) fail(path, "cannot use its folder", error.value());
-    if (!is_folder) {
-        throw OutputError(printable(path.string(), 4096),
-                          fmt::format("the folder '{}' does not exist", printable(folder.string(), 4096)));
-    }
+    if (!is_folder) throw OutputError(shown(path), fmt::format("the folder '{}' does not exist", shown(folder)));
     const fs::file_status status = fs::status(target, error);
     if (fs::exists(status)) {
-        if (fs::is_directory(status)) throw OutputError(printable(path.string(), 4096), "this is a folder");
-        if (!fs::is_regular_file(status)) {
-            throw OutputError(printable(path.string(), 4096), "exists and is not a regular file");
-        }
+        if (fs::is_directory(status)) throw OutputError(shown(path), "this is a folder");
+        if (!fs::is_regular_file(status)) throw OutputError(shown(path), "exists and is not a regular file");
         if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
             fail(path, "cannot replace the existing file", errno);
     }
@@ -71,6 +66,27 @@ void create_folder_of(const fs::path& path) {
     if (error) fail(path, "cannot create its folder", error.value());
 }
 
+/// Every step is checked.
+void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& named) {
+    FileDescriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (fd.get() < 0) fail(named, "cannot create a file in this folder", errno);
+    for (std::size_t done = 0; done < bytes.size();) {
+        const std::size_t piece = std::min<std::size_t>(bytes.size() - done, std::size_t{1} << 26);
+        const ssize_t written = ::write(fd.get(), bytes.data() + done, piece);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(named, "cannot write", errno);
+        done += static_cast<std::size_t>(written);
+    }
+    if (::fsync(fd.get()) != 0) fail(named, "cannot flush to disk", errno);
+    if (!fd.close()) fail(named, "cannot close", errno);
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    if (error || size != bytes.size()) {
+        throw OutputError(shown(named),
+                          fmt::format("{} bytes reached the disk, not {}", error ? 0 : size, bytes.size()));
+    }
+}
+
 }  // namespace
 
 fs::path follow_links(fs::path path) {
@@ -91,26 +107,6 @@ fs::path hidden_beside(const fs::path& path, std::string_view suffix) {
     if (hidden.size() > longest && name.size() <= longest)
         hidden = fmt::format(".{}-{:016x}.{}", name.substr(0, kept), std::hash<std::string>()(name), suffix);
     return path.parent_path() / hidden;
-}
-
-void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& named) {
-    FileDescriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (fd.get() < 0) fail(named, "cannot create a file in this folder", errno);
-    for (std::size_t done = 0; done < bytes.size();) {
-        const std::size_t piece = std::min<std::size_t>(bytes.size() - done, std::size_t{1} << 26);
-        const ssize_t written = ::write(fd.get(), bytes.data() + done, piece);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail(named, "cannot write", errno);
-        done += static_cast<std::size_t>(written);
-    }
-    if (::fsync(fd.get()) != 0) fail(named, "cannot flush to disk", errno);
-    if (!fd.close()) fail(named, "cannot close", errno);
-    std::error_code error;
-    const auto size = fs::file_size(file, error);
-    if (error || size != bytes.size()) {
-        throw OutputError(printable(named.string(), 4096),
-                          fmt::format("{} bytes reached the disk, not {}", error ? 0 : size, bytes.size()));
-    }
 }
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {

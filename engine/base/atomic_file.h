@@ -30,9 +30,4 @@ void try_output(const std::filesystem::path& path);
 /// @throws OutputError naming `path`
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Creates `file` and writes the bytes, with every step checked; for use inside write_atomically.
-/// @param named  the file that messages name
-/// @throws OutputError
-void write_bytes(const std::filesystem::path& file, std::string_view bytes, const std::filesystem::path& named);
-
 }  // namespace aleph

@@ -1,11 +1,9 @@
 #pragma once
-// Parallel loops over chunks that do not depend on the number of threads, so that results combined in chunk order are
-// the same for any number of threads.
+// Parallel loops over chunks that are the same for any number of threads; so are results combined in chunk order.
 // ALEPH_STD_THREADS replaces oneTBB by std::thread for ThreadSanitizer, which reports false races in oneTBB.
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 
 #include "engine/base/flush_denormals.h"
 
@@ -16,7 +14,10 @@
 #include <thread>
 #include <vector>
 #else
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+
+#include <optional>
 #endif
 
 namespace aleph {
@@ -24,18 +25,38 @@ namespace aleph {
 /// Limits the number of threads of parallel_for during its lifetime. 0: all that the machine has.
 class ThreadLimit {
   public:
-    explicit ThreadLimit(int threads);
-    ~ThreadLimit();
+#if defined(ALEPH_STD_THREADS)
+    explicit ThreadLimit(int threads) : previous_(now.exchange(threads)) {}
+    ~ThreadLimit() {
+        now = previous_;
+    }
     ThreadLimit(const ThreadLimit&) = delete;
     ThreadLimit& operator=(const ThreadLimit&) = delete;
 
+    static inline std::atomic<int> now{0};
+
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    int previous_;
+#else
+    explicit ThreadLimit(int threads) {
+        if (threads > 0)
+            control_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    }
+
+  private:
+    std::optional<tbb::global_control> control_;
+#endif
 };
 
 /// Number of threads that parallel_for may use now.
-int thread_count();
+inline int thread_count() {
+#if defined(ALEPH_STD_THREADS)
+    const int limit = ThreadLimit::now;
+    return limit > 0 ? limit : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+#else
+    return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+#endif
+}
 
 /// Calls body(begin, end) for the ranges [0, grain), [grain, 2 grain), ... of [0, count), in any order, on any thread.
 /// The first exception thrown by a body reaches the caller.
@@ -74,6 +95,14 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
 #else
     tbb::parallel_for(std::size_t{0}, chunks, run_chunk);
 #endif
+}
+
+/// Calls visit(i) for each i below count, on any thread, `grain` of them in a row.
+template <class Visit>
+void parallel_each(std::size_t count, std::size_t grain, const Visit& visit) {
+    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) visit(i);
+    });
 }
 
 /// Rows that one thread takes at a time where a row is quick work.

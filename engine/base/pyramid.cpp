@@ -43,17 +43,20 @@ float filter_at(const float* row, int x) {
     return kernel_far * (row[x - 2] + row[x + 2]) + kernel_near * (row[x - 1] + row[x + 1]) + kernel_center * row[x];
 }
 
-/// Every `step`-th row of an image after the kernel down the columns: write(index, filtered), from many threads.
-template <class Write>
-void filter_rows(const Image<float>& image, int step, const Write& write) {
-    parallel_rows((image.height + step - 1) / step, rows_per_chunk, [&](int begin, int end) {
+/// Every `step`-th pixel of the image after the kernel in both axes.
+template <int step>
+Image<float> filter(const Image<float>& image) {
+    Image<float> out((image.width + step - 1) / step, (image.height + step - 1) / step);
+    parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
         std::vector<float> columns(image.width + 2 * padding);
         float* const filtered = columns.data() + padding;
         for (int y = begin; y < end; ++y) {
             filter_columns(image, step * y, filtered);
-            write(y, filtered);
+            float* const row = out.row(y);
+            for (int x = 0; x < out.width; ++x) row[x] = image.width == 1 ? filtered[0] : filter_at(filtered, step * x);
         }
     });
+    return out;
 }
 
 /// Index of coarse sample i reflected at the borders of the finer axis: fine position 2i stays even.
@@ -135,21 +138,16 @@ std::vector<LevelSize> pyramid_sizes(int width, int height, int count) {
 }
 
 Image<float> low_pass(const Image<float>& image) {
-    Image<float> out(image.width, image.height);
-    filter_rows(image, 1, [&](int y, const float* filtered) {
-        float* const row = out.row(y);
-        for (int x = 0; x < out.width; ++x) row[x] = out.width == 1 ? filtered[0] : filter_at(filtered, x);
-    });
-    return out;
+    return filter<1>(image);
 }
 
 Image<float> reduce(const Image<float>& image) {
-    Image<float> out(half_size(image.width), half_size(image.height));
-    filter_rows(image, 2, [&](int y, const float* filtered) {
-        float* const row = out.row(y);
-        for (int x = 0; x < out.width; ++x) row[x] = image.width == 1 ? filtered[0] : filter_at(filtered, 2 * x);
-    });
-    return out;
+    return filter<2>(image);
+}
+
+Image<float> difference(const Image<float>& a, Image<float> b) {
+    for (std::size_t i = 0; i < b.size(); ++i) b.pixels[i] = a.pixels[i] - b.pixels[i];
+    return b;
 }
 
 Image<float> expand(const Image<float>& image, LevelSize fine) {

@@ -29,6 +29,9 @@ Image<float> reduce(const Image<float>& image);
 /// An axis of size 1 is copied.
 Image<float> expand(const Image<float>& image, LevelSize fine);
 
+/// a - b, of one size.
+Image<float> difference(const Image<float>& a, Image<float> b);
+
 /// Levels 0 .. count-1; level 0 is the image itself.
 std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count);
 

@@ -1,10 +1,13 @@
 #pragma once
 // Random numbers that depend on seed, frame, pixel and sample, not on threads; sampling functions and their pdfs.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <numbers>
 
 namespace aleph {
 
@@ -62,17 +65,36 @@ struct Basis {
 };
 
 /// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1). n must be unit.
-Basis make_basis(const glm::vec3& n);
+inline Basis make_basis(const glm::vec3& n) {
+    const float sign = std::copysign(1.0f, n.z);
+    const float a = -1.0f / (sign + n.z);
+    const float b = n.x * n.y * a;
+    return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+}
 
 /// Direction about +z with density cos/pi; u in [0,1)^2. z is computed from u: from x and y it
 /// would lose its digits near the horizon.
-glm::vec3 sample_cosine_hemisphere(const glm::vec2& u);
-float pdf_cosine_hemisphere(float cos_theta);
+inline glm::vec3 sample_cosine_hemisphere(const glm::vec2& u) {
+    const float r = std::sqrt(u.x);
+    const float phi = 2.0f * std::numbers::pi_v<float> * u.y;
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1.0f - u.x))};
+}
+inline float pdf_cosine_hemisphere(float cos_theta) {
+    return std::max(0.0f, cos_theta) / std::numbers::pi_v<float>;
+}
 
 /// Barycentric (b1, b2) of a uniform point of a triangle.
-glm::vec2 sample_triangle(const glm::vec2& u);
+inline glm::vec2 sample_triangle(const glm::vec2& u) {
+    const float root = std::sqrt(u.x);
+    return {root * (1.0f - u.y), root * u.y};
+}
 
 /// Weight of strategy a against b, exponent 2 (Veach 1997); 0 where pdf_a is 0. Infinite pdfs give no NaN.
-float power_heuristic(float pdf_a, float pdf_b);
+inline float power_heuristic(float pdf_a, float pdf_b) {
+    if (!(pdf_a > 0.0f)) return 0.0f;
+    const float ratio = pdf_b / pdf_a;
+    if (!(ratio >= 0.0f)) return std::isinf(pdf_a) ? 0.5f : 1.0f;  // inf/inf, or a NaN
+    return 1.0f / (1.0f + ratio * ratio);
+}
 
 }  // namespace aleph

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/pose/camera_view.h"
 #include "engine/pose/parts.h"
 #include "engine/pose/pose.h"
+#include "engine/scene/points.h"
 #include "engine/surface/cage_checks.h"
 #include "engine/surface/limit_surface.h"
 
@@ -89,16 +89,14 @@ double measure_bend(const LimitSurface& surface, int part, const std::vector<glm
 /// Fills what depends on time.
 void place_shape(SurfaceShape& shape, const Scene& scene, const Mesh& mesh, double seconds) {
     const Cage& cage = scene.cages[mesh.subdivision.cage];
-    const auto control = shape.surface->make_control_points(cage_points_at(scene, cage, seconds));
+    const auto control = shape.surface->make_control_points(sample_points(scene.point_caches[cage.points], seconds));
     std::vector<glm::vec3> normals;
     shape.surface->evaluate_vertices(mesh.subdivision.part, control, shape.positions, normals);
     shape.bends.resize(shape.triangles.size());
     constexpr std::size_t triangles_per_chunk = 1024;
-    parallel_for(shape.bends.size(), triangles_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            shape.bends[i] = measure_bend(*shape.surface, mesh.subdivision.part, control, shape.positions,
-                                          shape.triangles[i], static_cast<int>(i));
-        }
+    parallel_each(shape.bends.size(), triangles_per_chunk, [&](std::size_t i) {
+        shape.bends[i] = measure_bend(*shape.surface, mesh.subdivision.part, control, shape.positions,
+                                      shape.triangles[i], static_cast<int>(i));
     });
 }
 

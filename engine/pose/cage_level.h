@@ -12,12 +12,10 @@ namespace aleph {
 
 /// The level of every cage, from Cage::level to Cage::max_level, at which its triangles in view are fine enough over
 /// the scene's range of frames: their edges are no longer than 4 pixels, or the limit surface lies within a tenth of a
-/// pixel of them, so that flat faces stay whole. It depends on scene, camera and size of the picture, not on the frames
-/// that are rendered. Lengths are measured at the triangle's nearest point, without foreshortening; hidden triangles
-/// count too.
-/// @param scene  with tessellated cages: their triangles tell how edges and bends shrink with the level
+/// pixel of them, so that flat faces stay whole. It does not depend on the frames that are rendered. Lengths are
+/// measured at the triangle's nearest point, without foreshortening; hidden triangles count too.
+/// @param scene  with tessellated cages
 /// @param camera  index into ScenePose::cameras
-/// @param width,height  pixels
 /// @param max_triangles  of all cages together; of those above their own level the largest give way
 std::vector<int> choose_cage_levels(const Scene& scene, int camera, int width, int height,
                                     std::size_t max_triangles = 4'000'000);

@@ -48,8 +48,7 @@ CameraRay make_camera_ray(const CameraView& view, double x, double y) {
 }
 
 glm::dvec3 compute_anchor(const CameraView& view) {
-    constexpr double cell =
-        16.0;  // m; a float then resolves .5 um near the camera, and a moving camera rarely changes cell
+    constexpr double cell = 16.0;  // m: a float resolves .5 um near the camera, which rarely changes cell
     const auto snap = [](double v) { return std::floor(v / cell + 0.5) * cell; };
     return {snap(view.position.x), snap(view.position.y), snap(view.position.z)};
 }

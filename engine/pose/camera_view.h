@@ -38,10 +38,7 @@ inline glm::dvec2 project_camera_point(const CameraView& view, const glm::dvec3&
     return {0.5 * view.width + view.axis_offset.x + p.x * scale, 0.5 * view.height + view.axis_offset.y - p.y * scale};
 }
 
-/// Pixel position of a sphere's centre; nothing where it is not before the camera, or the sphere is larger than so many
-/// pixels.
-/// @param center  world, m
-/// @param radius  m
+/// Pixel position of a sphere's centre (world, m); nothing where it is not before the camera, or the sphere is larger.
 inline std::optional<glm::dvec2> project_small_sphere(const CameraView& view, const glm::dvec3& center, double radius,
                                                       double most_pixels) {
     const glm::dvec3 p = to_camera(view, center);

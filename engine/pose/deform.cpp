@@ -161,7 +161,8 @@ void deform_cage(const Scene& scene, const Mesh& mesh, double seconds, LastCage&
     if (last.cage != mesh.subdivision.cage || last.surface != &surface) {
         last.cage = mesh.subdivision.cage;
         last.surface = &surface;
-        last.control = surface.make_control_points(cage_points_at(scene, scene.cages[mesh.subdivision.cage], seconds));
+        last.control = surface.make_control_points(
+            sample_points(scene.point_caches[scene.cages[mesh.subdivision.cage].points], seconds));
     }
     posed.control = last.control;
     surface.evaluate_vertices(mesh.subdivision.part, posed.control, posed.positions, posed.normals);

@@ -14,9 +14,8 @@ struct Deformer {
     int mesh = no_index;
     int node = no_index;   ///< skinned: the only node that carries the mesh
     bool changes = false;  ///< false: posed, but the same at every time
-    /// Where normals are computed from the moved triangles: per vertex, the number of its group; a group shares one
-    /// normal. Vertices of one point whose normals agree at rest form a group, so that an edge stays as smooth or
-    /// sharp as in the file.
+    /// Where normals are computed from the moved triangles: per vertex, the number of its group. Vertices of one point
+    /// whose normals agree at rest share one, so that an edge stays as smooth or sharp as in the file.
     std::vector<std::uint32_t> normal_groups;
 };
 

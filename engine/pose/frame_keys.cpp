@@ -1,10 +1,7 @@
 #include "engine/pose/frame_keys.h"
 
-#include <cmath>
-
 #include "engine/base/errors.h"
-#include "engine/pose/pose.h"
-#include "engine/scene/transforms.h"
+#include "engine/pose/parts.h"
 
 namespace aleph {
 
@@ -23,7 +20,9 @@ class FrameKeys {
             if (needs_keys(local.translation, false)) sample(local.translation);
             if (needs_keys(local.scale, false)) sample(local.scale);
             if (local.axis_rotation) {
-                if (needs_keys(local.axis_rotation->angle, true)) sample_turns(local);
+                if (!needs_keys(local.axis_rotation->angle, true)) continue;
+                local.rotation = make([&](double seconds) { return rotation_at(*local.axis_rotation, seconds); });
+                local.axis_rotation.reset();
             } else if (needs_keys(local.rotation, true)) {
                 sample(local.rotation);
             }
@@ -38,20 +37,9 @@ class FrameKeys {
         return is_animated(track) && (track.interpolation == Interpolation::cubic || (linear && is_linear));
     }
 
-    void sample_turns(LocalTransform& local) {
-        const AxisRotation turn = *local.axis_rotation;
-        const glm::dvec3 axis = safe_normalize(turn.axis);
-        local.rotation = make([&](double seconds) {
-            const double half = 0.5 * evaluate(turn.angle, seconds);
-            return glm::dquat(std::cos(half), axis * std::sin(half));
-        });
-        local.axis_rotation.reset();
-    }
-
     template <class T>
     void sample(Track<T>& track) {
-        const Track<T> given = track;
-        track = make([&](double seconds) { return evaluate(given, seconds); });
+        track = make([given = track](double seconds) { return evaluate(given, seconds); });
     }
 
     /// @param value  from a time in s

@@ -97,4 +97,19 @@ void update_pose(const Scene& scene, const PosePlan& plan, double seconds, Scene
     if (plan.environment) pose_environment(scene.environment, seconds, posed);
 }
 
+ScenePose pose(const Scene& scene, double seconds) {
+    ScenePose posed;
+    posed.world.resize(scene.nodes.size());
+    posed.visible.resize(scene.nodes.size());
+    posed.instances = list_instances(scene);
+    posed.shown.resize(posed.instances.size());
+    posed.meshes.resize(scene.meshes.size());
+    posed.materials.resize(scene.materials.size());
+    for (int node = 0; node < std::ssize(scene.nodes); ++node) {
+        if (scene.nodes[node].camera != no_index) posed.cameras.push_back({.node = node});
+    }
+    update_pose(scene, make_pose_plan(scene, true), seconds, posed);
+    return posed;
+}
+
 }  // namespace aleph

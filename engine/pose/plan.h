@@ -25,9 +25,8 @@ struct PosePlan {
 /// @param all  lists every part, as if each could change
 PosePlan make_pose_plan(const Scene& scene, bool all = false);
 
-/// Takes a pose of the same scene to another time. The result has the bits of pose(scene, seconds), but only what can
-/// change is computed.
-/// @param posed  from pose() or an earlier update
+/// Takes a pose of the same scene, from pose() or an earlier update, to another time. The result has the bits of
+/// pose(scene, seconds), but only what can change is computed.
 void update_pose(const Scene& scene, const PosePlan& plan, double seconds, ScenePose& posed);
 
 }  // namespace aleph

@@ -15,13 +15,10 @@
 namespace aleph {
 namespace {
 
-/// A visitor made of one function per type.
-template <class... Functions>
-struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
-template <class... Functions>  // clang before 17 does not deduce it by itself
-Overloaded(Functions...)->Overloaded<Functions...>;
+template <class T>
+std::size_t sample_count(const Track<T>& track) {
+    return track.key_count();
+}
 
 }  // namespace
 
@@ -74,10 +71,7 @@ FrameRange frame_range(const Scene& scene) {
         earliest = std::min(earliest, sample_time(sampling, 0));
         latest = std::max(latest, sample_time(sampling, count - 1));
     };
-    const Overloaded visit{
-        [&](const auto& track) { widen_samples(track.sampling, track.key_count()); },
-        [&](const OperationStack& stack) { widen_samples(stack.sampling, sample_count(stack)); },
-    };
+    const auto visit = [&](const auto& property) { widen_samples(property.sampling, sample_count(property)); };
     for (const Node& node : scene.nodes) visit_tracks(node, visit);
     for (const Mesh& mesh : scene.meshes) {
         visit_tracks(mesh, visit);

@@ -32,33 +32,17 @@ SampleRange find_range(const Track<T>& track, double from, double to) {
 
 template <class T>
 bool is_steady(const Track<T>& track, double from, double to) {
-    if (track.key_count() <= 1) return true;
     const auto [first, last] = find_range(track, from, to);
-    for (std::size_t key = first + 1; key <= last; ++key) {
-        if (key_value(track, key) != key_value(track, first)) return false;
-    }
-    if (track.interpolation != Interpolation::cubic) return true;
-    // A key's value, and those of its tangents that lie between the first key and the last.
-    const T zero = key_value(track, first) - key_value(track, first);
-    for (std::size_t key = first; key < last; ++key) {
-        if (track.values[3 * key + 2] != zero || track.values[3 * (key + 1)] != zero) return false;
-    }
-    return true;
+    return !do_keys_differ(track, first, last);
 }
 
 bool is_steady(const OperationStack& stack, double from, double to) {
-    const std::size_t samples = sample_count(stack), count = channel_count(stack);
-    if (samples <= 1) return true;
-    const auto [first, last] = find_range(stack.sampling, samples, from, to);
-    for (std::size_t i = (first + 1) * count; i < (last + 1) * count; ++i) {
-        if (stack.channels[i] != stack.channels[i - count]) return false;
-    }
-    return true;
+    const auto [first, last] = find_range(stack.sampling, sample_count(stack), from, to);
+    return !do_samples_differ(stack, first, last);
 }
 
 template <class Samples>
 bool are_samples_steady(const TimeSampling& sampling, const Samples& samples, double from, double to) {
-    if (samples.size() <= 1) return true;
     const auto [first, last] = find_range(sampling, samples.size(), from, to);
     for (std::size_t i = first + 1; i <= last; ++i) {
         if (samples[i] != samples[i - 1]) return false;

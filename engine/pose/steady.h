@@ -15,8 +15,8 @@ class SteadySpans {
     /// @param plan  make_pose_plan(scene)
     SteadySpans(const Scene& scene, const PosePlan& plan);
 
-    /// True where the scene has the same pose at all times of a span, both ends included. Other cameras do not count.
-    /// Tracks have the same bits at all these times (evaluate).
+    /// True where the scene has the same pose, bit for bit, at all times of a span with its ends. Other cameras do not
+    /// count.
     /// @param camera    index into ScenePose::cameras
     /// @param from, to  s; from <= to
     bool is_steady(int camera, double from, double to) const;

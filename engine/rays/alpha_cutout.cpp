@@ -19,12 +19,6 @@ int wrap(int i, int size, Wrap how) {
     return place < size ? place : period - 1 - place;
 }
 
-/// Far out a float holds no fraction of a texel, and the conversion to int would overflow.
-float within_reach(float coordinate) {
-    constexpr float limit = 1e6f;
-    return std::abs(coordinate) < limit ? coordinate : 0.0f;
-}
-
 template <class T>
 T between(const std::vector<T>& values, const glm::uvec3& t, float u, float v) {
     return values[t.x] * (1.0f - u - v) + values[t.y] * u + values[t.z] * v;
@@ -52,7 +46,7 @@ float AlphaTexture::sample(const glm::vec2& given) const {
     const glm::vec2 uv(reference.uv_offset + glm::dvec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x));
     // Mirroring has period 2: indices stay small whatever the repeat count.
     const auto texels = [](float at, int size, Wrap how) {
-        const float reached = within_reach(at);
+        const float reached = std::abs(at) < max_texture_coordinate ? at : 0.0f;
         const float near =
             how == Wrap::clamp ? std::clamp(reached, 0.0f, 1.0f) : reached - 2.0f * std::floor(0.5f * reached);
         return near * static_cast<float>(size);

@@ -4,7 +4,6 @@
 #include <embree3/rtcore.h>
 
 #include <atomic>
-#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -30,8 +29,6 @@ class EmbreeDevice {
     /// @param configuration  Embree's, such as "isa=avx2"
     explicit EmbreeDevice(const char* configuration);
     ~EmbreeDevice();
-    EmbreeDevice(const EmbreeDevice&) = delete;
-    EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 
     RTCDevice handle() const { return device_; }
 

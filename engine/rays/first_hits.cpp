@@ -8,22 +8,22 @@ namespace aleph {
 
 namespace {
 
-constexpr int block = 4;  // 4 x 4 neighbouring pixels share a packet
+constexpr int block_side = 4;  // 4 x 4 neighbouring pixels share a packet
 
 }  // namespace
 
 void cast_rays(const RayScene& scene, const std::function<CameraRay(int x, int y)>& make_ray, Blend blend,
                Image<Hit>& hits) {
-    const int bands = (hits.height + block - 1) / block;
+    const int bands = (hits.height + block_side - 1) / block_side;
     parallel_for(static_cast<std::size_t>(bands), 1, [&](std::size_t band_begin, std::size_t band_end) {
         Tracer tracer(scene, blend);
         for (std::size_t band = band_begin; band < band_end; ++band) {
-            const int y0 = static_cast<int>(band) * block;
-            for (int x0 = 0; x0 < hits.width; x0 += block) {
-                std::array<Ray, block * block> rays;
-                std::array<Hit, block * block> found;
+            const int y0 = static_cast<int>(band) * block_side;
+            for (int x0 = 0; x0 < hits.width; x0 += block_side) {
+                std::array<Ray, block_side * block_side> rays;
+                std::array<Hit, block_side * block_side> found;
                 std::size_t count = 0;
-                const int y1 = std::min(y0 + block, hits.height), x1 = std::min(x0 + block, hits.width);
+                const int y1 = std::min(y0 + block_side, hits.height), x1 = std::min(x0 + block_side, hits.width);
                 for (int y = y0; y < y1; ++y) {
                     for (int x = x0; x < x1; ++x) {
                         const CameraRay ray = make_ray(x, y);

@@ -9,8 +9,7 @@
 
 namespace aleph {
 
-/// Casts one ray for every pixel of `hits`, in packets over blocks of neighbouring pixels. Hit::distance is in lengths
-/// of the ray's direction.
+/// Casts one ray for every pixel of `hits`, in packets over blocks of neighbouring pixels.
 /// @param make_ray  the ray of pixel (x, y), world; called from any thread
 void cast_rays(const RayScene& scene, const std::function<CameraRay(int x, int y)>& make_ray, Blend blend,
                Image<Hit>& hits);

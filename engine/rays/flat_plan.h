@@ -20,13 +20,9 @@ struct FlatPlan {
     glm::dvec3 origin{0.0};
 };
 
-/// An instance stays outside the flat tree if
-/// - rounding to single precision relative to `origin` could change its shape, or make rays that leave its surface
-/// start
-///   visibly farther from it (fits() in flat_plan.cpp), or
-/// - its mesh has many instances, whose copies would take too much memory: at most as many triangles are added as the
-///   scene has, and a quarter of a million.
-/// @param scene  its meshes' positions are finite
+/// An instance stays outside the flat tree if rounding to single precision relative to `origin` could change its shape
+/// or move the start of rays that leave it (fits() in flat_plan.cpp), or if its mesh has many instances, whose copies
+/// would take too much memory: at most as many triangles are added as the scene has, and a quarter of a million.
 /// @param flatten  false: no instance is flat
 FlatPlan make_flat_plan(const Scene& scene, const PosePlan& plan, bool flatten = true);
 

@@ -73,7 +73,7 @@ bool ObjectLayer::place(std::size_t index, const PlacedTree& object, const glm::
     Placement& placement = placements_[index];
     const glm::dvec3 place = glm::dvec3(world[3]) - anchor;
     Bounds bounds;
-    bool enabled = state.shown && state.usable && is_traceable(world);
+    bool enabled = state.shown && is_traceable(world);
     if (enabled && !object.tree->bounds().empty()) {
         glm::dmat4 placed = world;
         placed[3] = glm::dvec4(place, 1.0);

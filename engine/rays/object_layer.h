@@ -28,7 +28,6 @@ struct Placement {
 
 struct ObjectState {
     bool shown = true;     ///< false: rays do not meet it
-    bool usable = true;    ///< false: shown, but it has no points to be met
     bool changed = false;  ///< its triangles have
 };
 

@@ -40,7 +40,7 @@ std::size_t place_objects(ObjectLayer& layer, std::span<const MeshStructures::Ob
         const RefitMesh::Change change = deforms ? changes[object.deforming] : RefitMesh::Change::none;
         const TriangleTree* const tree = deforms ? state.refits[object.deforming]->tree() : object.tree;
         const bool usable = change != RefitMesh::Change::unusable && tree != nullptr;
-        const ObjectState now{posed.shown[object.instance] != 0, usable, change == RefitMesh::Change::moved};
+        const ObjectState now{usable && posed.shown[object.instance] != 0, change == RefitMesh::Change::moved};
         touched += layer.place(i, {tree, object.first_instance}, posed.world[object.node], anchor, now);
     }
     if (touched > 0) layer.commit();

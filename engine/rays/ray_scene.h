@@ -1,9 +1,7 @@
 #pragma once
-// Rays through a posed scene. RayScene owns Embree's structures; each thread casts rays with a Tracer of its own.
-// Everything here is in single precision, in metres relative to the anchor (compute_anchor), so that a scene far from
-// the origin renders as well as one at it.
+// Rays through a posed scene, in single precision, in metres relative to the anchor (compute_anchor), so that a scene
+// far from the origin renders as well as one at it.
 
-#include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -43,10 +41,9 @@ class RayScene {
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 
-    /// Places the instances as in a pose of the scene that this was made for. Those that cannot move by their tracks
-    /// are skipped, so that the cost follows what moves (all if the anchor moved); of the others only those are touched
-    /// whose transform, points or visibility changed. Instances that are not traceable (a scale of 0, points that are
-    /// not finite) are left out.
+    /// Places the instances as in a pose of the scene that this was made for. Only those are touched whose transform,
+    /// points or visibility changed, all if the anchor moved, so that the cost follows what moves. Instances that are
+    /// not traceable (a scale of 0, points that are not finite) are left out.
     /// @return number of instances touched
     /// @throws std::bad_alloc, also from Embree; after that this can only be destroyed
     std::size_t update(const ScenePose& posed, const glm::dvec3& anchor);

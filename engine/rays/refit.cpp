@@ -1,8 +1,6 @@
 #include "engine/rays/refit.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "engine/rays/state.h"
@@ -15,18 +13,10 @@ constexpr double max_spread_growth = 2.0;
 
 constexpr std::size_t cluster_size = 32;
 
-struct Box {
-    glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
-
-    void add(const glm::vec3& p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    double half_area() const {
-        const glm::dvec3 d = glm::dvec3(high) - glm::dvec3(low);
-        return d.x * d.y + d.y * d.z + d.z * d.x;
-    }
-};
+double half_area(const Bounds& box) {
+    const glm::dvec3 d = box.high - box.low;
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
 
 /// The bits of a number below 1024 with two zeros between each.
 std::uint32_t spread_bits(std::uint32_t v) {
@@ -39,12 +29,12 @@ std::uint32_t spread_bits(std::uint32_t v) {
 /// Triangles along a Morton curve through their first corners.
 std::vector<std::uint32_t> sort_neighbours(const std::vector<glm::uvec3>& triangles,
                                            const std::vector<glm::vec3>& points) {
-    Box box;
-    for (const glm::vec3& p : points) box.add(p);
-    const glm::vec3 scale = 1023.0f / glm::max(box.high - box.low, glm::vec3(1e-30f));
+    Bounds box;
+    for (const glm::vec3& p : points) box.add(glm::dvec3(p));
+    const glm::vec3 low(box.low), scale = 1023.0f / glm::max(glm::vec3(box.high) - low, glm::vec3(1e-30f));
     std::vector<std::uint32_t> codes(triangles.size());
     for (std::size_t i = 0; i < codes.size(); ++i) {
-        const glm::vec3 cell = glm::clamp((points[triangles[i].x] - box.low) * scale, 0.0f, 1023.0f);
+        const glm::vec3 cell = glm::clamp((points[triangles[i].x] - low) * scale, 0.0f, 1023.0f);
         codes[i] = spread_bits(static_cast<std::uint32_t>(cell.x)) |
                    spread_bits(static_cast<std::uint32_t>(cell.y)) << 1 |
                    spread_bits(static_cast<std::uint32_t>(cell.z)) << 2;
@@ -90,17 +80,18 @@ void RefitMesh::build() {
 /// Area of the boxes about runs of neighbours, relative to that of the box of all points: a measure of the tree's lower
 /// levels that does not depend on the size of the whole.
 double RefitMesh::measure_spread() const {
-    Box all;
-    for (const glm::vec3& p : points_) all.add(p);
+    Bounds all;
+    for (const glm::vec3& p : points_) all.add(glm::dvec3(p));
     double sum = 0.0;
     for (std::size_t begin = 0; begin < neighbours_.size(); begin += cluster_size) {
-        Box box;
+        Bounds box;
         const std::size_t end = std::min(begin + cluster_size, neighbours_.size());
         for (std::size_t i = begin; i < end; ++i)
-            for (int corner = 0; corner < 3; ++corner) box.add(points_[mesh_.triangles[neighbours_[i]][corner]]);
-        sum += box.half_area();
+            for (int corner = 0; corner < 3; ++corner)
+                box.add(glm::dvec3(points_[mesh_.triangles[neighbours_[i]][corner]]));
+        sum += half_area(box);
     }
-    const double whole = all.half_area();
+    const double whole = half_area(all);
     return whole > 0.0 ? sum / whole : 0.0;
 }
 

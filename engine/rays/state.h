@@ -59,8 +59,6 @@ struct MeshStructures {
 
 struct RayScene::State {
     explicit State(std::shared_ptr<const MeshStructures> shared);
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
 
     std::shared_ptr<const MeshStructures> meshes;
     std::vector<std::unique_ptr<RefitMesh>> refits;  ///< as MeshStructures::deforming

@@ -1,6 +1,5 @@
 #include "engine/rays/traversal.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 

@@ -1,8 +1,7 @@
 #pragma once
-// The test of a ray against four triangles at a time. Embree's trees only find the blocks of triangles that a ray can
-// meet; which triangle is met, and where, is decided here, in double precision and with operations that every processor
-// rounds alike. So a picture does not depend on the kernels that Embree chooses, nor on the order of its traversal.
-//
+// The test of a ray against four triangles at a time. Embree's trees only find the blocks that a ray can meet; which
+// triangle is met, and where, is decided here, in double precision and with operations that every processor rounds
+// alike. So a picture does not depend on Embree's kernels, nor on the order of its traversal.
 // Method: S. Woop, C. Benthin, I. Wald: "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013. An edge that two
 // triangles share gets the same number with opposite signs, so that no ray passes between them.
 

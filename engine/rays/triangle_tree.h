@@ -14,9 +14,8 @@
 
 namespace aleph {
 
-/// A tree over boxes that are a little larger than what they hold. Embree's traversal rounds, and its rays are single
-/// precision; both move a ray by less than the boxes are enlarged (enlarge()), as long as the ray starts no farther
-/// than `reach` from `center`. RayLane::enter sees to that.
+/// A tree over boxes that are a little larger than what they hold. Embree's rounding moves a ray by less than the boxes
+/// are enlarged, as long as the ray starts no farther than `reach` from `center` (enter_tree).
 struct TreeExtent {
     glm::dvec3 center{0.0};
     double radius = 0.0;  ///< of a sphere about everything in the tree

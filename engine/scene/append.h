@@ -13,16 +13,14 @@ struct FileTiming {
     std::optional<double> first{}, last{};  ///< sample of what changes, s; unset where nothing does
 };
 
-/// Appends every list of elements, and the warnings, and shifts the indices accordingly. If memory runs out the scene
-/// stays as it was.
-/// @param parent_node  becomes the parent of the part's roots
+/// Appends every list of elements, and the warnings, and shifts the indices. If memory runs out the scene stays as it
+/// was.
+/// @param parent_node  of the part's roots
 /// @param include  index of the include that the part comes from
 void append_part(Scene& scene, Scene&& part, int parent_node, int include);
 
-/// Shows what an include brought a second time: copies of its nodes that share its meshes, lights and cameras.
-/// @param begin, end   its nodes
-/// @param parent_node  of the copies' roots
-/// @param include      index of the include that the copies come from
+/// Shows what an include brought, nodes `begin` to `end`, a second time: copies that share its meshes, lights and
+/// cameras. Other parameters as in append_part.
 void append_copy(Scene& scene, int begin, int end, int parent_node, int include);
 
 /// True for nodes that append_copy can show: a mesh with a skin or morph targets stands under one node only.

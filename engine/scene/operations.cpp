@@ -82,9 +82,9 @@ glm::dmat4 evaluate(const OperationStack& stack, double seconds) {
     return result;
 }
 
-bool is_animated(const OperationStack& stack) {
+bool do_samples_differ(const OperationStack& stack, std::size_t first, std::size_t last) {
     const std::size_t count = channel_count(stack);
-    for (std::size_t i = count; i < sample_count(stack) * count; ++i)
+    for (std::size_t i = (first + 1) * count; i < (last + 1) * count; ++i)
         if (stack.channels[i] != stack.channels[i - count]) return true;
     return false;
 }

@@ -22,7 +22,12 @@ std::size_t sample_count(const OperationStack& stack);
 /// A rotation about an axis of length 0 does not turn.
 glm::dmat4 evaluate(const OperationStack& stack, double seconds);
 
+/// True where samples from the first to the last differ.
+bool do_samples_differ(const OperationStack& stack, std::size_t first, std::size_t last);
+
 /// False only where evaluate gives the same matrix at every time.
-bool is_animated(const OperationStack& stack);
+inline bool is_animated(const OperationStack& stack) {
+    return sample_count(stack) > 1 && do_samples_differ(stack, 0, sample_count(stack) - 1);
+}
 
 }  // namespace aleph

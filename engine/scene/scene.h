@@ -1,8 +1,7 @@
 #pragma once
-// The animated scene: plain data, elements refer to each other by index, every property is a track over time.
-// Every reader fills this one structure; pose() (engine/pose/pose.h) evaluates it at a time.
-// Right-handed, y up, metres, seconds; angles in radians; colours linear Rec.709; light units unscaled (candela, lux,
-// nits).
+// The animated scene, which every reader fills: plain data, elements refer to each other by index, every property is a
+// track over time; pose() (engine/pose/pose.h) evaluates it. Right-handed, y up, metres, seconds; angles in radians;
+// colours linear Rec.709; light units unscaled (candela, lux, nits).
 
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>

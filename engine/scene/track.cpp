@@ -80,6 +80,28 @@ const char* fault_of_key(const glm::dmat4& m) {
     return affine ? nullptr : "its matrix is not affine: the last row must be 0 0 0 1";
 }
 
+/// Polar decomposition: M = sign * rotation * stretch; sign is -1 where M mirrors, and then goes with the stretch.
+struct Polar {
+    glm::dquat rotation;
+    glm::dmat3 stretch;
+    double sign;
+    bool singular;
+};
+
+Polar decompose_polar(const glm::dmat3& m) {
+    // Below this ratio of singular values the rotation is rounding error.
+    constexpr double singular_ratio = 1e-12;
+    const SingularValues svd = decompose_singular(m);
+    const glm::dvec3& sigma = svd.sigma;
+    const double largest = std::max({sigma.x, sigma.y, sigma.z});
+    if (!(std::min({sigma.x, sigma.y, sigma.z}) > singular_ratio * largest)) return {{}, {}, 1.0, true};
+
+    const glm::dmat3 orthogonal = svd.u * glm::transpose(svd.v);
+    const double sign = glm::determinant(orthogonal) < 0.0 ? -1.0 : 1.0;
+    const glm::dmat3 scaled(svd.v[0] * sigma.x, svd.v[1] * sigma.y, svd.v[2] * sigma.z);
+    return {safe_normalize(glm::quat_cast(orthogonal * sign)), scaled * glm::transpose(svd.v), sign, false};
+}
+
 }  // namespace
 
 template <class T>
@@ -98,14 +120,13 @@ T evaluate(const Track<T>& track, double seconds) {
 }
 
 template <class T>
-bool is_animated(const Track<T>& track) {
-    const std::size_t keys = track.key_count();
-    for (std::size_t i = 1; i < keys; ++i)
-        if (key_value(track, i) != key_value(track, 0)) return true;
-    if (track.interpolation != Interpolation::cubic || keys <= 1) return false;
-    for (std::size_t i = 2; i + 2 < track.values.size(); ++i)  // the outermost tangents do nothing
-        if (i % 3 != 1 && std::ranges::any_of(components(track.values[i]), [](double c) { return c != 0.0; }))
-            return true;
+bool do_keys_differ(const Track<T>& track, std::size_t first, std::size_t last) {
+    for (std::size_t key = first + 1; key <= last; ++key)
+        if (key_value(track, key) != key_value(track, first)) return true;
+    if (track.interpolation != Interpolation::cubic) return false;
+    const auto is_zero = [](double c) { return c == 0.0; };
+    for (std::size_t i = 3 * first + 2; i + 2 < 3 * (last + 1); ++i)
+        if (i % 3 != 1 && !std::ranges::all_of(components(track.values[i]), is_zero)) return true;
     return false;
 }
 
@@ -128,9 +149,9 @@ void validate(const Track<T>& track, const std::string& file, const std::string&
             throw InputError(file, place, fmt::format("key {}: {}", i, fault));
 }
 
-#define ALEPH_INSTANTIATE_TRACK(T)                \
-    template T evaluate(const Track<T>&, double); \
-    template bool is_animated(const Track<T>&);   \
+#define ALEPH_INSTANTIATE_TRACK(T)                                           \
+    template T evaluate(const Track<T>&, double);                            \
+    template bool do_keys_differ(const Track<T>&, std::size_t, std::size_t); \
     template void validate(const Track<T>&, const std::string&, const std::string&);
 ALEPH_INSTANTIATE_TRACK(double)
 ALEPH_INSTANTIATE_TRACK(glm::dvec3)
@@ -160,6 +181,21 @@ glm::dquat slerp_short(const glm::dquat& from, const glm::dquat& to, double frac
     const double sine = std::sin(theta);
     if (!(sine > 0.0)) return a;
     return safe_normalize(a * (std::sin((1.0 - fraction) * theta) / sine) + b * (std::sin(fraction * theta) / sine));
+}
+
+glm::dmat4 interpolate_matrix(const glm::dmat4& a, const glm::dmat4& b, double fraction) {
+    if (fraction <= 0.0 || a == b) return a;
+    if (fraction >= 1.0) return b;
+    glm::dmat4 result = lerp_components(a, b, fraction);
+    if (glm::dmat3(a) == glm::dmat3(b)) return result;  // a pure move, exactly
+
+    const Polar from = decompose_polar(glm::dmat3(a)), to = decompose_polar(glm::dmat3(b));
+    // On the way into or out of a mirror the object has to pass through flat: it does so without a turn.
+    if (from.singular || to.singular || from.sign != to.sign) return result;
+    const glm::dmat3 rotation = glm::mat3_cast(slerp_short(from.rotation, to.rotation, fraction));
+    const glm::dmat3 linear = rotation * lerp_components(from.stretch, to.stretch, fraction) * from.sign;
+    for (int column = 0; column < 3; ++column) result[column] = glm::dvec4(linear[column], 0.0);
+    return result;
 }
 
 }  // namespace aleph

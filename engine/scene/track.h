@@ -39,19 +39,24 @@ struct Track {
 template <class T>
 T evaluate(const Track<T>& track, double seconds);
 
-/// False only where evaluate gives the same value at every time (one key, or all keys and tangents alike).
-template <class T>
-bool is_animated(const Track<T>& track);
-
 /// Value of a key: the middle one of a cubic key's three.
 template <class T>
 const T& key_value(const Track<T>& track, std::size_t key) {
     return track.values[track.interpolation == Interpolation::cubic ? 3 * key + 1 : key];
 }
 
+/// True where keys from the first to the last differ, or a tangent between them is not 0. Same types as evaluate.
+template <class T>
+bool do_keys_differ(const Track<T>& track, std::size_t first, std::size_t last);
+
+/// False only where evaluate gives the same value at every time (one key, or all keys and tangents alike).
+template <class T>
+bool is_animated(const Track<T>& track) {
+    return track.key_count() > 1 && do_keys_differ(track, 0, track.key_count() - 1);
+}
+
 /// Readers call this for every track. There must be keys, three values for each key of a cubic track, finite values, no
-/// zero rotation, affine matrices (last row 0 0 0 1), and times that validate(TimeSampling) accepts (a single key needs
-/// none). Negative times are valid.
+/// zero rotation, affine matrices (last row 0 0 0 1), and times that validate(TimeSampling) accepts, but for one key.
 /// @throws InputError with the index of the first bad key in its reason. Same types as evaluate.
 template <class T>
 void validate(const Track<T>& track, const std::string& file, const std::string& place);
@@ -65,8 +70,8 @@ double largest_turn_degrees(const Track<glm::dquat>& track);
 /// Accurate for every angle, also near 0 and 180 degrees: theta = 2 atan2(|a - b|, |a + b|).
 glm::dquat slerp_short(const glm::dquat& a, const glm::dquat& b, double fraction);
 
-/// Between two affine matrices: M = R S each (polar), R by slerp, S and translation by lerp; exact at the ends.
-/// A reflection is factored out once, with the sign of both determinants.
+/// Between two affine matrices: M = R S each (polar), R by slerp, S and translation by lerp; exact at the ends. A
+/// common reflection is factored out (Shoemake and Duff 1992, "Matrix animation and polar decomposition").
 glm::dmat4 interpolate_matrix(const glm::dmat4& a, const glm::dmat4& b, double fraction);
 
 }  // namespace aleph

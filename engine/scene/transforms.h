@@ -24,10 +24,9 @@ double turn_between(const glm::dquat& a, const glm::dquat& b);
 /// -1 where the matrix mirrors, so that a triangle's geometric orientation must be flipped; else 1.
 double orientation_sign(const glm::dmat4& world);
 
-/// Takes object-space normals to world-space ones (normalise the result). The cofactor matrix with the sign of
-/// the determinant, largest element 1: proportional to the inverse transpose, so an outward normal stays outward in
-/// a mirror, where cross(edge, edge) of the transformed triangle must be turned by orientation_sign. It is finite for
-/// singular matrices too, and zero where their rank is below 2.
+/// Takes object-space normals to world-space ones (normalise the result): the cofactor matrix with the sign of the
+/// determinant, largest element 1. An outward normal stays outward in a mirror, where cross(edge, edge) must be turned
+/// by orientation_sign. Finite for singular matrices too, and zero where their rank is below 2.
 glm::dmat3 normal_matrix(const glm::dmat4& world);
 
 /// M = U diag(sigma) V^T. U and V are orthogonal (either may mirror), sigma >= 0 in no particular order. Where a sigma

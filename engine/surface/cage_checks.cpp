@@ -111,6 +111,10 @@ class Checker {
         }
     }
 
+    void check_sharpness(const char* of, std::size_t index, float value) const {
+        if (!std::isfinite(value)) refuse(fmt::format("{} {} has a sharpness that is not a finite number", of, index));
+    }
+
     void check_creases() const {
         if (cage_.creases.lengths.size() != cage_.creases.sharpness.size()) {
             refuse(fmt::format("{} creases, but {} sharpnesses", cage_.creases.lengths.size(),
@@ -120,9 +124,7 @@ class Checker {
         for (std::size_t c = 0; c < cage_.creases.lengths.size(); ++c) {
             const int length = cage_.creases.lengths[c];
             if (length < 2) refuse(fmt::format("crease {} has {} points; it needs at least 2", c, length));
-            if (!std::isfinite(cage_.creases.sharpness[c])) {
-                refuse(fmt::format("crease {} has a sharpness that is not a finite number", c));
-            }
+            check_sharpness("crease", c, cage_.creases.sharpness[c]);
             total += static_cast<std::size_t>(length);
         }
         if (total != cage_.creases.points.size()) {
@@ -143,9 +145,7 @@ class Checker {
             if (!is_point(cage_.corners.points[c])) {
                 refuse(fmt::format("corner {} names point {} of {}", c, cage_.corners.points[c], points_));
             }
-            if (!std::isfinite(cage_.corners.sharpness[c])) {
-                refuse(fmt::format("corner {} has a sharpness that is not a finite number", c));
-            }
+            check_sharpness("corner", c, cage_.corners.sharpness[c]);
         }
     }
 

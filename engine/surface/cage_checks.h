@@ -19,9 +19,8 @@ inline constexpr int max_subdivision_level = 10;
 std::size_t measure_crowding(const Cage& cage, std::size_t cage_points);
 inline constexpr std::size_t max_crowding = std::size_t{1} << 22;
 
-/// Checks sizes, indices and numbers. Refused: faces of fewer than 3 or of repeated points, indices out of range, too
-/// crowded cages, a sharp edge at an inner point of two edges, Loop faces that are no
-/// triangles, arrays that do not fit each other, numbers that are not finite.
+/// Refuses faces of fewer than 3 or of repeated points, indices out of range, too crowded cages, a sharp edge at an
+/// inner point of two edges, Loop faces that are no triangles, arrays that do not fit each other, infinite numbers.
 /// @param cage_points  how many points the cage's point cache has
 /// @throws InputError (place: the cage's name)
 void validate(const Cage& cage, std::size_t cage_points);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "engine/base/errors.h"
 #include "engine/surface/cage_checks.h"
 #include "engine/surface/sharing.h"
@@ -81,14 +79,10 @@ class GridBuilder : private SharedVertices {
                 int& vertex = rows[j * (n + 1) + i];
                 if (j == 0)
                     vertex = edge_vertex(f, 0, i);
-                else if (grid_.faces.triangular && i + j == n)
+                else if (i == (grid_.faces.triangular ? n - j : n))
                     vertex = edge_vertex(f, 1, j);
-                else if (grid_.faces.triangular && i == 0)
-                    vertex = edge_vertex(f, 2, n - j);
                 else if (i == 0)
-                    vertex = edge_vertex(f, 3, n - j);
-                else if (i == n)
-                    vertex = edge_vertex(f, 1, j);
+                    vertex = edge_vertex(f, grid_.faces.triangular ? 2 : 3, n - j);
                 else if (j == n)
                     vertex = edge_vertex(f, 2, n - i);
                 else
@@ -193,16 +187,11 @@ class GridBuilder : private SharedVertices {
 }  // namespace
 
 void FaceGrid::find_corners(const GridTriangle& triangle, glm::ivec2 (&corners)[3]) const {
-    const glm::ivec2 cell(triangle.i, triangle.j);
-    if (triangular) {
-        corners[0] = triangle.half == 0 ? cell : cell + glm::ivec2(1, 0);
-        corners[1] = triangle.half == 0 ? cell + glm::ivec2(1, 0) : cell + glm::ivec2(1, 1);
-        corners[2] = cell + glm::ivec2(0, 1);
-        return;
-    }
-    corners[0] = cell;
-    corners[1] = triangle.half == 0 ? cell + glm::ivec2(1, 0) : cell + glm::ivec2(1, 1);
-    corners[2] = triangle.half == 0 ? cell + glm::ivec2(1, 1) : cell + glm::ivec2(0, 1);
+    const glm::ivec2 cell(triangle.i, triangle.j), right = cell + glm::ivec2(1, 0), below = cell + glm::ivec2(0, 1);
+    const bool first = triangle.half == 0;
+    corners[0] = triangular && !first ? right : cell;
+    corners[1] = first ? right : cell + 1;
+    corners[2] = first && !triangular ? cell + 1 : below;
 }
 
 SurfaceGrid make_surface_grid(const Cage& cage, const Far::TopologyRefiner& refiner, int level) {

@@ -13,8 +13,7 @@
 namespace aleph {
 
 /// A vertex of the triangles. Faces that meet at it name the same location for its position, so that there are no
-/// cracks; where the surface is infinitely sharp they have vertices of their own, for their normals, and at seams of
-/// the texture.
+/// cracks; they have vertices of their own where the surface is infinitely sharp, and at seams of the texture.
 struct GridVertex {
     LimitLocation position, normal, uv;
 };
@@ -48,9 +47,7 @@ struct SurfaceGrid {
     std::vector<PartGrid> parts;
 };
 
-/// The grid of every face that is drawn (no hole), in the cage's order of faces; every edge of the cage has 2^level
-/// segments.
-/// @param refiner  of the cage
+/// The grid of every face that is drawn (no hole), in the cage's order; every edge of the cage has 2^level segments.
 /// @throws InputError where the triangles would be too many
 SurfaceGrid make_surface_grid(const Cage& cage, const Far::TopologyRefiner& refiner, int level);
 

@@ -124,11 +124,9 @@ void LimitSurface::evaluate_vertices(int part, std::span<const glm::dvec3> contr
     positions.resize(vertices.size());
     normals.resize(vertices.size());
     constexpr std::size_t vertices_per_chunk = 4096;
-    parallel_for(vertices.size(), vertices_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            positions[i] = state_->patches->position(control, vertices[i].position);
-            normals[i] = glm::vec3(state_->compute_normal(control, vertices[i]));
-        }
+    parallel_each(vertices.size(), vertices_per_chunk, [&](std::size_t i) {
+        positions[i] = state_->patches->position(control, vertices[i].position);
+        normals[i] = glm::vec3(state_->compute_normal(control, vertices[i]));
     });
 }
 
@@ -158,10 +156,6 @@ Mesh LimitSurface::make_mesh(int part, std::span<const glm::dvec3> control) cons
     mesh.triangles = state_->part(part).corners;
     mesh.subdivision.part = part;
     return mesh;
-}
-
-std::vector<glm::dvec3> cage_points_at(const Scene& scene, const Cage& cage, double seconds) {
-    return sample_points(scene.point_caches[cage.points], seconds);
 }
 
 namespace {

@@ -13,14 +13,10 @@ namespace aleph {
 /// Immutable and safe to share between threads. Points are in object space, m.
 class LimitSurface {
   public:
-    /// @param level  every edge of the cage gets 2^level segments. It affects the triangles only; the limit surface and
-    ///               its control points are the same at every level
-    /// @throws InputError (place: the cage's name) where the cage's topology cannot be subdivided, or the triangles
-    ///         would be too many
+    /// @param level  every edge of the cage gets 2^level segments; it affects the triangles only
+    /// @throws InputError (place: the cage's name) where the topology cannot be subdivided, or triangles are too many
     LimitSurface(const Cage& cage, std::size_t cage_points, int level);
     ~LimitSurface();
-    LimitSurface(const LimitSurface&) = delete;
-    LimitSurface& operator=(const LimitSurface&) = delete;
 
     /// The level asked for; 1 in place of 0 where some face is no quad (triangle for Loop).
     int level() const;
@@ -37,8 +33,7 @@ class LimitSurface {
                            std::vector<glm::vec3>& normals) const;
 
     /// The limit point behind the point (1 - u - v) p0 + u p1 + v p2 of a part's triangle; u and v are clamped, NaN is
-    /// a failed check. Of the limit surface, not of the triangle: the same point at every level, the tessellation's own
-    /// at the corners (to 1e-15 of the cage's size). Same bits for same control points.
+    /// a failed check. The same point at every level, the tessellation's own at the corners (to 1e-15 of the size).
     glm::dvec3 evaluate(int part, std::span<const glm::dvec3> control, int primitive, double u, double v) const;
 
     /// The part's triangles, texture coordinates, positions and normals for the given points.
@@ -49,12 +44,9 @@ class LimitSurface {
     std::unique_ptr<State> state_;
 };
 
-/// The cage's points at a time, in double. Points that do not move have the same bits at every time.
-std::vector<glm::dvec3> cage_points_at(const Scene& scene, const Cage& cage, double seconds);
-
-/// (Re)makes the triangles, normals and first texture coordinates of every mesh that a cage has in the scene, at the
-/// cage's level and its points' first sample, and sets MeshSubdivision::limit. Adds what list_warnings (cage_checks.h)
-/// says to the scene's warnings, once.
+/// (Re)makes the triangles, normals and first texture coordinates of every mesh that a cage has, at the cage's level
+/// and its points' first sample, and sets MeshSubdivision::limit. Adds list_warnings (cage_checks.h) to the scene's,
+/// once.
 /// @throws InputError
 void tessellate_cage(Scene& scene, int cage);
 

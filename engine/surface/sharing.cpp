@@ -12,8 +12,7 @@ SharedVertices::Sets::Sets(std::size_t count) : parent_(count) {
 }
 
 int SharedVertices::Sets::find(int i) {
-    const auto parent = [&](int of) -> int& { return parent_[of]; };
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
 }
 
@@ -61,11 +60,8 @@ LimitLocation SharedVertices::edge_location(int f, int k, int m) const {
         const int size = base_.GetFaceVertices(f).size(), half = n / 2;
         return m <= half ? at(first + k, m, 0, half) : at(first + (k + 1) % size, 0, n - m, half);
     }
-    if (regular_size_ == 3) {
-        if (k == 0) return at(first, m, 0, n);
-        return k == 1 ? at(first, n - m, m, n) : at(first, 0, n - m, n);
-    }
     if (k == 0) return at(first, m, 0, n);
+    if (regular_size_ == 3) return k == 1 ? at(first, n - m, m, n) : at(first, 0, n - m, n);
     if (k == 1) return at(first, n, m, n);
     return k == 2 ? at(first, n - m, n, n) : at(first, 0, n - m, n);
 }

@@ -2,10 +2,21 @@
 // N(.), the global non-linear normalization of Itti, Koch and Niebur 1998 (Yee 2000, section 5.3): promotes maps with
 // one outstanding peak, suppresses maps with many peaks of similar height.
 
+#include <vector>
+
 #include "engine/base/image.h"
-#include "perception/saliency/local_maxima.h"
+#include "engine/base/pyramid.h"
 
 namespace aleph {
+
+/// A map at full size, given as the raster of a level and the sizes of all levels; level 0: the raster itself.
+struct ExpandedMap {
+    const Image<float>* image;
+    int level;
+    const std::vector<LevelSize>* sizes;
+
+    LevelSize size() const { return sizes->front(); }
+};
 
 /// N(F) = scale() * (F - minimum). A map whose range is not above its floor becomes 0.
 struct Normalization {

@@ -26,14 +26,12 @@ struct WeightedMap {
 std::vector<WeightedMap> weigh_maps(const std::vector<FeatureMap>& maps, const std::vector<LevelSize>& sizes,
                                     double max_a, SaliencyGrid grid) {
     std::vector<WeightedMap> weighted(maps.size());
-    parallel_for(maps.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const double floor = maps[i].channel == FeatureChannel::motion ? motion_floor : feature_floor * max_a;
-            const FeatureMap& map = maps[i];
-            weighted[i] = {&map, grid == SaliencyGrid::full
-                                     ? compute_normalization({&map.difference, map.level, &sizes}, floor)
-                                     : compute_normalization(map.difference, floor)};
-        }
+    parallel_each(maps.size(), 1, [&](std::size_t i) {
+        const FeatureMap& map = maps[i];
+        const double floor = map.channel == FeatureChannel::motion ? motion_floor : feature_floor * max_a;
+        weighted[i] = {&map, grid == SaliencyGrid::full
+                                 ? compute_normalization({&map.difference, map.level, &sizes}, floor)
+                                 : compute_normalization(map.difference, floor)};
     });
     // Maps that N(.) makes 0 are dropped: they need no second expansion.
     std::erase_if(weighted, [](const WeightedMap& w) { return w.normalization.scale() == 0.0; });
@@ -67,18 +65,15 @@ void sum_full(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>
 
 /// Sums per centre level on its own grid, from the coarsest centre to the finest.
 void sum_center(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>& sizes, Saliency& out) {
-    parallel_for(out.conspicuity.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t channel = begin; channel < end; ++channel) {
-            Image<float> sum;
-            for (int level = coarsest_center; level >= finest_center; --level) {
-                const LevelSize size = sizes[level];
-                sum = sum.empty() ? Image<float>(size.width, size.height) : expand(sum, size);
-                for (const WeightedMap& w : maps) {
-                    if (w.map->level != level || index_of(w.map->channel) != channel) continue;
-                    add_normalized(w.map->difference.row(0), sum.size(), w.normalization, sum.row(0));
-                }
+    parallel_each(out.conspicuity.size(), 1, [&](std::size_t channel) {
+        Image<float>& sum = out.conspicuity[channel];
+        for (int level = coarsest_center; level >= finest_center; --level) {
+            const LevelSize size = sizes[level];
+            sum = sum.empty() ? Image<float>(size.width, size.height) : expand(sum, size);
+            for (const WeightedMap& w : maps) {
+                if (w.map->level != level || index_of(w.map->channel) != channel) continue;
+                add_normalized(w.map->difference.row(0), sum.size(), w.normalization, sum.row(0));
             }
-            out.conspicuity[channel] = std::move(sum);
         }
     });
 }
@@ -101,11 +96,9 @@ Range find_range(const float* values, std::size_t count) {
 /// sum = sum of N(conspicuity); returns its range.
 Range sum_channels(const Saliency& saliency, Image<float>& sum) {
     std::array<Normalization, channel_count> normalization;
-    parallel_for(normalization.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            normalization[c] = compute_normalization(
-                {&saliency.conspicuity[c], saliency.conspicuity_level, &saliency.sizes}, summed_floor);
-        }
+    parallel_each(normalization.size(), 1, [&](std::size_t c) {
+        normalization[c] = compute_normalization(
+            {&saliency.conspicuity[c], saliency.conspicuity_level, &saliency.sizes}, summed_floor);
     });
     std::vector<Range> ranges((sum.height + rows_per_band - 1) / rows_per_band);
     parallel_rows(sum.height, rows_per_band, [&](int begin, int end) {

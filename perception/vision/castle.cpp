@@ -1,7 +1,6 @@
 #include "perception/vision/castle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace aleph {

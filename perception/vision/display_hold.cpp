@@ -1,6 +1,5 @@
 #include "perception/vision/display_hold.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

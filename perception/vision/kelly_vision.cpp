@@ -1,7 +1,6 @@
 #include "perception/vision/kelly_vision.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "perception/vision/fast_math.h"
 #include "perception/vision/tvi.h"
@@ -34,8 +33,7 @@ void KellyRow::load(const StimulusRow& row) {
     const float* const velocity = row.retinal;
     float* const spread = spread_.data();
     float* const peak = peak_.data();
-    float largest = 0.0f;
-#pragma omp simd reduction(max : largest)
+#pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {
         const float moving = velocity[x] > slowest ? velocity[x] : slowest;  // also where it is NaN
         const float v = moving < max_model_velocity ? moving : max_model_velocity;
@@ -43,14 +41,8 @@ void KellyRow::load(const StimulusRow& row) {
         const float l = std::abs(log10_2 * fast_log2(v) + log_offset);
         const float k = static_cast<float>(csf_k_offset) + static_cast<float>(csf_k_slope) * (l * l * l);
         spread[x] = s;
-        largest = s > largest ? s : largest;
         peak[x] = peak_factor * k * v / (s * s);
     }
-    max_spread_ = largest;
-}
-
-bool KellyRow::is_one(int band) const {
-    return !(slope_[band] * max_spread_ > 1.0f);
 }
 
 void KellyRow::elevations(int band, float* out) const {

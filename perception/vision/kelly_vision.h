@@ -27,8 +27,7 @@ struct KellyModel {
 /// Daly 1998, "Engineering observations from spatiovelocity and spatiotemporal visual models": the thesis's constants.
 inline constexpr KellyModel daly_1998{.c0 = 1.14, .c1 = 0.67, .c2 = 1.7, .min_velocity = 0.15};
 /// Laird, Rosen, Pelz, Montag and Daly 2006, "Spatio-velocity CSF as a function of retinal velocity using unstabilized
-/// stimuli": fitted to eyes that move freely, from 0.3 deg/s. Their (5.6) has one more factor c1, which is part of c0
-/// here.
+/// stimuli": fitted to eyes that move freely, from 0.3 deg/s. c0 holds one more factor c1 of their (5.6).
 inline constexpr KellyModel laird_2006{.c0 = 0.6329 * 0.8404, .c1 = 0.8404, .c2 = 0.7986, .min_velocity = 0.3};
 
 inline constexpr double csf_k_offset = 6.1;        ///< (5.7)
@@ -47,14 +46,12 @@ class KellyRow final : public ElevationRow {
     /// Reads retinal velocities only, and keeps no pointer.
     void load(const StimulusRow& row) override;
     void elevations(int band, float* out) const override;
-    bool is_one(int band) const override;
 
   private:
     KellyModel model_;
     std::array<float, band_count> slope_;  ///< rho / rho_peak = slope * (c2 v + 2)
     std::vector<float> spread_;            ///< c2 v + 2
-    float max_spread_ = 0.0f;
-    std::vector<float> peak_;  ///< CSF_max
+    std::vector<float> peak_;              ///< CSF_max
 };
 
 }  // namespace aleph

@@ -48,9 +48,6 @@ class ElevationRow {
 
     /// out[x] = f of a band.
     virtual void elevations(int band, float* out) const = 0;
-
-    /// Returns true if f of a band is known to be 1 in the whole row: its values are then not asked for.
-    virtual bool is_one(int /*band*/) const { return false; }
 };
 
 /// Makes the elevations of a row of some width.

@@ -12,8 +12,6 @@
 #include "render/python/arrays.h"
 #include "render/python/bindings.h"
 #include "render/python/frame_object.h"
-#include "render/python/long_work.h"
-#include "render/python/scene_object.h"
 #include "render/python/settings_object.h"
 #include "render/settings/motion_source.h"
 

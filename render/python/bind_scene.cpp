@@ -1,6 +1,5 @@
 // Loading, saving, and what belongs to the whole scene.
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <cmath>
@@ -11,7 +10,6 @@
 #include "engine/scene_file/scene_text.h"
 #include "render/python/bindings.h"
 #include "render/python/elements.h"
-#include "render/python/scene_object.h"
 
 namespace aleph::python {
 

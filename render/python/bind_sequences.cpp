@@ -1,20 +1,33 @@
 // Rendering: single frames, and sequences.
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <mutex>
 #include <optional>
 
 #include "engine/base/errors.h"
-#include "engine/pose/pose.h"
+#include "engine/base/parallel.h"
 #include "render/frame/sequence.h"
 #include "render/python/bindings.h"
 #include "render/python/frame_object.h"
-#include "render/python/long_work.h"
-#include "render/python/scene_object.h"
 #include "render/python/settings_object.h"
 
 namespace aleph::python {
+
+void run_without_lock(int threads, const py::object& on_progress, const Work& work) {
+    constexpr int most_threads = 4096;
+    if (threads < 0 || threads > most_threads)
+        throw InputError("", "threads", fmt::format("{}: expected 0 (all processors) to {}", threads, most_threads));
+    const FrameProgress report = [&](double fraction, const char* stage) {
+        const py::gil_scoped_acquire lock;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (!on_progress.is_none()) on_progress(fraction, stage);
+    };
+    const py::gil_scoped_release release;
+    const ThreadLimit limit(threads);
+    work(report);
+}
 
 namespace {
 

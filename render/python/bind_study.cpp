@@ -1,6 +1,5 @@
 // Studies: what settings cost and what error they leave.
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <nlohmann/json.hpp>
@@ -8,8 +7,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/python/bindings.h"
-#include "render/python/long_work.h"
-#include "render/python/scene_object.h"
 #include "render/study/prepared_study.h"
 #include "render/study/run_study.h"
 #include "render/study/search_study.h"
@@ -17,8 +14,6 @@
 #include "render/study/study_files.h"
 
 namespace aleph::python {
-
-namespace py = pybind11;
 
 namespace {
 

@@ -3,12 +3,10 @@
 #include <pybind11/stl.h>
 
 #include "engine/base/errors.h"
-#include "engine/image/image_file.h"
 #include "engine/scene/place.h"
 #include "render/output/frame_files.h"
 #include "render/python/arrays.h"
 #include "render/python/bindings.h"
-#include "render/python/scene_object.h"
 
 namespace aleph::python {
 

@@ -4,7 +4,7 @@
 
 #include "engine/base/errors.h"
 #include "render/python/bindings.h"
-#include "render/python/hooks.h"
+#include "render/python/settings_object.h"
 #include "render/settings/setting_table.h"
 
 namespace aleph::python {

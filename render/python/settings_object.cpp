@@ -3,10 +3,132 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/base/errors.h"
+#include "render/python/arrays.h"
 
 namespace aleph::python {
 
+namespace {
+
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+/// A function's result, with one value for each pixel; a single value stands for all.
+/// @throws InputError
+Floats to_row(const py::object& result, py::ssize_t count, const char* what) {
+    const Floats values = Floats::ensure(result);
+    if (!values || (values.ndim() != 0 && values.size() != count)) {
+        PyErr_Clear();
+        throw InputError("", what, fmt::format("expected {} numbers, one for each that it was given", count));
+    }
+    if (values.ndim() != 0) return values;
+    return Floats(py::module_::import("numpy").attr("full")(count, values, "float32"));
+}
+
+class PythonVision;
+
+/// One row of pixels.
+class PythonRow : public ElevationRow {
+  public:
+    PythonRow(const PythonVision& vision, std::array<double, band_count> rho, int width)
+        : vision_(vision), rho_(rho), width_(width) {}
+    void load(const StimulusRow& row) override { row_ = row; }
+    void elevations(int band, float* out) const override;
+
+  private:
+    const PythonVision& vision_;
+    std::array<double, band_count> rho_;
+    int width_;
+    StimulusRow row_;
+};
+
+class PythonVision : public VisionModel {
+  public:
+    PythonVision(std::string name, py::function elevation, py::object threshold)
+        : name_(std::move(name)), elevation_(std::move(elevation)), threshold_(std::move(threshold)) {}
+
+    std::string name() const override { return name_; }
+    std::string summary() const override { return "a Python function"; }
+    bool uses_luminance() const override { return true; }
+
+    ElevationRowMaker make_rows(const std::array<double, band_count>& rho, const Presentation&) const override {
+        return [this, rho](int width) { return std::make_unique<PythonRow>(*this, rho, width); };
+    }
+
+    void thresholds(const float* luminance, std::size_t count, float* out) const override {
+        const py::gil_scoped_acquire lock;
+        if (threshold_.is_none()) return thesis_vision().thresholds(luminance, count, out);
+        const Floats values = to_row(threshold_(row(luminance, count)), static_cast<py::ssize_t>(count), "threshold");
+        for (std::size_t i = 0; i < count; ++i) {
+            out[i] = values.data()[i];
+            if (!(out[i] > 0.0f) || !std::isfinite(out[i]))
+                throw InputError("", "threshold",
+                                 fmt::format("{} cd/m2 for {} cd/m2: it has to be above 0", out[i], luminance[i]));
+        }
+    }
+
+    void find_elevations(double frequency, const StimulusRow& of, std::size_t count, float* out) const {
+        const py::gil_scoped_acquire lock;
+        const Floats values =
+            to_row(elevation_(frequency, row(of.retinal, count), row(of.tracked, count), row(of.luminance, count)),
+                   static_cast<py::ssize_t>(count), "elevation");
+        for (std::size_t i = 0; i < count; ++i) {
+            if (std::isnan(values.data()[i])) throw InputError("", "elevation", "it gave NaN");
+            out[i] = std::clamp(values.data()[i], 1.0f, static_cast<float>(highest_aleph));
+        }
+    }
+
+  private:
+    static py::array_t<float> row(const float* values, std::size_t count) {
+        return py::array_t<float>(static_cast<py::ssize_t>(count), values);
+    }
+
+    std::string name_;
+    py::function elevation_;
+    py::object threshold_;
+};
+
+void PythonRow::elevations(int band, float* out) const {
+    vision_.find_elevations(rho_.at(static_cast<std::size_t>(band)), row_, static_cast<std::size_t>(width_), out);
+}
+
+class PythonAdapter : public AccuracyAdapter {
+  public:
+    explicit PythonAdapter(py::function adapter) : adapter_(std::move(adapter)) {}
+
+    Image<float> adapt(const Image<float>& aleph, double accuracy) const override {
+        const py::gil_scoped_acquire lock;
+        const py::array_t<float> given({py::ssize_t{aleph.height}, py::ssize_t{aleph.width}}, aleph.pixels.data());
+        return take_numbers(adapter_(given, accuracy), "adapter");
+    }
+
+  private:
+    py::function adapter_;
+};
+
+class PythonRule : public StoppingRule {
+  public:
+    explicit PythonRule(py::function rule) : rule_(std::move(rule)) {}
+
+    std::vector<std::uint8_t> find_enough(const StagePixels& pixels) const override {
+        const py::gil_scoped_acquire lock;
+        const py::object result =
+            rule_(copy_list(pixels.x), copy_list(pixels.y), copy_list(pixels.samples), copy_list(pixels.error),
+                  copy_list(pixels.deviation), copy_list(pixels.tolerance));
+        const Floats values = to_row(result, static_cast<py::ssize_t>(pixels.x.size()), "stopping rule");
+        std::vector<std::uint8_t> enough;
+        for (py::ssize_t i = 0; i < values.size(); ++i) enough.push_back(values.data()[i] != 0.0f);
+        return enough;
+    }
+
+  private:
+    py::function rule_;
+};
+
+/// A setting's value: a bool, a number, text, or a sequence (a size, or a list of names).
+/// @throws InputError naming the key
 SettingValue to_setting(const std::string& key, const py::handle& value) {
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
     if (py::isinstance<py::str>(value)) return value.cast<std::string>();
@@ -24,6 +146,13 @@ SettingValue to_setting(const std::string& key, const py::handle& value) {
     throw InputError("", key, "expected a number, text, True or False");
 }
 
+}  // namespace
+
+std::unique_ptr<VisionModel> make_vision(const std::string& name, const py::function& elevation,
+                                         const py::object& threshold) {
+    return std::make_unique<PythonVision>(name, elevation, threshold);
+}
+
 GivenSettings read_settings(Scene& scene, const py::dict& arguments, bool keeps_to_error) {
     GivenSettings given;
     SettingMap map;
@@ -36,9 +165,9 @@ GivenSettings read_settings(Scene& scene, const py::dict& arguments, bool keeps_
         } else if (key == "vision") {
             given.vision = make_vision("own", function, py::none());
         } else if (key == "adapter") {
-            given.adapter = make_adapter(function);
+            given.adapter = std::make_unique<PythonAdapter>(function);
         } else if (key == "sampling") {
-            given.rule = make_stopping_rule(function);
+            given.rule = std::make_unique<PythonRule>(function);
             map[key] = std::string("variance");
         } else {
             throw InputError("", key, "a function can be the vision, the adapter or the sampling");

@@ -89,8 +89,7 @@ struct GuideSettings {
 
 /// The irradiance cache.
 struct CacheSettings {
-    double accuracy =
-        0.15;        ///< ambient accuracy alpha_Acc: smaller is more accurate; 0: every sample has rays of its own
+    double accuracy = 0.15;  ///< ambient accuracy alpha_Acc: smaller is exacter; 0: every sample has rays of its own
     int gather = 0;  ///< rays over the hemisphere, of a record; 0: what the accuracy needs (choose_rays), 2 of a sample
     double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
     int light_step = 10;  ///< frames between lighting keyframes of indirect light; 0: every frame computes its own
@@ -146,22 +145,19 @@ struct RenderSettings {
 /// Overwrites the settings that the map has. An error above 0 first sets how accuracy and samples follow it
 /// (follow_error); what else the map has overrides that.
 /// @param source  where the map comes from, for messages: a file, "--set"
-/// @throws InputError naming the key, if it is unknown, or its value has another type, is out of range, or is not in
-/// this version. The settings before that key, in alphabetical order, have been overwritten.
+/// @throws InputError naming the key, if it is unknown, or its value has another type or is out of range. The settings
+/// before that key, in alphabetical order, have been overwritten.
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source);
 
 /// Asks for an error of 1 where neither the scene's settings nor those given choose the work.
 void add_default_error(const SettingMap& scene, SettingMap& given);
 
-/// Settings with which a picture is made to an error that is asked for: the accuracy of records that leaves most of the
-/// error to samples, no lighting keyframes, 16 bounces, and as many samples as their noise needs to go unseen, 4,096 at
-/// most.
-/// @param error  thresholds, above 0
+/// Settings with which a picture is made to an error in thresholds, above 0: records that leave most of the error to
+/// samples, no lighting keyframes, 16 bounces, and as many samples as their noise needs to go unseen, 4,096 at most.
 void follow_error(RenderSettings& settings, double error);
 
-/// Settings of a reference that judges pictures with `settings`: traced paths without a guide, with all of the light:
-/// 16 diffuse bounces or, if the settings have more, those. Size, longest path, filter and levels of cages are those of
-/// the settings.
+/// Settings of a reference that judges pictures with `settings`: traced paths without a guide, with 16 diffuse bounces
+/// or, if the settings have more, those. Size, longest path, filter and levels of cages are those of the settings.
 RenderSettings traced_reference_settings(const RenderSettings& settings);
 
 /// GGX alpha that lobes have at least where a Lambert layer turned the path; 0: their own. Cached light blurs caustics

@@ -1,7 +1,6 @@
 #include "scenes/antique-room/antique_room.h"
 
 #include "scenes/common/build.h"
-#include "scenes/common/generator.h"
 
 namespace aleph {
 

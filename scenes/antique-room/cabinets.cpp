@@ -24,7 +24,7 @@ struct BookRow {
 void add_books(const Group& shelf, const std::string& name, const BookRow& row, const std::vector<int>& bindings) {
     double x = row.from;
     for (int i = 0;; ++i) {
-        const auto value = [&](int k) { return lattice_value(i, k, row.seed); };
+        const auto value = [&](int k) { return pick(row.seed, i, k); };
         const double thick = 0.022 + 0.03 * value(0), tall = row.height * (0.72 + 0.22 * value(1)),
                      deep = 0.15 + 0.05 * value(2);
         if (x + thick + 0.05 > row.to) break;
@@ -69,24 +69,16 @@ void add_bookcase_body(const Group& bookcase, const AntiqueMaterials& materials)
 /// Panels on the doors, and a cornice on three sides.
 void add_bookcase_mouldings(const Group& bookcase, const AntiqueMaterials& materials) {
     const double width = bookcase_size.x, height = bookcase_size.y, depth = bookcase_size.z;
-    const std::vector<glm::dvec2> profile = {{0.0, 0.0},     {0.0, 0.01},    {0.0, 0.01},
-                                             {0.012, 0.017}, {0.026, 0.012}, {0.034, 0.0}};
+    const Profile profile = {{0.0, 0.0}, {0.0, 0.01}, {0.0, 0.01}, {0.012, 0.017}, {0.026, 0.012}, {0.034, 0.0}};
     const int panel = add_cage(bookcase.scene, "bookcase_panel", make_rectangle_moulding({0.54, 0.38}, profile, false),
                                materials.mahogany);
     for (const auto& [side, letter] : both_sides)
         bookcase.add_mesh("bookcase_panel_" + letter, panel, {side * 0.35, 0.38, 0.5 * depth - 0.015});
+    const Profile crown_profile = {{0.0, -0.1}, {0.015, -0.09}, {0.02, -0.06}, {0.05, -0.03}, {0.07, 0.0},
+                                   {0.07, 0.0}, {0.07, 0.03},   {0.07, 0.03},  {-0.1, 0.03}};
     const double x = 0.5 * width + 0.02, z = 0.5 * depth;
     add_cage_node(bookcase, "bookcase_crown",
-                  make_moulding({{x, z + 0.1}, {x, -z - 0.02}, {-x, -z - 0.02}, {-x, z + 0.1}}, false,
-                                {{0.0, -0.1},
-                                 {0.015, -0.09},
-                                 {0.02, -0.06},
-                                 {0.05, -0.03},
-                                 {0.07, 0.0},
-                                 {0.07, 0.0},
-                                 {0.07, 0.03},
-                                 {0.07, 0.03},
-                                 {-0.1, 0.03}}),
+                  make_moulding({{x, z + 0.1}, {x, -z - 0.02}, {-x, -z - 0.02}, {-x, z + 0.1}}, false, crown_profile),
                   materials.mahogany, {0.0, height, 0.0}, z_to_up);
     bookcase.add_shape("bookcase_top", box({width, 0.03, depth}), materials.walnut, {0.0, height + 0.005, 0.0});
 }

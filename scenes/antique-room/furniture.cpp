@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "scenes/antique-room/antique_room.h"
 #include "scenes/common/build.h"
@@ -13,8 +12,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// A turned leg: rings, a baluster and a bun foot.
 Shape turned_leg(double height, double radius) {

@@ -1,5 +1,4 @@
 #include <array>
-#include <numbers>
 
 #include "scenes/antique-room/antique_room.h"
 #include "scenes/common/texture_tools.h"
@@ -7,8 +6,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Six rows of long dark boards.
 glm::dvec3 color_boards(const glm::dvec2& uv) {

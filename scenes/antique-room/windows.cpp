@@ -13,8 +13,8 @@ namespace {
 /// A window: posts and bars in front of an emissive picture, and a sill below.
 void add_casement(const Group& window, const std::string& name, const glm::dvec2& size, int outside, int paint) {
     window.add_shape(name + "_sky", quad(size.x, size.y), outside, {0.0, 0.0, 0.012});
-    const std::vector<glm::dvec2> casing = {{-0.02, 0.0},  {-0.02, 0.09}, {-0.02, 0.09}, {0.0, 0.1},   {0.06, 0.1},
-                                            {0.08, 0.085}, {0.1, 0.09},   {0.12, 0.07},  {0.12, 0.07}, {0.12, 0.0}};
+    const Profile casing = {{-0.02, 0.0},  {-0.02, 0.09}, {-0.02, 0.09}, {0.0, 0.1},   {0.06, 0.1},
+                            {0.08, 0.085}, {0.1, 0.09},   {0.12, 0.07},  {0.12, 0.07}, {0.12, 0.0}};
     add_cage_node(window, name + "_casing", make_rectangle_moulding(size, casing, true), paint);
     for (int i = -1; i <= 1; ++i)
         window.add_shape(fmt::format("{}_post_{}", name, i + 1), box({i == 0 ? 0.06 : 0.025, size.y, 0.035}), paint,

@@ -1,12 +1,10 @@
-// Balls that fall under a ring, and those that roll off their plinths: they fall, bounce and come to rest. Between
-// impacts the path is a parabola, which a cubic track through the positions and velocities at the impacts represents
-// exactly.
+// Balls that fall under a ring, or roll off their plinths, bounce and come to rest. Between impacts the path is a
+// parabola, which a cubic track through the positions and velocities at the impacts represents exactly.
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/build.h"
@@ -15,8 +13,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Nine balls hang from a ring and fall one after the other.
 const glm::dvec3 ring_place(-3.55, 0.0, 1.75);
@@ -148,7 +144,7 @@ void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
         const int material = add_textured(scene, name, fmt::format("ball_{}", texture), 0.3);
         const int index = balls.add_shape(name, sphere(drops[i].radius), material);
         const auto path = simulate_drop(drops[i], gallery_seconds);
-        node_at(scene, index).transform.translation = cubic_track(path);
+        scene.nodes[index].transform.translation = cubic_track(path);
         if (rolls) {
             const double height = drops[i].position.y - drops[i].radius;
             work.add_shape(name + "_plinth", box({0.34, height, 0.34}), materials.plinth,

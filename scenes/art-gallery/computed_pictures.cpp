@@ -2,7 +2,6 @@
 
 #include <array>
 #include <complex>
-#include <numbers>
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/texture_tools.h"
@@ -10,8 +9,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// The outside of a filled Julia set, coloured by escape time.
 glm::dvec3 color_julia(const glm::dvec2& uv) {

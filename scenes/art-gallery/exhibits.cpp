@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/build.h"
 #include "scenes/common/cages.h"
@@ -14,14 +12,12 @@ namespace aleph {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 // Profiles: outwards from the edge of the picture, and away from the wall.
-const std::vector<glm::dvec2> gilt_profile = {
-    {0.0, 0.008},   {0.0, 0.018},  {0.0, 0.018}, {0.012, 0.022}, {0.02, 0.03},   {0.034, 0.03}, {0.05, 0.05},
-    {0.075, 0.062}, {0.095, 0.05}, {0.1, 0.035}, {0.11, 0.03},   {0.115, 0.015}, {0.115, 0.0},  {0.115, 0.0}};
-const std::vector<glm::dvec2> plain_profile = {{0.0, 0.008},   {0.0, 0.034},  {0.0, 0.034},  {0.005, 0.038},
-                                               {0.035, 0.038}, {0.04, 0.034}, {0.04, 0.034}, {0.04, 0.0}};
+const Profile gilt_profile = {{0.0, 0.008},  {0.0, 0.018},   {0.0, 0.018},   {0.012, 0.022}, {0.02, 0.03},
+                              {0.034, 0.03}, {0.05, 0.05},   {0.075, 0.062}, {0.095, 0.05},  {0.1, 0.035},
+                              {0.11, 0.03},  {0.115, 0.015}, {0.115, 0.0},   {0.115, 0.0}};
+const Profile plain_profile = {{0.0, 0.008},   {0.0, 0.034},  {0.0, 0.034},  {0.005, 0.038},
+                               {0.035, 0.038}, {0.04, 0.034}, {0.04, 0.034}, {0.04, 0.0}};
 
 struct Hanging {
     const char* image;
@@ -62,7 +58,7 @@ void add_plant(const Group& plants, const std::string& name, const glm::dvec3& p
     plant.add_shape(name + "_pot", lathe(pot_outline, 48), parts.pot);
     plant.add_shape(name + "_earth", cylinder(0.231, 0.02, 32), parts.earth, {0.0, 0.37, 0.0});
     for (int i = 0; i < 34; ++i) {
-        const double around = i * 137.508, high = lattice_value(i, 0, seed), wide = lattice_value(i, 1, seed);
+        const double around = i * 137.508, high = pick(seed, i), wide = pick(seed, i, 1);
         const double reach = 0.05 + 0.2 * wide, top = 0.62 + 0.75 * high;
         const glm::dvec3 out(std::sin(around * pi / 180.0), 0.0, std::cos(around * pi / 180.0));
         const glm::dvec3 foot = glm::dvec3(0.0, 0.38, 0.0) + 0.06 * out;

@@ -1,7 +1,6 @@
 #include "scenes/art-gallery/gallery.h"
 
 #include "scenes/common/build.h"
-#include "scenes/common/generator.h"
 
 namespace aleph {
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <glm/trigonometric.hpp>
-#include <numbers>
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/build.h"
@@ -13,8 +12,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // The top slows down: its spin falls evenly, its precession rate is inversely proportional to the spin.
 constexpr double first_spin = 2.0 * pi * 2.3, last_spin = 2.0 * pi * 1.25;  // rad/s
@@ -109,7 +106,7 @@ void add_rider(const Group& table, int i, int white, const GalleryMaterials& mat
         times.push_back(gallery_seconds * k / 12.0);
         places.emplace_back(0.0, (k + i) % 2 == 0 ? 0.32 : 1.1, 0.8);
     }
-    node_at(table.scene, lift).transform.translation = eased_track(times, places);
+    table.scene.nodes[lift].transform.translation = eased_track(times, places);
     rider.add_rod(fmt::format("rider_rod_{}", i), {0.0, kinetic_floor, 0.8}, {0.0, kinetic_roof, 0.8}, 0.01,
                   materials.steel, 12);
     rider.add_shape(fmt::format("rider_socket_{}", i), make_socket(), materials.steel, {0.0, kinetic_floor, 0.8});
@@ -194,7 +191,7 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
             Shape shape = leaf;
             for (glm::dvec2& point : shape.profile) point = to_millionth(glm::dvec3(point * size, 0.0));
             const int paddle = node.add_shape(name, shape, paint, {x, y, 0.0}, turn(z_axis, tilt));
-            node_at(scene, paddle).transform.scale = glm::dvec3(1.0, 1.0, 0.72);
+            scene.nodes[paddle].transform.scale = glm::dvec3(1.0, 1.0, 0.72);
         };
         add_paddle(fmt::format("mobile_paddle_{}", i), left_end, -0.07, arm.size, arm.color, 62.0 + 6.0 * i);
         if (i == 3) add_paddle("mobile_paddle_4", right_end, 0.03, 0.15, {240, 240, 236}, 70.0);

@@ -1,7 +1,6 @@
 // Paintings made of overlapping strokes and marks.
 
 #include <array>
-#include <numbers>
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/texture_tools.h"
@@ -9,8 +8,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Strokes that follow a field of directions, long and thin, from dark to light.
 DrawnTexture paint_flow() {

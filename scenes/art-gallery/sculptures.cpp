@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/build.h"
@@ -13,8 +12,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// A square plinth with foot and cap. Returns its height, m.
 double add_plinth(const Group& parent, const std::string& name, const glm::dvec3& place, double width, double height,
@@ -46,51 +43,19 @@ void add_vases(Scene& scene, const Group& sculptures, const GalleryMaterials& ma
     const int clay = add_textured(scene, "terracotta", "terracotta");
     const int celadon = add_lambert(scene, "celadon", {142, 180, 160}, 0.2);
     const int cobalt = add_lambert(scene, "cobalt", {30, 62, 150}, 0.15);
-    const Shape amphora = lathe({{0.0, 0.0},
-                                 {0.09, 0.0},
-                                 {0.09, 0.0},
-                                 {0.095, 0.02},
-                                 {0.06, 0.045},
-                                 {0.075, 0.08},
-                                 {0.17, 0.26},
-                                 {0.2, 0.4},
-                                 {0.17, 0.52},
-                                 {0.085, 0.6},
-                                 {0.07, 0.66},
-                                 {0.075, 0.7},
-                                 {0.12, 0.73},
-                                 {0.12, 0.745},
-                                 {0.1, 0.745},
-                                 {0.06, 0.7},
-                                 {0.055, 0.64}},
-                                72);
-    const Shape bottle = lathe({{0.0, 0.0},
-                                {0.08, 0.0},
-                                {0.08, 0.0},
-                                {0.13, 0.05},
-                                {0.165, 0.15},
-                                {0.14, 0.26},
-                                {0.06, 0.36},
-                                {0.035, 0.46},
-                                {0.034, 0.56},
-                                {0.05, 0.62},
-                                {0.042, 0.62},
-                                {0.026, 0.55}},
-                               64);
-    const Shape bowl = lathe({{0.0, 0.0},
-                              {0.09, 0.0},
-                              {0.09, 0.0},
-                              {0.085, 0.02},
-                              {0.1, 0.035},
-                              {0.2, 0.1},
-                              {0.26, 0.2},
-                              {0.27, 0.24},
-                              {0.262, 0.245},
-                              {0.245, 0.2},
-                              {0.18, 0.11},
-                              {0.06, 0.06},
-                              {0.0, 0.055}},
-                             64);
+    const Profile amphora_outline = {{0.0, 0.0},    {0.09, 0.0},  {0.09, 0.0},  {0.095, 0.02}, {0.06, 0.045},
+                                     {0.075, 0.08}, {0.17, 0.26}, {0.2, 0.4},   {0.17, 0.52},  {0.085, 0.6},
+                                     {0.07, 0.66},  {0.075, 0.7}, {0.12, 0.73}, {0.12, 0.745}, {0.1, 0.745},
+                                     {0.06, 0.7},   {0.055, 0.64}};
+    const Shape amphora = lathe(amphora_outline, 72);
+    const Profile bottle_outline = {{0.0, 0.0},    {0.08, 0.0},  {0.08, 0.0},   {0.13, 0.05},
+                                    {0.165, 0.15}, {0.14, 0.26}, {0.06, 0.36},  {0.035, 0.46},
+                                    {0.034, 0.56}, {0.05, 0.62}, {0.042, 0.62}, {0.026, 0.55}};
+    const Shape bottle = lathe(bottle_outline, 64);
+    const Profile bowl_outline = {{0.0, 0.0},   {0.09, 0.0},  {0.09, 0.0},  {0.085, 0.02},  {0.1, 0.035},
+                                  {0.2, 0.1},   {0.26, 0.2},  {0.27, 0.24}, {0.262, 0.245}, {0.245, 0.2},
+                                  {0.18, 0.11}, {0.06, 0.06}, {0.0, 0.055}};
+    const Shape bowl = lathe(bowl_outline, 64);
     const glm::dvec3 places[] = {{-5.45, 0.0, 3.2}, {5.3, 0.0, 3.1}, {-1.1, 0.0, -3.2}};
     const Shape shapes[] = {amphora, amphora, bottle};
     const int glazes[] = {clay, cobalt, celadon};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <numbers>
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/texture_tools.h"
@@ -11,8 +10,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Herringbone: planks of 1 x 4 cells, across and upright in turn; the pattern repeats every 8 cells.
 glm::dvec3 color_parquet(const glm::dvec2& uv) {

@@ -6,7 +6,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/common/build.h"
-#include "scenes/common/generator.h"
 #include "scenes/common/keys.h"
 
 namespace aleph {
@@ -57,9 +56,8 @@ void add_furniture(Scene& scene) {
     const int green = add_lambert(scene, "leaves", {74, 118, 54});
     const int bark = add_lambert(scene, "bark", {112, 84, 60});
     const int oak = add_lambert(scene, "oak", {176, 128, 80}, 0.4);
-    const std::vector<glm::dvec2> pot = {{0.0, 0.0},    {0.15, 0.0},  {0.15, 0.0},  {0.2, 0.16},
-                                         {0.235, 0.34}, {0.25, 0.37}, {0.25, 0.41}, {0.25, 0.41},
-                                         {0.22, 0.41},  {0.22, 0.41}, {0.2, 0.33},  {0.0, 0.33}};
+    const Profile pot = {{0.0, 0.0},   {0.15, 0.0},  {0.15, 0.0},  {0.2, 0.16},  {0.235, 0.34}, {0.25, 0.37},
+                         {0.25, 0.41}, {0.25, 0.41}, {0.22, 0.41}, {0.22, 0.41}, {0.2, 0.33},   {0.0, 0.33}};
     const auto add_tree = [&](const std::string& name, const glm::dvec3& place, int material, double height) {
         const Group node = Group{scene}.add_group(name, place);
         node.add_shape(name + "_pot", lathe(pot), material);
@@ -112,7 +110,7 @@ void add_boomerang(Scene& scene) {
                in_radians(even_track<double>(0.0, to_millionth(seconds), -40.0,
                                              -40.0 - boomerang_spin_degrees * boomerang_last_frame)));
     scene.meshes.push_back(make_boomerang_mesh(material));
-    node_at(scene, spin).meshes = {static_cast<int>(scene.meshes.size()) - 1};
+    scene.nodes[spin].meshes = {static_cast<int>(scene.meshes.size()) - 1};
 }
 
 /// Static in the first half, as in the figure of the thesis; then a slow move to the right that follows the boomerang:

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "scenes/boomerang/boomerang_scene.h"
 #include "scenes/common/keys.h"
@@ -12,7 +11,6 @@ namespace aleph {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double reach = 0.33;           // m, of an arm along x
 constexpr double slope = 0.72;           // of the arms: they open by 108 degrees
 constexpr double elbow = 0.075;          // m; larger values give a rounder elbow

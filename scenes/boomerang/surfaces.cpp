@@ -1,9 +1,7 @@
 // The textures of the scene, drawn from formulas. All have features at every scale that image-based motion can follow.
 
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "scenes/boomerang/boomerang_scene.h"
 #include "scenes/common/texture_tools.h"
@@ -11,8 +9,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 const glm::dvec3 ivory(248, 240, 222), cobalt(26, 58, 150), vermilion(214, 50, 28);
 const glm::dvec3 night(24, 40, 62), teal(28, 112, 118), sand(226, 190, 132), ochre(206, 134, 52), rust(168, 66, 36),

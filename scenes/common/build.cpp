@@ -108,7 +108,7 @@ void add_walking_camera(Scene& scene, const std::vector<CameraStop>& stops, doub
         pitches.push_back(std::asin(look.y));
     }
     const int rig = add_node(scene, "camera_rig");
-    node_at(scene, rig).transform.translation = eased_track(times, eyes);
+    scene.nodes[rig].transform.translation = eased_track(times, eyes);
     turn_about(scene, rig, y_axis, eased_track(times, yaws));
     turn_about(scene, add_node(scene, "camera", rig), x_axis, eased_track(times, pitches));
     hang_camera(scene, fov_degrees);

@@ -19,13 +19,9 @@ inline int add_node(Scene& scene, const std::string& name, int parent = no_index
     return static_cast<int>(scene.nodes.size()) - 1;
 }
 
-inline Node& node_at(Scene& scene, int index) {
-    return scene.nodes[index];
-}
-
 /// Rotates a node about an axis. @param angle  radians
 inline void turn_about(Scene& scene, int node, const glm::dvec3& axis, const Track<double>& angle) {
-    node_at(scene, node).transform.axis_rotation = AxisRotation{axis, angle};
+    scene.nodes[node].transform.axis_rotation = AxisRotation{axis, angle};
 }
 
 inline Shape quad(double width, double height, const glm::dvec2& uv_scale = glm::dvec2(1.0)) {

@@ -5,15 +5,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numbers>
 
 #include "engine/surface/limit_surface.h"
+#include "scenes/common/keys.h"
 
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 double rounded(double value, double steps_per_metre) {
     return std::round(value * steps_per_metre) / steps_per_metre;

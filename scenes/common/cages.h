@@ -5,7 +5,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scenes/common/build.h"
@@ -18,9 +17,8 @@ struct CageShape {
     std::vector<glm::dvec3> points;
 };
 
-/// Adds cage and points to the scene, and a mesh of its limit surface. Points are rounded to a tenth of a millimetre,
-/// texture coordinates to a thousandth.
-/// @return the mesh
+/// Adds cage and points to the scene, and a mesh of its limit surface, which is returned. Points are rounded to a tenth
+/// of a millimetre, texture coordinates to a thousandth.
 int add_cage(Scene& scene, const std::string& name, const CageShape& shape, int material);
 
 /// Adds a cage, and a node of its name that shows it.

@@ -1,12 +1,15 @@
 #pragma once
-// Tracks from keys.
+// Numbers, and tracks from keys.
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "engine/scene/track.h"
 
 namespace aleph {
+
+inline constexpr double pi = std::numbers::pi;
 
 /// Rounds to a millionth, for example to a micrometre: precise enough, and short in a file.
 inline double to_millionth(double value) {

@@ -13,11 +13,12 @@
 
 #include "engine/base/sampling.h"
 #include "scenes/common/generator.h"
+#include "scenes/common/keys.h"
 
 namespace aleph {
 
-/// A random number in [0, 1) that depends on the lattice point and the seed only.
-inline double lattice_value(std::int64_t x, std::int64_t y, std::uint32_t seed) {
+/// A random number in [0, 1) that depends on the place, such as a point of a lattice, and the seed only.
+inline double pick(std::uint32_t seed, std::int64_t x, std::int64_t y = 0) {
     return RandomStream(RandomKey{seed, 0, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)}).at(0);
 }
 
@@ -26,8 +27,8 @@ inline double noise(const glm::dvec2& at, const glm::i64vec2& cells, std::uint32
     const glm::dvec2 low = glm::floor(at), t = glm::smoothstep(glm::dvec2(0.0), glm::dvec2(1.0), at - low);
     const auto value = [&](int dx, int dy) {
         const auto wrap = [](std::int64_t v, std::int64_t n) { return (v % n + n) % n; };
-        return lattice_value(wrap(static_cast<std::int64_t>(low.x) + dx, cells.x),
-                             wrap(static_cast<std::int64_t>(low.y) + dy, cells.y), seed);
+        return pick(seed, wrap(static_cast<std::int64_t>(low.x) + dx, cells.x),
+                    wrap(static_cast<std::int64_t>(low.y) + dy, cells.y));
     };
     return glm::mix(glm::mix(value(0, 0), value(1, 0), t.x), glm::mix(value(0, 1), value(1, 1), t.x), t.y);
 }
@@ -77,11 +78,6 @@ inline glm::dvec3 gradient(std::span<const glm::dvec3> colors, double t) {
     const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(colors.size() - 1);
     const auto i = std::min(static_cast<std::size_t>(place), colors.size() - 2);
     return glm::mix(colors[i], colors[i + 1], place - static_cast<double>(i));
-}
-
-/// The i-th number of a random stream, in [0, 1).
-inline double pick(std::uint32_t seed, std::int64_t i, std::int64_t j = 0) {
-    return lattice_value(i, j, seed);
 }
 
 /// A picture to paint on; x to the right, y down, in pixels.

@@ -43,7 +43,7 @@ double brick_height(const glm::dvec2& given) {
 glm::dvec3 brick_color(const glm::dvec2& uv) {
     const BrickPlace place = find_brick(uv);
     const double face = glm::smoothstep(joint * 0.5, joint, std::min(place.edge.x, place.edge.y));
-    const double tone = lattice_value(place.brick.x, place.brick.y, 9);
+    const double tone = pick(9, place.brick.x, place.brick.y);
     const double grain = fractal_noise(uv, {32, 32}, 3, 11);
     const glm::dvec3 brick = glm::dvec3(150.0, 78.0, 58.0) * (0.75 + 0.3 * tone + 0.2 * grain);
     return glm::mix(glm::dvec3(176.0, 170.0, 160.0) * (0.85 + 0.2 * grain), brick, face);

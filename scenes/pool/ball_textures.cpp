@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "scenes/common/texture_tools.h"
@@ -14,8 +13,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Digits as strokes, in heights of a digit.
 

@@ -3,15 +3,13 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "engine/base/sampling.h"
+#include "scenes/common/keys.h"
 
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Ball numbers by row from the apex: the eight in the middle of the third row, a solid and a stripe in the back
 /// corners.

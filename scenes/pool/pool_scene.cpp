@@ -3,15 +3,14 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/common/build.h"
-#include "scenes/common/generator.h"
 #include "scenes/common/keys.h"
 
 namespace aleph {
 
 void add_camera(Scene& scene, bool moves) {
-    // The camera pans on an arm of 60 cm: the walls move by about 3 pixels per frame at 640x480, the table by less. It
-    // starts where the whole break stays in the picture. When the balls have spread, it approaches over the near rail
-    // and down towards them, and is still moving at the end.
+    // The camera pans on an arm of 60 cm: the walls move by about 3 pixels per frame at 640x480, the table by less.
+    // When the balls have spread, it approaches over the near rail and down towards them, and is still moving at the
+    // end.
     const int first_of_move = 32;                           // frame
     const double arm = 0.6, height = 1.4;                   // m
     const double first = 68.8, last = 93.2, pitch = -15.2;  // degrees; 90 looks along -x
@@ -37,7 +36,7 @@ void add_camera(Scene& scene, bool moves) {
     };
     const double end = last_frame / 30.0, t = (end - begin) / (rest - begin);
     const glm::dvec3 velocity = 6.0 * t * (1.0 - t) / (rest - begin) * move;
-    node_at(scene, rig).transform.translation =
+    scene.nodes[rig].transform.translation =
         cubic_track<glm::dvec3>({{begin, {}, pivot, {}}, {end, velocity, pivot + share(end) * move, velocity}});
     // The pitch has one key per frame, because other formats have no cubic rotations about an axis.
     Track<double> tilt;

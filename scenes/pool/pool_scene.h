@@ -25,8 +25,7 @@ inline constexpr int cue_ball = 0;  ///< index; balls 1 to 15 have their number 
 inline constexpr double break_speed = 6.8;
 
 /// Ball i is at index i. The apex of the rack is on the foot spot (x > 0). The gaps between the balls are some
-/// hundredths of a millimetre and differ, as in a real rack. The numbers face roughly up and towards the foot end.
-/// Deterministic.
+/// hundredths of a millimetre and differ. The numbers face roughly up and towards the foot end. Deterministic.
 std::vector<PoolBall> make_rack(const PoolSettings& settings);
 
 /// @param camera_moves  true: pool, false: pool-still

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "scenes/common/texture_tools.h"
 #include "scenes/pool/pool_scene.h"
@@ -8,8 +7,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 glm::dvec3 color_felt(const glm::dvec2& uv) {
     // Short fibres that lie along the table, over broad wear.
@@ -35,9 +32,9 @@ glm::dvec3 color_floor(const glm::dvec2& uv) {
     const int rows = 8;
     const double across = uv.y * rows;
     const auto row = static_cast<std::int64_t>(across);
-    const double along = glm::fract(uv.x + lattice_value(row, 0, 31)) * 2.0;
+    const double along = glm::fract(uv.x + pick(31, row)) * 2.0;
     const auto plank = static_cast<std::int64_t>(along);
-    const double tone = lattice_value(plank, row, 32);
+    const double tone = pick(32, plank, row);
     const double grain = noise({uv.x * 10.0, uv.y * 128.0}, {10, 128}, 33);
     const double edge = std::min(
         {glm::fract(across), 1.0 - glm::fract(across), 8.0 * glm::fract(along), 8.0 * (1.0 - glm::fract(along))});
@@ -127,15 +124,14 @@ glm::dvec3 color_blocks(const glm::dvec2& uv) {
 
 glm::dvec3 color_circles(const glm::dvec2& uv) {
     const glm::dvec2 cell = glm::floor(uv * 3.0), at = uv * 3.0 - cell - 0.5;
-    const auto pick = [&](int ring) {
+    const auto color = [&](int ring) {
         static const glm::dvec3 palette[] = {{206, 60, 44},  {240, 186, 66}, {32, 84, 120}, {232, 222, 196},
                                              {70, 130, 110}, {224, 126, 60}, {84, 50, 96}};
-        const double value =
-            lattice_value(static_cast<std::int64_t>(cell.x) * 3 + ring, static_cast<std::int64_t>(cell.y), 71);
+        const double value = pick(71, static_cast<std::int64_t>(cell.x) * 3 + ring, static_cast<std::int64_t>(cell.y));
         return palette[static_cast<int>(7.0 * value)];
     };
     const double distance = glm::length(at) * (1.0 + 0.12 * (noise(uv * 12.0, {12, 12}, 72) - 0.5));
-    return distance > 0.46 ? pick(0) : pick(distance > 0.3 ? 1 : 2) * (distance < 0.13 ? 0.5 : 1.0);
+    return distance > 0.46 ? color(0) : color(distance > 0.3 ? 1 : 2) * (distance < 0.13 ? 0.5 : 1.0);
 }
 
 /// An hour after sunset: warm over dark hills, blue above, thin clouds.

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
+#include "engine/base/pixel_loops.h"
 #include "engine/load/load_scene.h"
 #include "render/cli/support/options.h"
 #include "render/cli/support/progress.h"
@@ -84,10 +85,10 @@ Image<double> find_standard_errors(const Image<double>& variance) {
         for (int x = 0; x < errors.width; ++x) {
             double sum = 0.0;
             int count = 0;
-            for (int ny = std::max(0, y - reach); ny <= std::min(errors.height - 1, y + reach); ++ny) {
-                for (int nx = std::max(0, x - reach); nx <= std::min(errors.width - 1, x + reach); ++nx, ++count)
-                    sum += variance(nx, ny);
-            }
+            visit_around(variance, x, y, reach, [&](int nx, int ny) {
+                sum += variance(nx, ny);
+                ++count;
+            });
             errors(x, y) = std::sqrt(std::max(variance(x, y), sum / count));
         }
     }

@@ -19,8 +19,7 @@ struct StudyOptions {
     bool markdown = false;
 };
 
-/// The settings of a scene at the size of the options, with those of --set in their places.
-/// @param file  of the scene, for errors
+/// The settings of a scene (`file` in errors) at the size of the options, with those of --set in their places.
 /// @throws InputError for a setting that is unknown or out of range
 RenderSettings scene_settings(const Scene& scene, const std::string& file, const StudyOptions& options);
 

@@ -43,30 +43,6 @@ TEST(ReprojectionTurn, RP07_TheCameraTurnsInstead) {
     EXPECT_NEAR(field.path_length(800, 500), 2.0 * std::numbers::pi * radius, 0.01 * 2.0 * std::numbers::pi * radius);
 }
 
-/// Views that no camera of the scene has: what lies between them is interpolated.
-TEST(ReprojectionTurn, RP07_ViewsMadeByHand) {
-    const Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
-    TwoViews views(scene, 1.0, 3.0, 1000, 1000);
-    CameraView& view = views.other.view;
-    views.now.view.axes = glm::mat3_cast(glm::angleAxis(30.0 * degrees, glm::dvec3(0, 0, 1)));
-    view.axes = glm::mat3_cast(glm::angleAxis(120.0 * degrees, glm::dvec3(0, 0, 1)));
-    view.position += glm::dvec3(0.5, 0.25, -1.0);
-    view.pixels_per_unit *= 1.5;
-    const MotionField field = compute_model_motion(scene, views.now, views.other, one_hit(1000, 1000, 650, 500));
-    // Five steps of 18 degrees.
-    const auto place_at = [&](double fraction) {
-        const glm::dvec3 off(1.0 - 0.5 * fraction, -0.25 * fraction, -10.0 + fraction);
-        const double angle = (30.0 + 90.0 * fraction) * degrees, c = std::cos(angle), s = std::sin(angle);
-        const double scale = views.now.view.pixels_per_unit * (1.0 + 0.5 * fraction) / -off.z;
-        return glm::dvec2(c * off.x + s * off.y, -(c * off.y - s * off.x)) * scale;
-    };
-    double path = 0.0;
-    for (int i = 0; i < 5; ++i) path += glm::distance(place_at(0.2 * i), place_at(0.2 * (i + 1)));
-    EXPECT_NEAR(field.path_length(650, 500), path, 1e-6);
-    EXPECT_NEAR(glm::length(field.displacement(650, 500) - (place_at(1.0) - place_at(0.0))), 0.0, 1e-9);
-    EXPECT_GT(path, 1.05 * glm::length(field.displacement(650, 500)));
-}
-
 /// A full turn in four keys of 90 degrees within a second.
 Track<glm::dquat> make_full_turn() {
     std::vector<glm::dquat> turns;

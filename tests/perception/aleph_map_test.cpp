@@ -49,18 +49,6 @@ TEST(KellyRow, AgreesWithTheWrittenFormulas) {
         }
 }
 
-TEST(KellyRow, KnowsWhenABandIsOneInTheWholeRow) {
-    const auto rho = band_frequencies(Bands::printed, 31.0);
-    const std::vector<float> velocity = {0.15f, 2.0f, 0.15f};
-    KellyRow row(rho, 3);
-    row.load({.retinal = velocity.data()});
-    for (int band = 0; band < band_count; ++band) {
-        std::vector<float> f(3);
-        row.elevations(band, f.data());
-        EXPECT_EQ(row.is_one(band), f[1] == 1.0f) << band;
-    }
-}
-
 TEST(RetinalVelocityRow, AgreesWithTheDoubleFormula) {
     std::vector<float> velocity, saliency;
     for (double v = 0.001; v < 1e5; v *= 1.1) {

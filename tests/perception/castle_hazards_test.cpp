@@ -5,7 +5,7 @@
 
 #include "perception/threshold.h"
 #include "perception/vision/castle.h"
-#include "perception/vision/castle_row.h"
+#include "perception/vision/castle_vision.h"
 #include "perception/vision/display_hold.h"
 #include "tests/support/test.h"
 #include "tests/support/vision_formulas.h"

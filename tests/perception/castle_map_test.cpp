@@ -4,7 +4,7 @@
 #include "perception/perception.h"
 #include "perception/threshold.h"
 #include "perception/vision/castle.h"
-#include "perception/vision/castle_row.h"
+#include "perception/vision/castle_vision.h"
 #include "perception/vision/display_hold.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"

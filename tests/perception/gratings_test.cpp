@@ -131,7 +131,7 @@ TEST(Gratings, MapsOfThesisAndLairdAreTheKnownAnswer) {
     }
 }
 
-// Rows of castle interpolate a table over luminance: castle_row.h promises 2e-3, gratings find 2.7e-4.
+// Rows of castle interpolate a table over luminance: castle_vision.h promises 2e-3, gratings find 2.7e-4.
 TEST(Gratings, MapsOfCastleAreTheKnownAnswer) {
     for_each_map(&castle_vision(), [](const GratingErrors& errors, const Frequencies&) {
         EXPECT_LT(errors.aleph, 5e-4);

@@ -5,7 +5,6 @@
 #include "perception/band_response.h"
 #include "perception/perception.h"
 #include "perception/saliency/feature_maps.h"
-#include "perception/saliency/orientation.h"
 #include "perception/sanitize.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/test.h"

@@ -36,7 +36,7 @@ struct Fineness {
 Fineness measure(const Scene& scene, int level, double distance) {
     const double pixels = height / (2.0 * std::tan(std::numbers::pi / 8.0)) / distance;
     const LimitSurface surface(scene.cages[0], scene.point_caches[0].point_count(), level);
-    const auto control = surface.make_control_points(cage_points_at(scene, scene.cages[0], 0.0));
+    const auto control = surface.make_control_points(sample_points(scene.point_caches[scene.cages[0].points], 0.0));
     const Mesh mesh = surface.make_mesh(0, control);
     Fineness result;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -188,9 +188,9 @@ TEST(TessellateCage, FillsTheMeshesOfTheCage) {
     tessellate_cage(scene, 0);
     EXPECT_EQ(scene.meshes[0].triangles.size(), 4u * 8u);
 
-    EXPECT_EQ(cage_points_at(scene, scene.cages[0], 0.0)[7], glm::dvec3(1.0));
-    EXPECT_EQ(cage_points_at(scene, scene.cages[0], 0.25)[7], glm::dvec3(1.25));
-    EXPECT_EQ(cage_points_at(scene, scene.cages[0], 5.0)[7], glm::dvec3(2.0));
+    EXPECT_EQ(sample_points(scene.point_caches[scene.cages[0].points], 0.0)[7], glm::dvec3(1.0));
+    EXPECT_EQ(sample_points(scene.point_caches[scene.cages[0].points], 0.25)[7], glm::dvec3(1.25));
+    EXPECT_EQ(sample_points(scene.point_caches[scene.cages[0].points], 5.0)[7], glm::dvec3(2.0));
 }
 
 TEST(TessellateCage, LevelZeroOfOtherPolygonsIsLevelOne) {

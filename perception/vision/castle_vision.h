@@ -1,7 +1,6 @@
 #pragma once
-// The elevations that castleCSF gives (castle.h), for rows of pixels in float: how many times the contrast that is just
-// visible at rest, at the frequency where the eye sees best, goes unnoticed. castle_peak over castle_sensitivity times
-// hold_transfer, [1, 153]. A sensitivity below 1 counts as 1, because no contrast exceeds 1.
+// castleCSF (castle.h) as a model of vision, for rows of pixels in float. Elevations are castle_peak over
+// castle_sensitivity times hold_transfer, [1, 153]. A sensitivity below 1 counts as 1, because no contrast exceeds 1.
 
 #include <array>
 #include <memory>
