@@ -48,6 +48,20 @@ int count_bounces(const RenderSettings& settings) {
     return std::min(settings.light.bounces, settings.light.path_depth - 1);
 }
 
+FrameIrradiance::FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache)
+    : KnownIrradiance(count_bounces(context.settings)), context_(context), cache_(cache) {}
+
+std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb&,
+                                         RayTask& task) const {
+    if (context_.carried != nullptr) {
+        PixelSurface place{surface};
+        place.hit = hit;
+        if (const std::optional<Rgb> found = context_.carried->find(place, accuracy, task)) return found;
+    }
+    if (cache_ == nullptr) return std::nullopt;
+    return cache_->interpolate({surface.point.position, surface.point.normal, accuracy * shade_reach, &task});
+}
+
 MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const FurtherBounces* known) {
     MultiBounceLight light{.bounces = std::max(0, count_bounces(settings) - 1)};
     if (known == nullptr) return light;

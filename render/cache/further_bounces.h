@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "render/cache/indirect_context.h"
-#include "render/path/known_irradiance.h"
+#include "render/path/path.h"
 
 namespace aleph {
 
@@ -38,6 +38,22 @@ class FurtherIrradiance final : public KnownIrradiance {
 
   private:
     const MultiBounceLight light_;
+};
+
+/// Irradiance of all bounces that a frame knows before it is shaded: that of lighting keyframes, and of its own cache.
+class FrameIrradiance final : public KnownIrradiance {
+  public:
+    /// Keeps a reference to the context.
+    /// @param context  carried light comes first
+    /// @param cache    of the frame, filled; null: none
+    FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache);
+
+    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
+                            RayTask& task) const override;
+
+  private:
+    const IndirectContext& context_;
+    const IrradianceCache* cache_;
 };
 
 /// Computes it where the gathers that fill the picture's cache need it.

@@ -190,6 +190,11 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
 /// The irradiance and its summary from what the rays found, each by its weight.
 IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch);
 
+/// Its part over the hemisphere: sets everything in `out` but the irradiance, which must be set.
+/// @param basis  of the hemisphere
+void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, GatherScratch& scratch,
+                          IrradianceSample& out);
+
 /// Random numbers of a place on a surface: a cell of the triangle, so that the last bits of the hit hardly ever matter.
 RandomKey make_place_key(std::uint32_t seed, const Hit& hit);
 

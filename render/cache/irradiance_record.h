@@ -16,7 +16,6 @@
 // and light would leak behind it. A record stores how far the nearest obstacle along its tangent plane is, in sixteen
 // sectors of azimuth, and how high the lowest surface over it hangs. Beyond them a ray decides (SightLine).
 
-#include <array>
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>

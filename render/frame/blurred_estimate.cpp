@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "engine/base/pixel_loops.h"
-#include "render/surface/carried_point.h"
 
 namespace aleph {
 

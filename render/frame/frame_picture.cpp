@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "engine/base/pixel_loops.h"
+#include "render/frame/prepared_frame.h"
 #include "render/frame/sequence_state.h"
-#include "render/frame/visible_limits.h"
-#include "render/plan/effect_picture.h"
+#include "render/plan/effect_table.h"
 #include "render/settings/measure.h"
 #include "render/shade/frame.h"
 #include "render/time/shutter.h"

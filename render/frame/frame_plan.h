@@ -5,7 +5,7 @@
 #include "motion/other_frame.h"
 #include "render/frame/frame_output.h"
 #include "render/frame/shot.h"
-#include "render/pixels/sample_place.h"
+#include "render/pixels/pixel_surfaces.h"
 #include "render/plan/effects_plan.h"
 #include "render/time/shutter.h"
 

@@ -2,7 +2,6 @@
 // The scene at one time, made ready step by step: pose, rays, shading and lights.
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "engine/pose/posed_view.h"

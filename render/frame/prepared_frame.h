@@ -4,6 +4,7 @@
 #include "perception/noise_threshold.h"
 #include "render/frame/frame_estimate.h"
 #include "render/frame/frame_motion.h"
+#include "render/shade/error_budget.h"
 
 namespace aleph {
 
@@ -46,5 +47,16 @@ struct Preparation {
 /// The stages of a frame before its picture, with their times and counts.
 /// @param here  posed and prepared for the frame; without what its plan leaves out
 PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work);
+
+/// Outlines beside which more is seen. Empty where nothing is known of what a viewer sees.
+/// @param shading  of the frame
+Image<Outline> find_visible_outlines(const Shot& shot, const ShadingScene& shading, const PreparedFrame& frame);
+
+/// Refers to the outlines and to the frame.
+VisibleLimits make_visible_limits(const Shot& shot, const FrameOutput& out, const Image<Outline>& outlines);
+
+/// The tolerance of a lighting keyframe's records (KeyView); empty where no error is asked for.
+/// @param shading  of the keyframe
+Image<float> find_record_tolerance(const Shot& shot, const ShadingScene& shading, const PreparedFrame& keyframe);
 
 }  // namespace aleph

@@ -1,7 +1,7 @@
 #include "render/frame/sequence_state.h"
 
-#include "render/frame/visible_limits.h"
-#include "render/pixels/sample_place.h"
+#include "render/frame/prepared_frame.h"
+#include "render/pixels/pixel_surfaces.h"
 
 namespace aleph {
 

@@ -69,6 +69,16 @@ Rgb transmit_to_light(const Media& around, const LitSurface& lit, const Ray& sha
     return transmit(around.attenuation_towards(shadow_ray.direction, lit.point, lit.material), shadow_ray.far);
 }
 
+bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& passed) {
+    const SurfacePoint point = make_surface_point(shading, hit, ray.direction);
+    const ViewedSurface surface = view_surface(shading, point, -ray.direction, {});
+    if (!surface.material.passes_straight()) return false;
+    const LitSurface lit(surface);
+    passed *= sheet_transmittance(lit);
+    ray = move_origin(ray, lit.ray_origin(ray.direction));
+    return true;
+}
+
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {
     if (!context.shading.has_thin_glass) {
         ++task.counts.shadow;
@@ -80,13 +90,8 @@ Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray&
         ++task.counts.shadow;
         const Hit hit = task.tracer.intersect(left);
         if (hit.instance == no_index) return passed;
-        const SurfacePoint point = make_surface_point(context.shading, hit, left.direction);
-        const ViewedSurface surface = view_surface(context.shading, point, -left.direction, {});
-        if (!surface.material.passes_straight()) return Rgb(0.0f);
-        const LitSurface lit(surface);
-        passed *= sheet_transmittance(lit);
+        if (!pass_sheet(context.shading, hit, left, passed)) return Rgb(0.0f);
         if (passed == Rgb(0.0f)) return passed;
-        left = move_origin(left, lit.ray_origin(left.direction));
     }
     return Rgb(0.0f);
 }

@@ -1,9 +1,7 @@
 #pragma once
 // Power of the lights: what each of them can bring to a point.
 
-#include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <span>
 #include <vector>
 

@@ -1,14 +1,10 @@
 #include "render/path/direct_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "render/light/light_cut.h"
 #include "render/light/seen_light.h"
-#include "render/pixels/lattice.h"
 
 namespace aleph {
 

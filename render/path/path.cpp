@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "render/pixels/lattice.h"
+#include "render/pixels/pixel_sequence.h"
 
 namespace aleph {
 

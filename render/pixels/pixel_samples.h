@@ -2,7 +2,6 @@
 // The samples of one pixel, added up, with what tells the error of their mean.
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>

@@ -1,8 +1,11 @@
 #include "render/pixels/pixel_surfaces.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
+#include "render/pixels/pixel_samples.h"
 #include "render/pixels/pixel_sequence.h"
 
 namespace aleph {
@@ -20,6 +23,28 @@ glm::dvec2 sample_disc(const glm::vec2& u) {
 }
 
 }  // namespace
+
+float find_spacing(const RenderSettings& settings, int index) {
+    const auto first_of_stage = static_cast<unsigned>(std::max(index + 1, own_samples));
+    const int count = settings.sampling.rule == Sampling::uniform
+                          ? settings.sampling.spp
+                          : std::min(settings.sampling.spp, static_cast<int>(std::bit_ceil(first_of_stage)));
+    return 1.0f / std::sqrt(static_cast<float>(count));
+}
+
+SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t noise_key,
+                              int index) {
+    SamplePlace place;
+    place.index = index;
+    place.centered = settings.sampling.spp == 1;
+    place.spacing = find_spacing(settings, index);
+    place.lens = lens;
+    place.filter = settings.picture.filter;
+    place.seed = settings.seed;
+    place.noise_key = noise_key;
+    place.blend = blended ? Blend::random : Blend::cutout;
+    return place;
+}
 
 glm::dvec2 place_sample(const SamplePlace& place, int x, int y) {
     if (place.centered) return {x + 0.5, y + 0.5};

@@ -25,6 +25,15 @@ struct SamplePlace {
     Blend blend = Blend::cutout;            ///< what blended surfaces do to the rays
 };
 
+/// Pixels between the samples of a pixel that is left after the stage of this one: 1 over the square root of their
+/// number. Textures are averaged over it, so later samples of a pixel see them sharper.
+float find_spacing(const RenderSettings& settings, int index);
+
+/// Placing of sample `index` of the pixels. A single sample is the pixel's centre.
+/// @param noise_key  key of random numbers: the same in all frames if their noise is (Shot::keeps_noise)
+SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t noise_key,
+                              int index);
+
 /// Where a sample lies in the picture, in pixels.
 glm::dvec2 place_sample(const SamplePlace& place, int x, int y);
 

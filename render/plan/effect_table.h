@@ -3,6 +3,8 @@
 // --forbid know of it. README.md says how to add one.
 
 #include "engine/base/color.h"
+#include "engine/base/image.h"
+#include "engine/rays/hit.h"
 #include "render/plan/effects_plan.h"
 
 namespace aleph {
@@ -63,5 +65,11 @@ EffectTable light_effects();
 EffectTable indirect_effects();
 EffectTable object_effects();
 EffectTable view_effects();
+
+/// For each pixel the mean colour of the effects that its surface has and that are left out; black where all are
+/// simulated, and behind all surfaces.
+/// @param hits  first hits through the pixel centres
+Image<Rgb> make_effect_picture(const Image<Hit>& hits, const FrameFacts& facts, const EffectsPlan& plan,
+                               std::size_t instances, const EffectTable& table = effect_table());
 
 }  // namespace aleph

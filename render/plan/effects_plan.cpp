@@ -1,8 +1,12 @@
 #include "render/plan/effects_plan.h"
 
+#include <nlohmann/json.hpp>
+
 #include "render/plan/effect_table.h"
 
 namespace aleph {
+
+using nlohmann::ordered_json;
 
 namespace {
 
@@ -70,6 +74,23 @@ RenderSettings without_forbidden(RenderSettings settings, const EffectTable& tab
         if (row.turn_off != nullptr && settings.effects.forbid.contains(row.effect.id)) row.turn_off(settings);
     }
     return settings;
+}
+
+ordered_json to_json(const PlannedEffect& planned) {
+    ordered_json json = {{"effect", planned.name},
+                         {"decision", decision_name(planned.decision)},
+                         {"reason", planned.reason},
+                         {"bound", nullptr}};
+    if (planned.bound) {
+        json["bound"] = {{"luminance", planned.bound->luminance}, {"thresholds", planned.bound->thresholds}};
+    }
+    return json;
+}
+
+ordered_json to_json(const EffectsPlan& plan) {
+    ordered_json list = ordered_json::array();
+    for (const PlannedEffect& effect : plan.effects) list.push_back(to_json(effect));
+    return list;
 }
 
 }  // namespace aleph

@@ -1,7 +1,7 @@
 #pragma once
 // Integrators: ways to find the light of a frame's samples. To add one, write a class like those of
-// cache_integrator.cpp and path_integrator.cpp, give it a row in make_integrator (integrator.cpp) and a name in the
-// setting table.
+// cache_integrator.cpp and path_integrator.cpp, give it a row in make_integrator (path_integrator.cpp) and a name in
+// the setting table.
 
 #include <memory>
 
@@ -19,7 +19,7 @@ class LightIntegrator {
     virtual bool shares_light() const { return false; }
     /// Computes it.
     /// @param first  the first sample of every pixel
-    virtual void fill(const SampleHits& first);
+    virtual void fill(const SampleHits& /*first*/) {}
 
     /// Samples are taken at this time until the next call.
     virtual void begin(const SampleScene& scene) = 0;
@@ -49,6 +49,5 @@ struct IntegratorInput {
 
 std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input);
 std::unique_ptr<LightIntegrator> make_cache_integrator(const IntegratorInput& input);
-std::unique_ptr<LightIntegrator> make_path_integrator(const IntegratorInput& input);
 
 }  // namespace aleph

@@ -50,7 +50,7 @@ using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;
 /// samples. A decision reads what all pixels have after a stage, so the result does not depend on the number of
 /// threads. A pixel that stopped never goes on: it would when its neighbours, which go on because of its own rare
 /// bright sample, meet another, and then that sample is averaged away. With `threshold`, a pixel whose own samples say
-/// otherwise (stands_out) keeps its mean and goes on: spread_lost_light (lost_light.h) has to follow.
+/// otherwise (stands_out) keeps its mean and goes on: spread_lost_light (resolve.h) has to follow.
 /// @param pixels  what `take` adds to; read between stages
 /// @param begin   the stage to begin with; empty: the first
 void sample_by_stages(const SamplingPlan& plan, Image<PixelSamples>& pixels, const TakeSamples& take,

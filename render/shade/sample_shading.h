@@ -1,8 +1,6 @@
 #pragma once
 // Shading one sample of a pixel: emission, direct light, gloss, and indirect light read from a filled cache.
 
-#include <vector>
-
 #include "render/cache/indirect_context.h"
 #include "render/path/direct_light.h"
 #include "render/pixels/pixel_samples.h"

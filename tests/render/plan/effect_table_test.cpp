@@ -4,9 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "render/cli/explain/explain.h"
-#include "render/plan/effect_picture.h"
 #include "render/plan/effect_table.h"
-#include "render/plan/effects_json.h"
+#include "render/plan/effects_plan.h"
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/test.h"
