@@ -13,7 +13,6 @@ namespace aleph {
 inline constexpr int around_per_aimed = 2;
 
 /// Bright surfaces for light that is wanted at these surfaces.
-/// @param counts  increased by the rays cast
 BrightSurfaces find_bright_surfaces(const LightingContext& lighting, const std::vector<PixelSurface>& seen,
                                     RayCounts& counts);
 

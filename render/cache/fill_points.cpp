@@ -1,4 +1,4 @@
-#include "render/cache/fill_points.h"
+#include "render/cache/cache_fill.h"
 
 #include "render/surface/scatter.h"
 

@@ -1,11 +1,5 @@
 #pragma once
-// One coarse irradiance cache for the light of the second and all further bounces.
-//
-// Irradiance of n bounces is a gather of direct light and of what hits scatter of E_(n-1), their irradiance of n - 1
-// bounces. E_(n-1) changes slowly, and reaches the picture averaged over a hemisphere and times the albedo: few records
-// with few rays hold it. They lie where gather rays from the picture arrive. Each record casts its rays once, and keeps
-// for each the direct light that it found and the records from which the irradiance of the hit is interpolated
-// (light_transport.h). Going from E_1 to E_2 and so on then takes no more rays: work does not grow with the bounces.
+// One coarse irradiance cache for the light of the second and all further bounces (README.md, Multi-bounce light).
 
 #include <optional>
 #include <vector>
@@ -59,7 +53,6 @@ class FrameIrradiance final : public KnownIrradiance {
 /// Computes it where the gathers that fill the picture's cache need it.
 /// @param context  of the picture
 /// @param seen     surfaces of the picture whose light will be gathered (add_seen_surfaces)
-/// @param counts   increased
 /// @return nothing if the picture has one bounce, or `seen` is empty
 std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& context,
                                                     const std::vector<PixelSurface>& seen, FrameCounts& counts);
@@ -67,5 +60,14 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
 /// The same from its records; nothing if there are none.
 std::optional<FurtherBounces> restore_further_bounces(const IndirectContext& context,
                                                       const std::vector<IrradianceRecord>& records);
+
+/// Irradiance of `bounces` bounces in place of that of one.
+/// @param context   of the records' gathers, which noted light of further bounces (MultiBounceLight::noted)
+/// @param accuracy  alpha of look-ups
+/// @param gathered  of each record (FillPlaces::gathered)
+/// @param bounces   at least 2
+/// @return the records of the cache with this irradiance and its gradients
+std::vector<IrradianceRecord> add_bounces(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
+                                          std::vector<KeptRays> gathered, int bounces, RayCounts& counts);
 
 }  // namespace aleph

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/cache/aimed_rays.h"
-#include "render/cache/gather_rays.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {

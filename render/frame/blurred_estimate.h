@@ -27,7 +27,6 @@ inline constexpr int blur_looks = 8;
 /// At each of its times, every pixel shows a surface. Its light is read from the sharp estimate where that shows the
 /// same point, and is computed elsewhere. So what does not move and is in focus keeps its values.
 /// @param look    the scene at a place of the shutter, in [0,1], valid until the next call
-/// @param counts  increased by the rays cast
 Image<Rgb> blur_estimate(const SharpEstimate& sharp, const Lens& lens,
                          const std::function<SampleScene(double place)>& look, RayCounts& counts);
 

@@ -115,7 +115,8 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
     if (request.maps) {
         const ShadingScene& shading = s.here.shading();
         fill_geometry_maps(shading, prepared.centers, out);
-        out.effects = make_effect_picture(prepared.centers.hits, plan.facts, plan.effects, shading.instances.size());
+        out.effects =
+            make_effect_picture(prepared.centers.hits, plan.input.facts, plan.effects, shading.instances.size());
     }
     out.hits = prepared.centers.hits;
     s.rendered = true;

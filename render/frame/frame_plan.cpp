@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/base/pixel_loops.h"
+#include "render/plan/effect_bounds.h"
 #include "render/settings/measure.h"
 
 namespace aleph {
@@ -22,9 +23,7 @@ Nearest find_nearest(const FrameFacts& facts, const CameraView& view) {
     Nearest nearest;
     for (const ObjectFacts& object : facts.objects) {
         if (!object.in_view) continue;
-        const glm::dvec3 outside =
-            glm::max(glm::max(object.bounds.low - view.position, view.position - object.bounds.high), glm::dvec3(0.0));
-        nearest.distance = std::min(nearest.distance, glm::length(outside));
+        nearest.distance = std::min(nearest.distance, distance_to(object.bounds, view.position));
         for (int i = 0; i < 8; ++i)
             nearest.depth = std::min(nearest.depth, -to_camera(view, object.bounds.corner(i)).z);
     }
@@ -153,60 +152,51 @@ ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const Frame
 
 FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
     StageClock clock;
-    FramePlan plan;
+    FramePlan frame;
+    PlanInput& in = frame.input;
     if (!facts_) facts_ = find_shot_facts(shot_.scene, shot_.textures, shot_.pose_plan);
     const Lens lens = find_lens(shot_.scene, posed.pose.cameras[shot_.camera(work.frame)]);
     const bool blurs = shot_.open_shutter(work.frame) || lens.radius > 0.0;
-    plan.facts = find_frame_facts(shot_.scene, *facts_, shot_.textures, posed.pose, posed.view, blurs);
-    plan.lens.radius = lens.radius;
-    const Nearest nearest = find_nearest(plan.facts, posed.view);
+    in.facts = find_frame_facts(shot_.scene, *facts_, shot_.textures, posed.pose, posed.view, blurs);
+    in.lens.radius = lens.radius;
+    const Nearest nearest = find_nearest(in.facts, posed.view);
     if (lens.radius > 0.0) {
-        const double depth = plan.facts.sees_all ? posed.view.near_plane : nearest.depth;
-        plan.lens.circle = find_largest_circle(posed.view, lens.radius, lens.focus_distance, depth);
+        const double depth = in.facts.sees_all ? posed.view.near_plane : nearest.depth;
+        in.lens.circle = find_largest_circle(posed.view, lens.radius, lens.focus_distance, depth);
     }
-    plan.shutter = find_shutter_facts(work, plan.facts, nearest.distance);
-    plan.perceives = work.perceive;
-    plan.maps = work.maps;
-    plan.has_other = work.other != OtherFrame::none;
-    plan.keyframes = shot_.reads_keyframes();
-    if (work.perceive && plan.has_other && !work.edited) {
+    in.shutter = find_shutter_facts(work, in.facts, nearest.distance);
+    in.perceives = work.perceive;
+    in.maps = work.maps;
+    in.has_other = work.other != OtherFrame::none;
+    in.keyframes = shot_.reads_keyframes();
+    if (work.perceive && in.has_other && !work.edited) {
         const double now = posed.pose.seconds, other = shot_.seconds(other_frame_number(work.frame, work.other));
-        plan.moves = !shot_.steady.is_steady(shot_.camera(work.frame), std::min(now, other), std::max(now, other));
+        in.moves = !shot_.steady.is_steady(shot_.camera(work.frame), std::min(now, other), std::max(now, other));
     }
-    plan.settings = shot_.settings;
-    plan.effects = make_plan(plan, std::nullopt);
-    if (plan.skips(Effect::indirect_diffuse)) plan.settings.light.bounces = 0;
-    clock.add_to(plan.seconds);
-    return plan;
+    in.luminance_scale = shot_.exposure * shot_.scene.film.viewing.display_white;
+    frame.settings = shot_.settings;
+    plan(frame, std::nullopt);
+    clock.add_to(frame.seconds);
+    return frame;
 }
 
-EffectsPlan FramePlanner::make_plan(const FramePlan& plan, const std::optional<VisibleFrame>& visible) const {
-    return plan_effects({.scene = shot_.scene,
-                         .settings = shot_.settings,
-                         .facts = plan.facts,
-                         .shutter = plan.shutter,
-                         .lens = plan.lens,
-                         .perceives = plan.perceives,
-                         .maps = plan.maps,
-                         .has_other = plan.has_other,
-                         .moves = plan.moves,
-                         .keyframes = plan.keyframes,
-                         .luminance_scale = shot_.exposure * shot_.scene.film.viewing.display_white},
-                        visible);
+void FramePlanner::plan(FramePlan& frame, const std::optional<VisibleFrame>& visible) const {
+    frame.effects = plan_effects(shot_.scene, shot_.settings, frame.input, visible);
+    int& bounces = frame.settings.light.bounces;
+    bounces = shot_.settings.light.bounces;
+    if (frame.skips(Effect::indirect_diffuse)) bounces = 0;
+    if (visible && frame.skips(Effect::more_bounces)) bounces = std::min(bounces, 1);
 }
 
-void FramePlanner::finish(const Image<Hit>& hits, const FrameOutput& out, FramePlan& plan) const {
+void FramePlanner::finish(const Image<Hit>& hits, const FrameOutput& out, FramePlan& frame) const {
     if (out.limits.threshold.empty()) return;
     StageClock clock;
     VisibleFrame visible = find_least_thresholds(hits, out.limits.threshold);
     for (const Rgb& pixel : out.estimate.pixels)
         visible.brightest = std::max(visible.brightest, double{luminance(pixel)});
     visible.brightest *= shot_.scene.film.viewing.display_white;
-    plan.effects = make_plan(plan, visible);
-    plan.settings.light.bounces = shot_.settings.light.bounces;
-    if (plan.skips(Effect::indirect_diffuse)) plan.settings.light.bounces = 0;
-    if (plan.skips(Effect::more_bounces)) plan.settings.light.bounces = std::min(plan.settings.light.bounces, 1);
-    clock.add_to(plan.seconds);
+    plan(frame, visible);
+    clock.add_to(frame.seconds);
 }
 
 }  // namespace aleph

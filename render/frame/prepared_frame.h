@@ -4,7 +4,7 @@
 #include "perception/noise_threshold.h"
 #include "render/frame/frame_estimate.h"
 #include "render/frame/frame_motion.h"
-#include "render/shade/error_budget.h"
+#include "render/shade/progressive.h"
 
 namespace aleph {
 

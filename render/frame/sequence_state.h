@@ -7,7 +7,7 @@
 #include "render/frame/prepared_frame.h"
 #include "render/frame/static_spans.h"
 #include "render/shade/frame.h"
-#include "render/time/light_breaks.h"
+#include "render/time/lighting_keyframes.h"
 #include "render/time/shot_light.h"
 
 namespace aleph {

@@ -78,24 +78,9 @@ glm::vec2 meet_triangle(const Emitter::Triangle& t, const glm::vec3& position, c
     return b.x + b.y > 1.0f ? b / (b.x + b.y) : b;
 }
 
-/// The index of the part of [0,1) that u falls into, given where each part ends; u is stretched to [0,1) within it.
-std::size_t choose_part(std::span<const float> ends, float& u) {
-    std::size_t i = 0;
-    if (ends.size() > max_spherical_triangles) {
-        i = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), u) - ends.begin());
-    } else {
-        while (i < ends.size() && ends[i] <= u) ++i;
-    }
-    i = std::min(i, ends.size() - 1);
-    const float low = i == 0 ? 0.0f : ends[i - 1];
-    const float width = ends[i] - low;
-    u = width > 0.0f ? std::clamp((u - low) / width, 0.0f, 0x1.fffffep-1f) : 0.0f;
-    return i;
-}
-
 LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const SolidAngles& angles,
                            const glm::vec3& position, glm::vec2 u, float share) {
-    std::size_t chosen = 0;
+    int chosen = 0;
     glm::vec2 b;
     if (angles.total > 0.0f) {
         std::array<float, max_spherical_triangles> ends{};

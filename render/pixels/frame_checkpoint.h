@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -75,6 +76,12 @@ class ByteReader {
     std::string_view bytes_;
     bool good_ = true;
 };
+
+/// The bytes of a file of ours: 8 bytes of magic, the content, and SHA-1 of both in 40 hexadecimal digits.
+std::string seal(std::string_view magic, std::string_view content);
+
+/// The content of such a file; nothing if it is damaged or not complete.
+std::optional<std::string_view> unseal(std::string_view magic, std::string_view file);
 
 class FrameCheckpoint {
   public:

@@ -23,7 +23,7 @@ bool Planning::any_seen(bool MaterialFacts::*layer) const {
 }
 
 bool Planning::may_leave_out(Effect effect) const {
-    return in.settings.effects.plan == EffectsPlanning::on && !in.settings.effects.force.contains(effect);
+    return settings.effects.plan == EffectsPlanning::on && !settings.effects.force.contains(effect);
 }
 
 EffectBound Planning::bound_of(double radiance, bool everywhere) const {

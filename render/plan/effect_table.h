@@ -11,6 +11,8 @@ namespace aleph {
 
 /// The frame that is planned, as effects look at it.
 struct Planning {
+    const Scene& scene;
+    const RenderSettings& settings;
     const PlanInput& in;
     const std::optional<VisibleFrame>& visible;
     double left = 0.0;  ///< visible thresholds that may still be left out

@@ -55,11 +55,12 @@ double EffectsPlan::left_out_thresholds() const {
     return sum;
 }
 
-EffectsPlan plan_effects(const PlanInput& input, const std::optional<VisibleFrame>& visible, const EffectTable& table) {
-    Planning frame{input, visible, planned_thresholds(input.settings), {}};
+EffectsPlan plan_effects(const Scene& scene, const RenderSettings& settings, const PlanInput& input,
+                         const std::optional<VisibleFrame>& visible, const EffectTable& table) {
+    Planning frame{scene, settings, input, visible, planned_thresholds(settings), {}};
     for (const EffectRow& row : table) frame.plan.effects.push_back(decide(row, frame));
     // Afterwards, because effects are found as if those before them were not overridden.
-    for (const EffectRow& row : table) override_by_user(input.settings, row.effect.id, frame.plan.of(row.effect.id));
+    for (const EffectRow& row : table) override_by_user(settings, row.effect.id, frame.plan.of(row.effect.id));
     return std::move(frame.plan);
 }
 

@@ -83,11 +83,9 @@ struct LensFacts {
     double circle = 0.0;  ///< pixels: largest diameter of the circle of confusion
 };
 
-/// Data that a frame's plan is made from.
+/// What is known of a frame when its plan is made.
 struct PlanInput {
-    const Scene& scene;
-    const RenderSettings& settings;
-    const FrameFacts& facts;
+    FrameFacts facts;
     ShutterFacts shutter;
     LensFacts lens;
     bool perceives = false;        ///< something obeys the model of vision, or its maps are wanted
@@ -111,8 +109,8 @@ using EffectTable = std::vector<EffectRow>;  ///< in the order of Effect
 const EffectTable& effect_table();
 
 /// @param visible  nothing before the estimate: then only what cannot change the picture at all is skipped
-EffectsPlan plan_effects(const PlanInput& input, const std::optional<VisibleFrame>& visible,
-                         const EffectTable& table = effect_table());
+EffectsPlan plan_effects(const Scene& scene, const RenderSettings& settings, const PlanInput& input,
+                         const std::optional<VisibleFrame>& visible, const EffectTable& table = effect_table());
 
 /// {"effect":NAME,"decision":"simulate|simplify|skip","reason":...,"bound":{"luminance":cd/m2,"thresholds":...}}; a
 /// bound is null where none is known.

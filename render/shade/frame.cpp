@@ -7,7 +7,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/guide/error_report.h"
-#include "render/guide/mean_around.h"
+#include "render/guide/stopping_rule.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/settings/measure.h"
 #include "render/shade/bright_edges.h"

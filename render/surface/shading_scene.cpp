@@ -92,18 +92,13 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
     shading.anchor = rays.anchor();
     if (!textures.environment.empty()) shading.environment.map = &textures.environment;
     set_surroundings(shading);
-    std::vector<bool> can_shine;
-    for (int i = 0; i < std::ssize(scene.materials); ++i) {
-        shading.materials.push_back(make_material(shading, i));
-        can_shine.push_back(can_emit(scene.materials[i]));
-    }
-    shading.materials.push_back(make_material(shading, static_cast<int>(scene.materials.size())));
-    can_shine.push_back(false);
+    for (int i = 0; i <= std::ssize(scene.materials); ++i) shading.materials.push_back(make_material(shading, i));
     shading.instances.reserve(pose.instances.size());
     for (int i = 0; i < std::ssize(pose.instances); ++i) {
         shading.instances.push_back(make_instance(shading, rays, i));
         const PosedInstance& instance = shading.instances.back();
-        if (can_shine[instance.material]) shading.emitting.push_back(i);
+        const Material* material = shading.materials[instance.material].material;
+        if (material != nullptr && can_emit(*material)) shading.emitting.push_back(i);
         add(shading.bounds.all, instance);
     }
     return shading;

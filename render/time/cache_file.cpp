@@ -71,9 +71,7 @@ void write_cache_file(const std::filesystem::path& path, const Fingerprint& fing
         out.add(records.seen);
         out.add(records.further);
     }
-    std::string text = std::string(magic) + out.take();
-    text += hash_bytes(text);
-    write_file(path, text);
+    write_file(path, seal(magic, out.take()));
 }
 
 ShotRecords read_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint) {
@@ -82,12 +80,9 @@ ShotRecords read_cache_file(const std::filesystem::path& path, const Fingerprint
     const Bytes bytes = read_regular_file(path, file, "");
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (!all.starts_with(magic)) throw InputError(file, "", "this is not a cache file of aleph");
-    constexpr std::size_t digest_size = 40;
-    if (all.size() < magic.size() + digest_size ||
-        hash_bytes(all.substr(0, all.size() - digest_size)) != all.substr(all.size() - digest_size)) {
-        refuse_damaged(file);
-    }
-    ByteReader in(all.substr(magic.size(), all.size() - magic.size() - digest_size));
+    const std::optional<std::string_view> content = unseal(magic, all);
+    if (!content) refuse_damaged(file);
+    ByteReader in(*content);
     const Json found = Json::parse(in.read_text(), nullptr, false);
     if (!is_fingerprint(found)) refuse_damaged(file);
     const std::string difference = find_difference(found, fingerprint);

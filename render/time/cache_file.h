@@ -2,10 +2,9 @@
 // The records of lighting keyframes in a file, so that a later run of the same scene, settings and program need not
 // compute them again.
 //
-// Layout, in the byte order of the machine: 8 bytes of magic; the size of the fingerprint (uint64) and its text; the
-// size of a record (uint64); the number of keyframes (uint64); per keyframe its frame (int64) and two
-// lists (KeyframeRecords), each the number of its records (uint64) and the records; SHA-1 of all bytes before, 40
-// hexadecimal digits.
+// Content (seal), in the byte order of the machine: the size of the fingerprint (uint64) and its text; the size of a
+// record (uint64); the number of keyframes (uint64); per keyframe its frame (int64) and two lists (KeyframeRecords),
+// each the number of its records (uint64) and the records.
 
 #include <cstdint>
 #include <filesystem>

@@ -1,9 +1,5 @@
 #pragma once
-// Checks the light of lighting keyframes at a frame between them. Both keyframes may agree and be wrong: a ball that
-// touches the floor half way darkens it and itself, and neither keyframe shows that.
-//
-// The frame computes irradiance of its own at probes: surfaces of the picture, the closer to each other the more may
-// have happened there. Where a probe differs from what the keyframes say, the frame does not read them.
+// Checks the light of lighting keyframes at a frame between them: both may agree and be wrong (README.md).
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // Paths that look up irradiance where it is known: in rooms whose light is known exactly, and from a filled cache.
 
+#include "render/cache/bounce_places.h"
 #include "render/cache/further_bounces.h"
-#include "render/cache/mirror_places.h"
 #include "render/path/path.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/lobes.h"
