@@ -23,9 +23,6 @@ void aim_rays(const BrightSampler& sampler, const SurfacePlace& point, RandomStr
 /// nothing.
 void weigh_rays(const BrightSampler& sampler, GatherScratch& scratch);
 
-/// Multiplies what the rays found by their weights.
-void apply_weights(GatherScratch& scratch);
-
 /// Adds the light of the aimed rays to that of the others, with its gradients and its noise.
 void add_aimed(const glm::vec3& normal, const GatherScratch& scratch, IrradianceSample& out);
 

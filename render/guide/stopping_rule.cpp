@@ -94,19 +94,11 @@ MeanEstimate estimate_own_mean(const PixelSamples& pixel) {
 
 bool is_enough(Sampling rule, Stopping stopping, const MeanEstimate& mean, double tolerance) {
     const double tolerated2 = tolerance > 0.0 ? tolerance * tolerance : 0.0;
-    switch (rule) {
-        case Sampling::uniform:
-        case Sampling::protocol:
-            break;
-        case Sampling::consecutive:
-            return mean.error2 <= tolerated2;
-        case Sampling::variance:
-            return (stopping == Stopping::pixel ? mean.variance : mean.variance / mean.samples) <= tolerated2;
-        case Sampling::threshold:
-            return error_deviations * error_deviations * std::sqrt(mean.error2 / mean.samples) * mean.around <=
-                   tolerated2;
-    }
-    return true;
+    if (rule == Sampling::consecutive) return mean.error2 <= tolerated2;
+    if (rule == Sampling::variance)
+        return (stopping == Stopping::pixel ? mean.variance : mean.variance / mean.samples) <= tolerated2;
+    if (rule != Sampling::threshold) return true;
+    return error_deviations * error_deviations * std::sqrt(mean.error2 / mean.samples) * mean.around <= tolerated2;
 }
 
 bool stands_out(const PixelSamples& pixel, double tolerance) {
@@ -123,16 +115,8 @@ double allow_noise(double error) {
 }
 
 int first_samples(Sampling rule, Outline outline, bool bright_edge, int most) {
-    switch (rule) {
-        case Sampling::uniform:
-        case Sampling::protocol:
-            return most;
-        case Sampling::consecutive:
-        case Sampling::variance:
-            return std::min(most, thesis_samples);
-        case Sampling::threshold:
-            break;
-    }
+    if (rule == Sampling::uniform || rule == Sampling::protocol) return most;
+    if (rule != Sampling::threshold) return std::min(most, thesis_samples);
     if (outline == Outline::small) return std::min(most, small_object_samples);
     if (bright_edge) return std::min(most, bright_edge_samples);
     return std::min(most, outline == Outline::none ? own_samples : outline_samples);

@@ -238,7 +238,7 @@ BrightSampler::BrightSampler(const BrightSurfaces& surfaces, const Receiver& rec
       receiver_(receiver),
       aimed_per_around_(static_cast<float>(towards) / static_cast<float>(around)) {
     const LightBounds& bounds = surfaces.patches.bounds;
-    bound_illuminances(bounds, receiver.position, receiver.normal, 0.0f, {ends_.data(), bounds.strength.size()});
+    bound_illuminances(bounds, receiver, {ends_.data(), bounds.strength.size()});
     for (std::size_t i = 0; i < bounds.strength.size(); ++i) ends_[i] = total_ += ends_[i];
     if (!std::isfinite(total_)) total_ = 0.0f;
 }

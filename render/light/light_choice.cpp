@@ -39,10 +39,9 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
 
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             const LightNumbers& numbers) {
-    const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
-    const float behind = lit.material.has_glass() ? 1.0f : 0.0f;
-    const LightCut cut = find_light_cut(context.lights, receiver, behind);
-    const LightPick pick = pick_light(context.lights, cut, receiver, behind, numbers.choice);
+    const Receiver receiver{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()};
+    const LightCut cut = find_light_cut(context.lights, receiver);
+    const LightPick pick = pick_light(context.lights, cut, receiver, numbers.choice);
     if (pick.light == no_index) return without_light(cut);
     const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
     if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
@@ -54,8 +53,8 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
 ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
                                     const LightNumbers& numbers) {
     const Receiver receiver{place.ray_origin(), place.normal};
-    const LightCut cut = find_light_cut(context.lights, receiver, 0.0f);
-    const LightPick pick = pick_light(context.lights, cut, receiver, 0.0f, numbers.choice);
+    const LightCut cut = find_light_cut(context.lights, receiver);
+    const LightPick pick = pick_light(context.lights, cut, receiver, numbers.choice);
     if (pick.light == no_index) return without_light(cut);
     const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
     const float cosine = glm::dot(place.normal, sample.direction);

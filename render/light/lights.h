@@ -93,14 +93,6 @@ struct LightSample {
     float pdf = 0.0f;    ///< per solid angle; 0 for punctual lights, which no ray can hit
 };
 
-/// The point that a light illuminates.
-struct Receiver {
-    /// m, where the shadow ray starts (SurfacePoint::ray_origin). If it were the surface point itself, the offset ray
-    /// could reach the light within LightSample::distance.
-    glm::vec3 position{0.0f};
-    glm::vec3 normal{0.0f};  ///< unit
-};
-
 /// Density per steradian of sample_light for the environment.
 float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction);
 

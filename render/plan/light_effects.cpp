@@ -44,15 +44,9 @@ bool may_block_parallel(const Bounds& receiver, const Bounds& blocker, const glm
 }
 
 bool may_block(const LightFacts& light, const ObjectFacts& receiver, const ObjectFacts& blocker) {
-    switch (light.kind) {
-        case LightFacts::Kind::surroundings:
-            return !(receiver.flat && is_in_plane(receiver, blocker.bounds));
-        case LightFacts::Kind::directional:
-            return may_block_parallel(receiver.bounds, blocker.bounds, -light.direction);
-        case LightFacts::Kind::surface:
-        case LightFacts::Kind::point:
-            break;
-    }
+    if (light.kind == LightFacts::Kind::surroundings) return !(receiver.flat && is_in_plane(receiver, blocker.bounds));
+    if (light.kind == LightFacts::Kind::directional)
+        return may_block_parallel(receiver.bounds, blocker.bounds, -light.direction);
     Bounds hull = receiver.bounds;
     hull.add(light.center - light.radius);
     hull.add(light.center + light.radius);
