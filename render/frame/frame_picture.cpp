@@ -55,7 +55,7 @@ SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const Fr
     const double shift = RandomStream({plan.settings.seed ^ shutter_seed_mask, s.shot.noise_key(frame), 0, 0}).next();
     options.at_sample = [&s, frame, shutter = *open.shutter, shift](int sample, int pixel_class) {
         const double at = place_in_shutter(shutter, sample, pixel_class, shift);
-        return open_scene(s.shot, frame, at, s.here, s.preparation.shutter);
+        return open_scene(s.shot, frame, at, s.here, s.shutter);
     };
     return options;
 }
@@ -121,7 +121,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
     out.hits = prepared.centers.hits;
     s.rendered = true;
     stats.traced = s.traced() - before;
-    s.preparation.motion.end_edited();
+    s.motion.end_edited();
     stats.plan = plan.effects;
     stats.plan_seconds = plan.seconds;
     stats.peak_memory_mib = peak_memory_mib();

@@ -80,7 +80,7 @@ FrameRange Sequence::range() const {
 FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     SequenceState& s = state();
     // The first frame after an edit has a motion that no other frame has.
-    const bool is_edited = s.preparation.motion.is_edited();
+    const bool is_edited = s.motion.is_edited();
     const std::int64_t first = is_edited ? frame : s.static_spans.find_first(frame);
     std::optional<FrameOutput> out = s.static_frame.copy(first, request);
     if (!out) {
@@ -99,7 +99,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
 
 EffectsPlan Sequence::plan(std::int64_t frame) {
     SequenceState& s = state();
-    const std::int64_t first = s.preparation.motion.is_edited() ? frame : s.static_spans.find_first(frame);
+    const std::int64_t first = s.motion.is_edited() ? frame : s.static_spans.find_first(frame);
     return s.prepare(first, s.shot.needs_perception(), false).plan.effects;
 }
 
@@ -111,9 +111,9 @@ void Sequence::edit(const std::function<void(Scene&)>& change) {
     const std::vector<CameraShot> shots = list_camera_shots(scene, camera_);
     auto made = std::make_unique<SequenceState>(std::move(scene), old.shot.settings, shots);
     made->shot.exposure = made->shot.scene.film.exposure.value_or(old.shot.exposure);
-    std::optional<PosedView> before = old.preparation.motion.end_edited();
+    std::optional<PosedView> before = old.motion.end_edited();
     if (old.rendered) before = old.here.posed();
-    if (before) made->preparation.motion.begin_edited(std::move(*before));
+    if (before) made->motion.begin_edited(std::move(*before));
     state_ = std::move(made);
 }
 
@@ -204,11 +204,10 @@ std::vector<Image<Rgb>> Sequence::render_part(std::int64_t frame, const PictureP
 
 FrameOutput Sequence::find_motion(std::int64_t frame) {
     SequenceState& s = state();
-    ALEPH_CHECK(s.shot.settings.guide.motion == MotionSource::model && !s.preparation.motion.is_edited(),
+    ALEPH_CHECK(s.shot.settings.guide.motion == MotionSource::model && !s.motion.is_edited(),
                 "motion of the scene's tracks");
-    PreparedFrame prepared =
-        prepare_frame(s.preparation, s.here,
-                      {.frame = s.static_spans.find_first(frame), .perceive = true, .maps = true, .motion_only = true});
+    PreparedFrame prepared = prepare_frame(
+        s, s.here, {.frame = s.static_spans.find_first(frame), .perceive = true, .maps = true, .motion_only = true});
     prepared.out.hits = std::move(prepared.centers.hits);
     s.rendered = true;
     return std::move(prepared.out);
