@@ -7,7 +7,7 @@
 
 #include "engine/base/pixel_loops.h"
 #include "render/cache/further_bounces.h"
-#include "render/cache/gather_at.h"
+#include "render/cache/gather.h"
 #include "render/surface/media.h"
 #include "render/surface/scatter.h"
 

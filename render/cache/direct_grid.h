@@ -55,7 +55,6 @@ class DirectGrid {
 
     /// The cell of a surface point; never 0.
     /// @param position   m, relative to the instance's origin, so that the cells move along with it
-    /// @param geometric  the true normal
     /// @param width      m, of the part of the surface that the ray represents
     std::uint64_t key_of(int instance, const glm::vec3& position, const glm::vec3& geometric, float width) const;
 

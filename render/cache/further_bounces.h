@@ -37,9 +37,7 @@ class FurtherIrradiance final : public KnownIrradiance {
 /// Irradiance of all bounces that a frame knows before it is shaded: that of lighting keyframes, and of its own cache.
 class FrameIrradiance final : public KnownIrradiance {
   public:
-    /// Keeps a reference to the context.
-    /// @param context  carried light comes first
-    /// @param cache    of the frame, filled; null: none
+    /// Keeps references. Light that the context carries comes first, then the frame's cache, which may be null.
     FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache);
 
     std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
@@ -51,8 +49,7 @@ class FrameIrradiance final : public KnownIrradiance {
 };
 
 /// Computes it where the gathers that fill the picture's cache need it.
-/// @param context  of the picture
-/// @param seen     surfaces of the picture whose light will be gathered (add_seen_surfaces)
+/// @param seen  surfaces of the picture whose light will be gathered (add_seen_surfaces)
 /// @return nothing if the picture has one bounce, or `seen` is empty
 std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& context,
                                                     const std::vector<PixelSurface>& seen, FrameCounts& counts);
@@ -63,7 +60,6 @@ std::optional<FurtherBounces> restore_further_bounces(const IndirectContext& con
 
 /// Irradiance of `bounces` bounces in place of that of one.
 /// @param context   of the records' gathers, which noted light of further bounces (MultiBounceLight::noted)
-/// @param accuracy  alpha of look-ups
 /// @param gathered  of each record (FillPlaces::gathered)
 /// @param bounces   at least 2
 /// @return the records of the cache with this irradiance and its gradients

@@ -41,8 +41,7 @@ Image<float> deviations_around(const Image<PixelSamples>& pixels, const Image<st
 /// What the 24 pixels around (x, y) tell. Only those count that have an outline as it has, or have none as it has none:
 /// beside an outline the noise is another. Where there is no such pixel, all of them tell; where it is alone, the
 /// pixel itself.
-/// @param outlines  of the same size, or empty: none
-/// @param silent    1 for pixels that never count; empty: none
+/// @param silent  1 for pixels that never count; it and the outlines may be empty
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
                            const Image<std::uint8_t>& silent, int x, int y);
 
@@ -95,7 +94,6 @@ int find_seen_reach(double pixels_per_degree);
 
 /// Mean of the values around each pixel.
 /// @param values    negative: unknown, not counted
-/// @param reach     pixels on either side, along rows and columns
 /// @param with_own  whether the pixel's own value counts; it does where no other is known
 /// @return negative where no value is known
 Image<float> mean_around(const Image<float>& values, int reach, bool with_own);

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "engine/base/sampling.h"
-#include "render/light/light_power.h"
 #include "render/light/light_rays.h"
+#include "render/light/lights.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "render/light/light_power.h"
+#include "render/light/lights.h"
 
 namespace aleph {
 

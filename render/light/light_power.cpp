@@ -1,4 +1,4 @@
-#include "render/light/light_power.h"
+#include "render/light/lights.h"
 
 #include <algorithm>
 #include <cmath>

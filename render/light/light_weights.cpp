@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/light/light_power.h"
+#include "render/light/lights.h"
 
 namespace aleph {
 

@@ -8,11 +8,9 @@
 #include <span>
 
 #include "engine/base/sampling.h"
-#include "render/light/light_power.h"
 #include "render/light/seen_light.h"
 #include "render/surface/environment_map.h"
 #include "render/surface/surface_material.h"
-#include "render/surface/texture.h"
 
 namespace aleph {
 

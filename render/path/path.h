@@ -17,10 +17,8 @@ struct KnownIrradiance {
     virtual ~KnownIrradiance() = default;
 
     /// Irradiance at a surface; nothing where it is not known to this accuracy. Called from any thread.
-    /// @param surface   at the hit
     /// @param accuracy  alpha: the relative error that is allowed
     /// @param weight    radiance that the path brings of a unit of it
-    /// @param task      casts rays to records where something may stand in between
     virtual std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
                                     RayTask& task) const = 0;
 

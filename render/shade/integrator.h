@@ -25,7 +25,6 @@ class LightIntegrator {
     virtual void begin(const SampleScene& scene) = 0;
 
     /// Finds the light that a pixel's surface sends to the camera. Called from any thread.
-    /// @param pixel  its samples so far
     /// @param light  set, but for what begin_light sets
     virtual void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel,
                        SampleLight& light) = 0;

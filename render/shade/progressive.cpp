@@ -6,7 +6,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/base/pixel_loops.h"
-#include "render/guide/accuracy_map.h"
 #include "render/guide/stopping_rule.h"
 #include "render/time/shutter.h"
 

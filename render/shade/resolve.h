@@ -16,8 +16,6 @@ void spread_lost_light(Image<PixelSamples>& pixels, int reach);
 
 /// Fills colour, coverage and numbers of samples.
 /// @param exposure       factor on light
-/// @param with_indirect  fills ShadedFrame::indirect
-/// @param with_variance  fills ShadedFrame::variance
 void resolve_pixels(const Image<PixelSamples>& pixels, double exposure, bool with_indirect, bool with_variance,
                     ShadedFrame& out);
 

@@ -53,11 +53,9 @@ PathState start_path(const RenderSettings& settings, const Media& around);
 Rgb share_left(const Media& around, const PixelSurface& surface);
 
 /// Sets what a sample's light tells of its surface.
-/// @param light  new
 void begin_light(const PixelSurface& surface, SampleLight& light);
 
 /// Finds the light that a pixel's surface sends to the camera, with the cache.
-/// @param pixel  its samples so far
 /// @param light  after begin_light
 void shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                   const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/surface/texture_texels.h"
-
 namespace aleph {
 
 namespace {

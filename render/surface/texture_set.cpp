@@ -8,7 +8,6 @@
 #include "engine/base/parallel.h"
 #include "engine/pose/pose.h"
 #include "render/surface/texture.h"
-#include "render/surface/texture_texels.h"
 
 namespace aleph {
 

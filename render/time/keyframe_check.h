@@ -15,8 +15,6 @@ struct KeyframeRisk {
     std::vector<BoundingSphere> movers;
 };
 
-/// @param shading  of the frame
-/// @param keyframes  the scene at the lighting keyframes around it
 KeyframeRisk find_keyframe_risk(const ShadingScene& shading, const PosePlan& plan,
                                 std::span<const ShadingScene* const> keyframes);
 
@@ -25,7 +23,6 @@ class CheckedLight final : public CarriedLight {
   public:
     /// Keeps references. Until `check`, probed parts are not used: their light may turn out not to be known.
     /// @param context  of the frame; `carried` is the light of lighting keyframes
-    /// @param sample   of its pixels
     CheckedLight(const IndirectContext& context, const KeyframeRisk& risk, const SampleHits& sample);
 
     /// Computes irradiance at the probes, as records of the frame's cache, and compares it.
