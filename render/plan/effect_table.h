@@ -2,6 +2,8 @@
 // The table of effects: one row for each, with all that a plan, its JSON, `aleph explain`, the picture of effects and
 // --forbid know of it. README.md says how to add one.
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "engine/base/color.h"
 #include "engine/base/image.h"
 #include "engine/rays/hit.h"
@@ -67,6 +69,13 @@ EffectTable light_effects();
 EffectTable indirect_effects();
 EffectTable object_effects();
 EffectTable view_effects();
+
+/// {"effect":NAME,"decision":"simulate|simplify|skip","reason":...,"bound":{"luminance":cd/m2,"thresholds":...}}; a
+/// bound is null where none is known.
+nlohmann::ordered_json to_json(const PlannedEffect& planned);
+
+/// All effects, in order; an empty list for a plan that was not made: pictures without a scene have none.
+nlohmann::ordered_json to_json(const EffectsPlan& plan);
 
 /// For each pixel the mean colour of the effects that its surface has and that are left out; black where all are
 /// simulated, and behind all surfaces.

@@ -2,7 +2,6 @@
 // The plan of a frame's effects: each is simulated, simplified or skipped, with the reason and a bound on what that can
 // change. It is made from data, before the frame is shaded.
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "render/plan/effect_facts.h"
@@ -111,13 +110,6 @@ const EffectTable& effect_table();
 /// @param visible  nothing before the estimate: then only what cannot change the picture at all is skipped
 EffectsPlan plan_effects(const Scene& scene, const RenderSettings& settings, const PlanInput& input,
                          const std::optional<VisibleFrame>& visible, const EffectTable& table = effect_table());
-
-/// {"effect":NAME,"decision":"simulate|simplify|skip","reason":...,"bound":{"luminance":cd/m2,"thresholds":...}}; a
-/// bound is null where none is known.
-nlohmann::ordered_json to_json(const PlannedEffect& planned);
-
-/// All effects, in order; an empty list for a plan that was not made: pictures without a scene have none.
-nlohmann::ordered_json to_json(const EffectsPlan& plan);
 
 /// Takes forbidden effects out of a scene, where they come from the scene alone: textures, emission and the like.
 /// Others are left out of the work of each frame.

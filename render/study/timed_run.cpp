@@ -6,7 +6,7 @@
 
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
-#include "render/plan/effects_plan.h"
+#include "render/plan/effect_table.h"
 #include "render/settings/measure.h"
 #include "render/study/processor_time.h"
 #include "render/study/reference_picture.h"

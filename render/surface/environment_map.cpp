@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "render/settings/numbers.h"
-#include "render/surface/texture.h"
+#include "render/surface/texture_texels.h"
 
 namespace aleph {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/surface/texture_texels.h"
+
 namespace aleph {
 
 namespace {

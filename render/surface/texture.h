@@ -2,13 +2,11 @@
 // Texture look-up filtered by footprint. Magnified textures are bilinear. Minified ones are averaged over probes into a
 // pyramid of coarser levels, placed along the longer axis of the footprint.
 
-#include <array>
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "engine/base/color.h"
 #include "engine/scene/scene.h"
 #include "render/surface/environment_map.h"
 
@@ -18,29 +16,6 @@ enum class TextureSpace {
     linear,
     srgb,  ///< colour channels of 8-bit images are decoded; float images are linear already
 };
-
-/// Linear value of each 8-bit sRGB value.
-inline const std::array<float, 256> srgb_decoded = [] {
-    std::array<float, 256> table{};
-    for (std::size_t i = 0; i < table.size(); ++i) table[i] = srgb_to_linear(static_cast<float>(i) / 255.0f);
-    return table;
-}();
-
-/// The value in [0,1] of an 8-bit channel without an encoding.
-inline float decode_linear(std::uint8_t value) {
-    return static_cast<float>(value) * (1.0f / 255.0f);
-}
-
-inline glm::vec4 decode_texel(const glm::u8vec4& b, TextureSpace space) {
-    if (space == TextureSpace::srgb) {
-        return {srgb_decoded[b.x], srgb_decoded[b.y], srgb_decoded[b.z], decode_linear(b.w)};
-    }
-    return {decode_linear(b.x), decode_linear(b.y), decode_linear(b.z), decode_linear(b.w)};
-}
-
-inline glm::vec4 read_texel(const SceneImage& image, int x, int y, TextureSpace space) {
-    return image.bytes.empty() ? image.floats(x, y) : decode_texel(image.bytes(x, y), space);
-}
 
 /// One image with its pyramid, in linear values. Level 0 is the scene's image, decoded at each look-up. Each coarser
 /// level is half as large, rounded down, to 1 x 1. All cover uv in [0,1]^2 and have the same mean.

@@ -8,6 +8,7 @@
 #include "engine/base/parallel.h"
 #include "engine/pose/pose.h"
 #include "render/surface/texture.h"
+#include "render/surface/texture_texels.h"
 
 namespace aleph {
 

@@ -9,7 +9,7 @@
 
 #include "engine/pose/pose.h"
 #include "render/cli/explain/explain.h"
-#include "render/plan/effects_plan.h"
+#include "render/plan/effect_table.h"
 
 namespace aleph {
 
