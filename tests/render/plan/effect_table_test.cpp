@@ -57,7 +57,8 @@ struct ExampleFrame {
         scene.lights.emplace_back().range = Track<double>(3.0);
     }
     EffectsPlan plan(double threshold) const {
-        return plan_effects(scene, settings, {.facts = facts}, VisibleFrame{threshold, threshold, 1.0}, table);
+        return plan_effects(scene, settings, {.facts = facts, .shutter = {}, .lens = {}},
+                            VisibleFrame{threshold, threshold, 1.0}, table);
     }
 
     EffectTable table = effect_table();
