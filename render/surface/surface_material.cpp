@@ -23,7 +23,7 @@ struct Lookup {
         for (int set = 0; set < 2; ++set) footprints[set] = make_uv_footprint(p, footprint, set);
     }
 
-    bool has(TextureSlot slot) const { return textures[slot].texture != no_index; }
+    bool has(TextureSlot slot) const { return textures.any && textures[slot].texture != no_index; }
 
     /// 1 without a texture.
     glm::vec4 operator()(TextureSlot slot) const {
