@@ -58,13 +58,6 @@ void weigh_rays(const BrightSampler& sampler, GatherScratch& scratch) {
     }
 }
 
-void apply_weights(GatherScratch& scratch) {
-    for (std::size_t i = 0; i < scratch.rays.size(); ++i) scratch.light[i] *= scratch.weights[i];
-    for (FurtherLight& further : scratch.further) {
-        further.weight *= scratch.weights[static_cast<std::size_t>(further.ray)];
-    }
-}
-
 void add_aimed(const glm::vec3& normal, const GatherScratch& scratch, IrradianceSample& out) {
     const std::size_t around = scratch.rays_around();
     const float per_ray = pi / static_cast<float>(scratch.strata.count());

@@ -13,7 +13,6 @@ namespace aleph {
 inline constexpr int around_per_aimed = 2;
 
 /// Bright surfaces for light that is wanted at these surfaces.
-/// @param counts  increased by the rays cast
 BrightSurfaces find_bright_surfaces(const LightingContext& lighting, const std::vector<PixelSurface>& seen,
                                     RayCounts& counts);
 
@@ -23,9 +22,6 @@ void aim_rays(const BrightSampler& sampler, const SurfacePlace& point, RandomStr
 /// Sets the weights of all rays by what they met. Aimed rays that met something else then count as if they had met
 /// nothing.
 void weigh_rays(const BrightSampler& sampler, GatherScratch& scratch);
-
-/// Multiplies what the rays found by their weights.
-void apply_weights(GatherScratch& scratch);
 
 /// Adds the light of the aimed rays to that of the others, with its gradients and its noise.
 void add_aimed(const glm::vec3& normal, const GatherScratch& scratch, IrradianceSample& out);

@@ -8,9 +8,8 @@
 #include <span>
 
 #include "engine/base/errors.h"
+#include "render/cache/gather.h"
 #include "render/cache/gather_at.h"
-#include "render/cache/gather_rays.h"
-#include "render/cache/record_worth.h"
 
 namespace aleph {
 

@@ -10,16 +10,35 @@
 //   3. all threads gather irradiance for the accepted tiles. Random numbers depend on the seed and on the place on the
 //   surface only;
 //   4. one thread inserts the records in the order of their tiles.
-// No step depends on the order in which threads work. The number of records is within a few percent of that of a
-// sequential fill, where each record is inserted before the next pixel is looked at.
+// No step depends on the order in which threads work.
 
 #include <functional>
 
-#include "render/cache/fill_points.h"
 #include "render/cache/indirect_context.h"
 #include "render/cache/irradiance_cache.h"
 
 namespace aleph {
+
+/// The surface of a pixel's sample.
+struct FillPoint {
+    glm::vec3 position{0.0f};  ///< m, relative to the anchor of IndirectContext::lighting
+    float footprint = -1.0f;   ///< m, of the pixel; negative: no record is needed, or light is known (CarriedLight)
+    glm::vec3 normal{0.0f};    ///< unit
+    float reflected = 0.0f;    ///< luminance of radiance over irradiance
+};
+
+/// The point of a surface that needs light.
+FillPoint make_fill_point(const PixelSurface& surface);
+
+/// The surface that a pixel shows, in the pose whose light is wanted; nothing if it is not there.
+std::optional<PixelSurface> find_surface(const IndirectContext& context, const SampleHits& sample, int x, int y);
+
+/// The same if its light has to be computed.
+std::optional<PixelSurface> find_needed(const IndirectContext& context, const SampleHits& sample, int x, int y,
+                                        RayTask& task);
+
+/// Those of every `step`th pixel of every `step`th row; elsewhere no light is needed.
+Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, int step, RayCounts& counts);
 
 /// Surfaces that may need light, in rows and columns. `accuracy` of the context and the images of the tally have the
 /// same size.

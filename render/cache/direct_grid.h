@@ -2,8 +2,7 @@
 // Direct light that gathers share. The direct irradiance of a Lambert surface is averaged over small cells of space,
 // so that gather rays which meet a cell that is already known cast no shadow ray.
 //
-// A cell is about as wide as the part of the surface that one gather ray represents, rounded to a power of two:
-// the average stays within what the ray would average over anyway, whatever the size of the scene. Cells
+// A cell is about as wide as the part of the surface that one gather ray represents, rounded to a power of two. Cells
 // belong to one instance and to one of six directions that its true normal can face most.
 //
 // The grid does not change while gathers run. A gather that meets a cell with too few samples computes one of its own,
@@ -56,7 +55,6 @@ class DirectGrid {
 
     /// The cell of a surface point; never 0.
     /// @param position   m, relative to the instance's origin, so that the cells move along with it
-    /// @param geometric  the true normal
     /// @param width      m, of the part of the surface that the ray represents
     std::uint64_t key_of(int instance, const glm::vec3& position, const glm::vec3& geometric, float width) const;
 

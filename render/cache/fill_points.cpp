@@ -1,6 +1,5 @@
-#include "render/cache/fill_points.h"
+#include "render/cache/cache_fill.h"
 
-#include "render/surface/carried_point.h"
 #include "render/surface/scatter.h"
 
 namespace aleph {

@@ -1,17 +1,11 @@
 #pragma once
-// One coarse irradiance cache for the light of the second and all further bounces.
-//
-// Irradiance of n bounces is a gather of direct light and of what hits scatter of E_(n-1), their irradiance of n - 1
-// bounces. E_(n-1) changes slowly, and reaches the picture averaged over a hemisphere and times the albedo: few records
-// with few rays hold it. They lie where gather rays from the picture arrive. Each record casts its rays once, and keeps
-// for each the direct light that it found and the records from which the irradiance of the hit is interpolated
-// (light_transport.h). Going from E_1 to E_2 and so on then takes no more rays: work does not grow with the bounces.
+// One coarse irradiance cache for the light of the second and all further bounces (README.md, Multi-bounce light).
 
 #include <optional>
 #include <vector>
 
 #include "render/cache/indirect_context.h"
-#include "render/path/known_irradiance.h"
+#include "render/path/path.h"
 
 namespace aleph {
 
@@ -40,10 +34,22 @@ class FurtherIrradiance final : public KnownIrradiance {
     const MultiBounceLight light_;
 };
 
+/// Irradiance of all bounces that a frame knows before it is shaded: that of lighting keyframes, and of its own cache.
+class FrameIrradiance final : public KnownIrradiance {
+  public:
+    /// Keeps references. Light that the context carries comes first, then the frame's cache, which may be null.
+    FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache);
+
+    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
+                            RayTask& task) const override;
+
+  private:
+    const IndirectContext& context_;
+    const IrradianceCache* cache_;
+};
+
 /// Computes it where the gathers that fill the picture's cache need it.
-/// @param context  of the picture
-/// @param seen     surfaces of the picture whose light will be gathered (add_seen_surfaces)
-/// @param counts   increased
+/// @param seen  surfaces of the picture whose light will be gathered (add_seen_surfaces)
 /// @return nothing if the picture has one bounce, or `seen` is empty
 std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& context,
                                                     const std::vector<PixelSurface>& seen, FrameCounts& counts);
@@ -51,5 +57,13 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
 /// The same from its records; nothing if there are none.
 std::optional<FurtherBounces> restore_further_bounces(const IndirectContext& context,
                                                       const std::vector<IrradianceRecord>& records);
+
+/// Irradiance of `bounces` bounces in place of that of one.
+/// @param context   of the records' gathers, which noted light of further bounces (MultiBounceLight::noted)
+/// @param gathered  of each record (FillPlaces::gathered)
+/// @param bounces   at least 2
+/// @return the records of the cache with this irradiance and its gradients
+std::vector<IrradianceRecord> add_bounces(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
+                                          std::vector<KeptRays> gathered, int bounces, RayCounts& counts);
 
 }  // namespace aleph

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/cache/aimed_rays.h"
-#include "render/cache/gather_rays.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {
@@ -267,14 +266,20 @@ void add_unshadowed(const LightingContext& context, RayTask& task, const GatherO
                     scratch);
 }
 
+/// Multiplies what the rays found.
+/// @param weight  gives the factor of a ray
+template <class Weight>
+void scale_light(GatherScratch& scratch, const Weight& weight) {
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) scratch.light[i] *= weight(i);
+    for (FurtherLight& further : scratch.further) further.weight *= weight(static_cast<std::size_t>(further.ray));
+}
+
 /// Weighs the light of all rays by how much of it enters the Lambert layer.
 void weigh_by_transmission(const SurfaceMaterial& material, const glm::vec3& normal, GatherScratch& scratch) {
     if (!(material.gloss.f90_max > 0.0f || material.gloss.f0_max > 0.0f)) return;
-    const auto weight = [&](std::size_t ray) {
+    scale_light(scratch, [&](std::size_t ray) {
         return relative_transmission(material, glm::dot(normal, scratch.rays[ray].direction));
-    };
-    for (std::size_t i = 0; i < scratch.rays.size(); ++i) scratch.light[i] *= weight(i);
-    for (FurtherLight& further : scratch.further) further.weight *= weight(static_cast<std::size_t>(further.ray));
+    });
 }
 
 }  // namespace
@@ -309,7 +314,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
         {inside, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});
     add_unshadowed(context, task, options, scratch);
     if (options.material != nullptr) weigh_by_transmission(*options.material, point.normal, scratch);
-    if (sampler) apply_weights(scratch);
+    if (sampler) scale_light(scratch, [&](std::size_t ray) { return scratch.weights[ray]; });
     return add_up_rays(strata, point.normal, scratch);
 }
 

@@ -10,15 +10,41 @@
 #include <vector>
 
 #include "engine/base/color.h"
+#include "engine/base/sampling.h"
 #include "render/cache/direct_grid.h"
 #include "render/cache/hemisphere_strata.h"
-#include "render/cache/multi_bounce_light.h"
+#include "render/light/light_choice.h"
 #include "render/path/direct_light.h"
 #include "render/surface/lambert_hit.h"
 
 namespace aleph {
 
-struct BrightSurfaces;
+class IrradianceCache;
+
+/// The light that hits of gather rays scatter in addition to direct light.
+struct MultiBounceLight {
+    int bounces = 0;  ///< of its irradiance; 0: there is none
+    /// Cache of exactly so many bounces; null: every irradiance comes from a random path.
+    const IrradianceCache* cache = nullptr;
+    float accuracy = 0.0f;  ///< alpha of look-ups
+    /// It is not looked up: gathers note where it comes from (FurtherLight).
+    bool noted = false;
+};
+
+/// Where records do not reach, they are used so many times as far: their error is smaller than that of the one random
+/// path in their place, which may meet the brightest spot of the scene.
+inline constexpr float gap_reach = 1.4f;
+
+/// Indirect irradiance at a surface point from the cache; nothing where no record reaches, even so.
+std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
+                                          const MultiBounceLight& multi_bounce);
+
+/// The same without bias from one random path, whose first ray is counted as RayCounts::multi_bounce.
+/// @param material  weighs the light by its relative_transmission; null: pure Lambert
+/// @param depth     surfaces that may scatter on the path
+Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
+                                   const SurfaceMaterial* material, const MultiBounceLight& multi_bounce, int depth,
+                                   RandomStream& random);
 
 /// Free distance along a tangent plane by sectors of azimuth (sector_of), m.
 using Clearance = std::array<float, 16>;
@@ -187,8 +213,23 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
                                    const GatherPattern& pattern, GatherScratch& scratch,
                                    const GatherOptions& options = {});
 
+/// Sets the rays of all cells, as far as they are above the true surface, their places, and which cells are below it.
+/// @param basis  of the hemisphere
+void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePlace& point,
+                const CellNumbers& numbers, GatherScratch& scratch);
+
+/// @param scratch  of a gather; loses its `further`
+KeptRays keep_rays(GatherScratch& scratch);
+/// Sets what add_up_rays reads.
+void restore_rays(const KeptRays& kept, GatherScratch& scratch);
+
 /// The irradiance and its summary from what the rays found, each by its weight.
 IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch);
+
+/// Its part over the hemisphere: sets everything in `out` but the irradiance, which must be set.
+/// @param basis  of the hemisphere
+void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, GatherScratch& scratch,
+                          IrradianceSample& out);
 
 /// Random numbers of a place on a surface: a cell of the triangle, so that the last bits of the hit hardly ever matter.
 RandomKey make_place_key(std::uint32_t seed, const Hit& hit);

@@ -1,4 +1,4 @@
-#include "render/cache/gather_rays.h"
+#include "render/cache/gather.h"
 
 #include <array>
 #include <cmath>

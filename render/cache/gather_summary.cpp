@@ -1,4 +1,4 @@
-#include "render/cache/gather_summary.h"
+// Summary of the radiance and the distances over a hemisphere: gradients, noise and free space, beside the irradiance.
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 
 #include "engine/base/color.h"
 #include "render/cache/direct_grid.h"
+#include "render/cache/gather.h"
 #include "render/cache/irradiance_cache.h"
-#include "render/cache/multi_bounce_light.h"
 #include "render/light/bright_surfaces.h"
 #include "render/pixels/frame_checkpoint.h"
 #include "render/pixels/pixel_surfaces.h"

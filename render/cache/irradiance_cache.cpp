@@ -150,8 +150,9 @@ std::optional<ExpectedRecord> IrradianceCache::expect(const CacheQuery& query, f
 
 IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const {
     const float accuracy = smoothing_reach * record.accuracy;
-    Rgb irradiance(0.0f);
-    std::array<glm::vec3, 3> translation{}, rotation{};
+    IrradianceRecord smooth = record;
+    smooth.irradiance = Rgb(0.0f);
+    smooth.gradients = {};
     float total = 0.0f;
     index_.visit_near(record.position, accuracy, accuracy * record.radius, [&](int i) {
         const IrradianceRecord& other = records_[i];
@@ -166,20 +167,19 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
             return true;
         }
         const float weight = 1.0f - error / accuracy;
-        irradiance += value * weight;
+        smooth.irradiance += value * weight;
         for (int c = 0; c < 3; ++c) {
-            translation[c] += other.gradients.translation[c] * weight;
-            rotation[c] += other.gradients.rotation[c] * weight;
+            smooth.gradients.translation[c] += other.gradients.translation[c] * weight;
+            smooth.gradients.rotation[c] += other.gradients.rotation[c] * weight;
         }
         total += weight;
         return true;
     });
-    IrradianceRecord smooth = record;
-    if (!(total > 0.0f)) return smooth;
-    smooth.irradiance = irradiance / total;
+    if (!(total > 0.0f)) return record;
+    smooth.irradiance /= total;
     for (int c = 0; c < 3; ++c) {
-        smooth.gradients.translation[c] = translation[c] / total;
-        smooth.gradients.rotation[c] = rotation[c] / total;
+        smooth.gradients.translation[c] /= total;
+        smooth.gradients.rotation[c] /= total;
     }
     return smooth;
 }

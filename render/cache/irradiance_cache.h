@@ -1,6 +1,5 @@
 #pragma once
-// Ward's irradiance cache. Indirect irradiance changes slowly over diffuse surfaces, so it is computed at few points,
-// the records (irradiance_record.h), and interpolated in between. cache_fill.h says where records are placed.
+// Ward's irradiance cache: records (irradiance_record.h), and interpolation between them.
 //
 // Weights: record i with the error e_i < alpha has the weight 1 - e_i / alpha, which falls to 0 where the record ceases
 // to be used, so that it leaves no visible rim.

@@ -12,11 +12,9 @@
 // Gradients: a record's value is moved to P and N by its translation and rotation gradients before it is averaged
 // (Ward and Heckbert 1992, "Irradiance Gradients"). What is left grows with the square of the distance: S_i.
 //
-// Clearance (not in these papers): where alpha is large or the pixel large, a record reaches past its nearest surface,
-// and light would leak behind it. A record stores how far the nearest obstacle along its tangent plane is, in sixteen
-// sectors of azimuth, and how high the lowest surface over it hangs. Beyond them a ray decides (SightLine).
+// Clearance (not in these papers): where alpha or the pixel is large, a record reaches past its nearest surface, and
+// light would leak behind it. It stores how far the nearest obstacles are (FreeSpace). Beyond them a ray decides.
 
-#include <array>
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "render/cache/light_transport.h"
+#include "render/cache/further_bounces.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "render/cache/gather_rays.h"
+#include "render/cache/gather.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {
@@ -211,8 +211,7 @@ class LightTransport {
         const auto lit = make_record(record.position, record.normal, record.accuracy, sample, bounds);
         if (!lit) return;
         record.irradiance = lit->irradiance;
-        record.gradients.rotation = lit->gradients.rotation;
-        record.gradients.translation = lit->gradients.translation;
+        record.gradients = lit->gradients;
         record.noise.error = lit->noise.error;
     }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <experimental/simd>
 #include <glm/geometric.hpp>
 
 #include "render/cache/record_index.h"

@@ -3,7 +3,6 @@
 // lists the records whose reach comes into it, and the errors of a list are found eight at a time.
 
 #include <bit>
-#include <experimental/simd>
 #include <span>
 #include <vector>
 

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "engine/base/pixel_loops.h"
+#include "render/frame/prepared_frame.h"
 #include "render/frame/sequence_state.h"
-#include "render/frame/visible_limits.h"
-#include "render/plan/effect_picture.h"
+#include "render/plan/effect_table.h"
 #include "render/settings/measure.h"
 #include "render/shade/frame.h"
 #include "render/time/shutter.h"
@@ -55,7 +55,7 @@ SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const Fr
     const double shift = RandomStream({plan.settings.seed ^ shutter_seed_mask, s.shot.noise_key(frame), 0, 0}).next();
     options.at_sample = [&s, frame, shutter = *open.shutter, shift](int sample, int pixel_class) {
         const double at = place_in_shutter(shutter, sample, pixel_class, shift);
-        return open_scene(s.shot, frame, at, s.here, s.preparation.shutter);
+        return open_scene(s.shot, frame, at, s.here, s.shutter);
     };
     return options;
 }
@@ -115,12 +115,13 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
     if (request.maps) {
         const ShadingScene& shading = s.here.shading();
         fill_geometry_maps(shading, prepared.centers, out);
-        out.effects = make_effect_picture(prepared.centers.hits, plan.facts, plan.effects, shading.instances.size());
+        out.effects =
+            make_effect_picture(prepared.centers.hits, plan.input.facts, plan.effects, shading.instances.size());
     }
     out.hits = prepared.centers.hits;
     s.rendered = true;
     stats.traced = s.traced() - before;
-    s.preparation.motion.end_edited();
+    s.motion.end_edited();
     stats.plan = plan.effects;
     stats.plan_seconds = plan.seconds;
     stats.peak_memory_mib = peak_memory_mib();

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "engine/base/pixel_loops.h"
-#include "render/frame/camera_blur.h"
+#include "render/plan/effect_bounds.h"
 #include "render/settings/measure.h"
 
 namespace aleph {
@@ -23,9 +23,7 @@ Nearest find_nearest(const FrameFacts& facts, const CameraView& view) {
     Nearest nearest;
     for (const ObjectFacts& object : facts.objects) {
         if (!object.in_view) continue;
-        const glm::dvec3 outside =
-            glm::max(glm::max(object.bounds.low - view.position, view.position - object.bounds.high), glm::dvec3(0.0));
-        nearest.distance = std::min(nearest.distance, glm::length(outside));
+        nearest.distance = std::min(nearest.distance, distance_to(object.bounds, view.position));
         for (int i = 0; i < 8; ++i)
             nearest.depth = std::min(nearest.depth, -to_camera(view, object.bounds.corner(i)).z);
     }
@@ -52,6 +50,67 @@ VisibleFrame find_least_thresholds(const Image<Hit>& hits, const Image<float>& t
         }
     }
     return visible;
+}
+
+/// How far the picture moves while a camera takes these values in turn, about the middle one; nothing if that is not
+/// known, because it moves past objects.
+/// @param nearest  m, distance of what is in view; 0: not known
+/// @param largest  set to the largest distance between two places of a point, pixels
+std::optional<BlurMoments> find_camera_blur(const std::vector<CameraValues>& cameras, int width, int height,
+                                            double nearest, double& largest) {
+    constexpr int places = 5;  // in each direction
+    const CameraView middle = make_camera_view(cameras[cameras.size() / 2], width, height);
+    std::vector<CameraView> views;
+    for (const CameraValues& camera : cameras) {
+        if (camera.aperture != cameras.front().aperture || camera.focus_distance != cameras.front().focus_distance)
+            return std::nullopt;
+        views.push_back(make_camera_view(camera, width, height));
+        const double step = glm::length(views.back().position - middle.position);
+        if (step > 0.0 && (!(nearest > 4.0 * step) || !std::isfinite(nearest))) return std::nullopt;
+    }
+    BlurMoments worst;
+    largest = 0.0;
+    for (int i = 0; i < places * places; ++i) {
+        const glm::dvec2 place(width * (i % places) / (places - 1.0), height * (i / places) / (places - 1.0));
+        const CameraRay ray = make_camera_ray(middle, place.x, place.y);
+        glm::dvec2 sum(0.0), low(0.0), high(0.0);
+        BlurMoments here;
+        for (const CameraView& view : views) {
+            // A point that is far away, and how much more the nearest ones move.
+            const glm::dvec3 turned = ray.direction * view.axes;
+            const glm::dvec3 at = middle.orthographic
+                                      ? to_camera(view, ray.origin + ray.direction * (2.0 * std::max(nearest, 1.0)))
+                                      : turned;
+            if (!(-at.z > 0.0)) return std::nullopt;
+            const glm::dvec2 moved = project_camera_point(view, at) - place;
+            const double depth = nearest - glm::length(view.position - middle.position);
+            const double step = middle.orthographic
+                                    ? 0.0
+                                    : 1.5 * view.pixels_per_unit * glm::length(view.position - middle.position) /
+                                          std::max(depth, 1e-300) * glm::dot(turned, turned) / (turned.z * turned.z);
+            const double length = glm::length(moved) + step;
+            sum += moved;
+            low = glm::min(low, moved - step);
+            high = glm::max(high, moved + step);
+            here.mean += length / static_cast<double>(views.size());
+            here.shift += step / static_cast<double>(views.size());
+            here.mean_square += length * length / static_cast<double>(views.size());
+        }
+        here.shift += glm::length(sum) / static_cast<double>(views.size());
+        worst.mean = std::max(worst.mean, here.mean);
+        worst.shift = std::max(worst.shift, here.shift);
+        worst.mean_square = std::max(worst.mean_square, here.mean_square);
+        largest = std::max(largest, glm::length(high - low));
+    }
+    return worst;
+}
+
+/// Largest diameter of the circle of confusion, pixels.
+/// @param nearest  m along the view direction, of what is in view
+double find_largest_circle(const CameraView& view, double radius, double focus, double nearest) {
+    if (view.orthographic) return std::numeric_limits<double>::infinity();
+    const double vergence = std::max(std::abs(1.0 / nearest - 1.0 / focus), 1.0 / focus);
+    return 2.0 * radius * vergence * view.pixels_per_unit;
 }
 
 }  // namespace
@@ -93,60 +152,51 @@ ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const Frame
 
 FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
     StageClock clock;
-    FramePlan plan;
+    FramePlan frame;
+    PlanInput& in = frame.input;
     if (!facts_) facts_ = find_shot_facts(shot_.scene, shot_.textures, shot_.pose_plan);
     const Lens lens = find_lens(shot_.scene, posed.pose.cameras[shot_.camera(work.frame)]);
     const bool blurs = shot_.open_shutter(work.frame) || lens.radius > 0.0;
-    plan.facts = find_frame_facts(shot_.scene, *facts_, shot_.textures, posed.pose, posed.view, blurs);
-    plan.lens.radius = lens.radius;
-    const Nearest nearest = find_nearest(plan.facts, posed.view);
+    in.facts = find_frame_facts(shot_.scene, *facts_, shot_.textures, posed.pose, posed.view, blurs);
+    in.lens.radius = lens.radius;
+    const Nearest nearest = find_nearest(in.facts, posed.view);
     if (lens.radius > 0.0) {
-        const double depth = plan.facts.sees_all ? posed.view.near_plane : nearest.depth;
-        plan.lens.circle = find_largest_circle(posed.view, lens.radius, lens.focus_distance, depth);
+        const double depth = in.facts.sees_all ? posed.view.near_plane : nearest.depth;
+        in.lens.circle = find_largest_circle(posed.view, lens.radius, lens.focus_distance, depth);
     }
-    plan.shutter = find_shutter_facts(work, plan.facts, nearest.distance);
-    plan.perceives = work.perceive;
-    plan.maps = work.maps;
-    plan.has_other = work.other != OtherFrame::none;
-    plan.keyframes = shot_.reads_keyframes();
-    if (work.perceive && plan.has_other && !work.edited) {
+    in.shutter = find_shutter_facts(work, in.facts, nearest.distance);
+    in.perceives = work.perceive;
+    in.maps = work.maps;
+    in.has_other = work.other != OtherFrame::none;
+    in.keyframes = shot_.reads_keyframes();
+    if (work.perceive && in.has_other && !work.edited) {
         const double now = posed.pose.seconds, other = shot_.seconds(other_frame_number(work.frame, work.other));
-        plan.moves = !shot_.steady.is_steady(shot_.camera(work.frame), std::min(now, other), std::max(now, other));
+        in.moves = !shot_.steady.is_steady(shot_.camera(work.frame), std::min(now, other), std::max(now, other));
     }
-    plan.settings = shot_.settings;
-    plan.effects = make_plan(plan, std::nullopt);
-    if (plan.skips(Effect::indirect_diffuse)) plan.settings.light.bounces = 0;
-    clock.add_to(plan.seconds);
-    return plan;
+    in.luminance_scale = shot_.exposure * shot_.scene.film.viewing.display_white;
+    frame.settings = shot_.settings;
+    plan(frame, std::nullopt);
+    clock.add_to(frame.seconds);
+    return frame;
 }
 
-EffectsPlan FramePlanner::make_plan(const FramePlan& plan, const std::optional<VisibleFrame>& visible) const {
-    return plan_effects({.scene = shot_.scene,
-                         .settings = shot_.settings,
-                         .facts = plan.facts,
-                         .shutter = plan.shutter,
-                         .lens = plan.lens,
-                         .perceives = plan.perceives,
-                         .maps = plan.maps,
-                         .has_other = plan.has_other,
-                         .moves = plan.moves,
-                         .keyframes = plan.keyframes,
-                         .luminance_scale = shot_.exposure * shot_.scene.film.viewing.display_white},
-                        visible);
+void FramePlanner::plan(FramePlan& frame, const std::optional<VisibleFrame>& visible) const {
+    frame.effects = plan_effects(shot_.scene, shot_.settings, frame.input, visible);
+    int& bounces = frame.settings.light.bounces;
+    bounces = shot_.settings.light.bounces;
+    if (frame.skips(Effect::indirect_diffuse)) bounces = 0;
+    if (visible && frame.skips(Effect::more_bounces)) bounces = std::min(bounces, 1);
 }
 
-void FramePlanner::finish(const Image<Hit>& hits, const FrameOutput& out, FramePlan& plan) const {
+void FramePlanner::finish(const Image<Hit>& hits, const FrameOutput& out, FramePlan& frame) const {
     if (out.limits.threshold.empty()) return;
     StageClock clock;
     VisibleFrame visible = find_least_thresholds(hits, out.limits.threshold);
     for (const Rgb& pixel : out.estimate.pixels)
         visible.brightest = std::max(visible.brightest, double{luminance(pixel)});
     visible.brightest *= shot_.scene.film.viewing.display_white;
-    plan.effects = make_plan(plan, visible);
-    plan.settings.light.bounces = shot_.settings.light.bounces;
-    if (plan.skips(Effect::indirect_diffuse)) plan.settings.light.bounces = 0;
-    if (plan.skips(Effect::more_bounces)) plan.settings.light.bounces = std::min(plan.settings.light.bounces, 1);
-    clock.add_to(plan.seconds);
+    plan(frame, visible);
+    clock.add_to(frame.seconds);
 }
 
 }  // namespace aleph

@@ -5,17 +5,14 @@
 #include "motion/other_frame.h"
 #include "render/frame/frame_output.h"
 #include "render/frame/shot.h"
-#include "render/pixels/sample_place.h"
+#include "render/pixels/pixel_surfaces.h"
 #include "render/plan/effects_plan.h"
 #include "render/time/shutter.h"
 
 namespace aleph {
 
 struct FramePlan {
-    FrameFacts facts;
-    ShutterFacts shutter;
-    LensFacts lens;
-    bool perceives = false, maps = false, has_other = false, moves = true, keyframes = false;
+    PlanInput input;
     EffectsPlan effects;
     RenderSettings settings;  ///< the sequence's, without the indirect light that is skipped
     double seconds = 0.0;     ///< that planning took
@@ -44,10 +41,11 @@ class FramePlanner {
 
     /// Adds what a viewer cannot see, once the frame has been estimated.
     /// @param hits  through the pixel centres
-    void finish(const Image<Hit>& hits, const FrameOutput& out, FramePlan& plan) const;
+    void finish(const Image<Hit>& hits, const FrameOutput& out, FramePlan& frame) const;
 
   private:
-    EffectsPlan make_plan(const FramePlan& plan, const std::optional<VisibleFrame>& visible) const;
+    /// Plans the effects, and sets the bounces that are left.
+    void plan(FramePlan& frame, const std::optional<VisibleFrame>& visible) const;
     ShutterFacts find_shutter_facts(const FrameWork& work, const FrameFacts& facts, double nearest);
     std::vector<CameraValues> look(int camera, double from, double to);
 

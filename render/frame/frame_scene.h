@@ -2,7 +2,6 @@
 // The scene at one time, made ready step by step: pose, rays, shading and lights.
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "engine/pose/posed_view.h"
@@ -40,7 +39,6 @@ class FrameScene {
     /// @return instances that were updated
     std::size_t prepare();
     /// Finds the volumes that the camera is in. To be called after prepare; without it there are none.
-    /// @param rays_cast  increased by the rays that this takes
     void find_media_around(std::uint64_t& rays_cast);
     /// Takes the volumes around the camera from another time.
     void take_media_around(const FrameScene& other) { around_ = other.around_; }

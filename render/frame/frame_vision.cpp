@@ -3,7 +3,6 @@
 #include "motion/velocity.h"
 #include "perception/threshold.h"
 #include "perception/visible_bands.h"
-#include "render/estimate/estimate.h"
 #include "render/guide/accuracy_map.h"
 
 namespace aleph {

@@ -13,8 +13,6 @@ namespace aleph {
 void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const ViewingConditions& viewing);
 
 /// Fills velocity, perception, threshold and alpha from `estimate` and `motion`, which are filled.
-/// @param shot   viewing conditions and frame rate
-/// @param noise  of that viewing and frame rate
 /// @param maps   also the maps that only files need: retinal velocity and conspicuity
 /// @param clock  adds the time to the stages motion and perception
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings,

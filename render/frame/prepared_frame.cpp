@@ -2,6 +2,7 @@
 
 #include "perception/sanitize.h"
 #include "render/frame/frame_vision.h"
+#include "render/frame/sequence_state.h"
 #include "render/settings/measure.h"
 #include "render/settings/motion_source.h"
 
@@ -10,33 +11,33 @@ namespace aleph {
 namespace {
 
 /// Estimate, motion, blur and vision of a frame whose first hits are cast.
-void perceive(Preparation& kept, const FrameScene& here, const FrameWork& work, StageClock& clock,
+void perceive(SequenceState& s, const FrameScene& here, const FrameWork& work, StageClock& clock,
               PreparedFrame& frame) {
-    const Shot& shot = kept.shot;
+    const Shot& shot = s.shot;
     const FramePlan& plan = frame.plan;
     FrameOutput& out = frame.out;
     RayCounts& counts = out.statistics.counts.rays;
     std::optional<EstimateNodes> nodes;
     if (shot.estimates_indirect_light(plan.settings.light.bounces))
-        nodes = kept.estimate_light.find_nodes(work.frame, here, frame.centers, counts);
+        nodes = s.estimate_light.find_nodes(work.frame, here, frame.centers, counts);
     const EstimateNodes* indirect = nodes ? &*nodes : nullptr;
     out.estimate = estimate_scene(shot, here, frame.centers, indirect, counts);
     note_estimate(out, sanitize_estimate(out.estimate), shot.scene.film.viewing);
     clock.add_to(out.statistics.seconds.estimate);
-    kept.motion.compute(work, here, kept.estimate_light, clock, frame);
-    if (work.maps) kept.motion.compute_backward(work, here, frame);
-    blur_frame_estimate({shot, work.frame, plan, here, kept.shutter}, frame.centers, indirect, out.estimate, counts);
+    s.motion.compute(work, here, s.estimate_light, clock, frame);
+    if (work.maps) s.motion.compute_backward(work, here, frame);
+    blur_frame_estimate({shot, work.frame, plan, here, s.shutter}, frame.centers, indirect, out.estimate, counts);
     clock.add_to(out.statistics.seconds.estimate);
     RenderSettings vision = shot.settings;
     if (plan.skips(Effect::saliency) && vision.perception.guide == Guide::saliency)
         vision.perception.guide = Guide::full;
-    compute_frame_vision(out, shot.scene, vision, kept.noise(work), work.maps, clock);
+    compute_frame_vision(out, shot.scene, vision, s.noise(work), work.maps, clock);
 }
 
 }  // namespace
 
-PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work) {
-    const Shot& shot = kept.shot;
+PreparedFrame prepare_frame(SequenceState& s, FrameScene& here, FrameWork work) {
+    const Shot& shot = s.shot;
     PreparedFrame frame;
     FrameOutput& out = frame.out;
     FrameStatistics& stats = out.statistics;
@@ -47,16 +48,16 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
     StageClock clock;
     here.pose(work.frame);
     out.view = here.posed().view;
-    frame.plan = kept.planner.begin(work, here.posed());
+    frame.plan = s.planner.begin(work, here.posed());
     clock.add_to(stats.seconds.pose);
     if (work.perceive && !work.motion_only && shot.estimates_indirect_light(frame.plan.settings.light.bounces)) {
-        kept.estimate_light.gather_around(work.frame, work.frame, counts);
+        s.estimate_light.gather_around(work.frame, work.frame, counts);
         if (work.other != OtherFrame::none && picture_search(shot.settings.guide.motion))
-            kept.estimate_light.gather_around(other_frame_number(work.frame, work.other), work.frame, counts);
+            s.estimate_light.gather_around(other_frame_number(work.frame, work.other), work.frame, counts);
         here.pose(work.frame);  // gathering moved it if lighting keyframes are prepared in it
     }
     clock.add_to(stats.seconds.estimate);
-    work.other = kept.motion.pose_other(work, here.posed());
+    work.other = s.motion.pose_other(work, here.posed());
     clock.add_to(stats.seconds.pose);
 
     stats.instances_touched = here.prepare();
@@ -67,18 +68,40 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
     frame.centers = cast_centers(here.rays(), out.view, &counts.primary);
     clock.add_to(stats.seconds.first_hits);
     if (work.motion_only) {
-        kept.motion.compute(work, here, kept.estimate_light, clock, frame);
+        s.motion.compute(work, here, s.estimate_light, clock, frame);
         return frame;
     }
     if (work.perceive) {
-        perceive(kept, here, work, clock, frame);
+        perceive(s, here, work, clock, frame);
     } else {
         out.perception.aleph = Image<float>(shot.settings.picture.width, shot.settings.picture.height, 1.0f);
         out.limits.alpha = Image<float>(shot.settings.picture.width, shot.settings.picture.height,
                                         static_cast<float>(shot.settings.cache.accuracy));
     }
-    kept.planner.finish(frame.centers.hits, out, frame.plan);
+    s.planner.finish(frame.centers.hits, out, frame.plan);
     return frame;
+}
+
+Image<Outline> find_visible_outlines(const Shot& shot, const ShadingScene& shading, const PreparedFrame& frame) {
+    const FrameOutput& out = frame.out;
+    if (out.limits.threshold.empty()) return {};
+    Image<Outline> outlines = find_outlines(out.view, frame.centers.hits, out.motion);
+    mark_small_objects(outlines, out.view, frame.centers.hits, shading);
+    const double asked = frame.plan.settings.error, error = asked > 0.0 ? asked : 1.0;
+    mark_contrasts(outlines, out.estimate, out.limits.threshold, error / shot.scene.film.viewing.display_white);
+    return outlines;
+}
+
+VisibleLimits make_visible_limits(const Shot& shot, const FrameOutput& out, const Image<Outline>& outlines) {
+    return {out.limits.threshold,   out.limits.threshold_noise, out.perception.aleph, out.limits.alpha, outlines,
+            shot.scene.film.viewing};
+}
+
+Image<float> find_record_tolerance(const Shot& shot, const ShadingScene& shading, const PreparedFrame& keyframe) {
+    const RenderSettings& settings = keyframe.plan.settings;
+    if (!(settings.error > 0.0) || keyframe.out.limits.threshold.empty()) return {};
+    const Image<Outline> outlines = find_visible_outlines(shot, shading, keyframe);
+    return compute_sampling_tolerance(make_visible_limits(shot, keyframe.out, outlines), settings, shot.exposure);
 }
 
 }  // namespace aleph

@@ -14,21 +14,12 @@ namespace {
 
 /// The picture that the exposure is measured from: 160 columns, and fewer where it would have more than 640 rows.
 /// Without that bound a picture of 1x8192 would be measured from 1.3 million rows.
-struct MeasuredSize {
-    explicit MeasuredSize(const PictureSettings& picture) {
-        constexpr std::int64_t most_columns = 160, most_rows = 640;
-        const std::int64_t width = picture.width, height = picture.height;
-        const std::int64_t rows_of_width = most_columns * height / width;
-        if (rows_of_width > most_rows) {
-            columns = static_cast<int>(std::max<std::int64_t>(1, most_rows * width / height));
-            rows = static_cast<int>(most_rows);
-        } else {
-            columns = static_cast<int>(most_columns);
-            rows = static_cast<int>(std::max<std::int64_t>(1, rows_of_width));
-        }
-    }
-    int columns, rows;
-};
+glm::ivec2 find_measured_size(const PictureSettings& picture) {
+    constexpr std::int64_t most_columns = 160, most_rows = 640;
+    const std::int64_t rows = most_columns * picture.height / picture.width;
+    if (rows <= most_rows) return {most_columns, std::max<std::int64_t>(1, rows)};
+    return {std::max<std::int64_t>(1, most_rows * picture.width / picture.height), most_rows};
+}
 
 /// The exposure that the scene has with all of its effects, so that pictures without some of them can be compared.
 double find_full_exposure(const Scene& scene, RenderSettings settings, const std::string& camera) {
@@ -38,11 +29,11 @@ double find_full_exposure(const Scene& scene, RenderSettings settings, const std
 
 /// From a small quick estimate of the first frame; where that is black, of the first of some later ones that is not.
 double find_exposure(const Shot& shot, FrameScene& scene) {
-    const MeasuredSize size(shot.settings.picture);
+    const glm::ivec2 size = find_measured_size(shot.settings.picture);
     const auto [first, last] = shot.range;
     const std::int64_t between = std::max<std::int64_t>(1, (last - first) / 8);
     for (std::int64_t frame = first; frame <= last; frame += between) {
-        scene.pose(shot.scene.film.frame_rate.seconds_of(frame), shot.camera(frame), size.columns, size.rows);
+        scene.pose(shot.scene.film.frame_rate.seconds_of(frame), shot.camera(frame), size.x, size.y);
         scene.prepare();
         RayCounts counts;
         const SampleHits centers = cast_centers(scene.rays(), scene.posed().view, &counts.primary);
@@ -89,7 +80,7 @@ FrameRange Sequence::range() const {
 FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     SequenceState& s = state();
     // The first frame after an edit has a motion that no other frame has.
-    const bool is_edited = s.preparation.motion.is_edited();
+    const bool is_edited = s.motion.is_edited();
     const std::int64_t first = is_edited ? frame : s.static_spans.find_first(frame);
     std::optional<FrameOutput> out = s.static_frame.copy(first, request);
     if (!out) {
@@ -108,7 +99,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
 
 EffectsPlan Sequence::plan(std::int64_t frame) {
     SequenceState& s = state();
-    const std::int64_t first = s.preparation.motion.is_edited() ? frame : s.static_spans.find_first(frame);
+    const std::int64_t first = s.motion.is_edited() ? frame : s.static_spans.find_first(frame);
     return s.prepare(first, s.shot.needs_perception(), false).plan.effects;
 }
 
@@ -120,9 +111,9 @@ void Sequence::edit(const std::function<void(Scene&)>& change) {
     const std::vector<CameraShot> shots = list_camera_shots(scene, camera_);
     auto made = std::make_unique<SequenceState>(std::move(scene), old.shot.settings, shots);
     made->shot.exposure = made->shot.scene.film.exposure.value_or(old.shot.exposure);
-    std::optional<PosedView> before = old.preparation.motion.end_edited();
+    std::optional<PosedView> before = old.motion.end_edited();
     if (old.rendered) before = old.here.posed();
-    if (before) made->preparation.motion.begin_edited(std::move(*before));
+    if (before) made->motion.begin_edited(std::move(*before));
     state_ = std::move(made);
 }
 
@@ -213,11 +204,10 @@ std::vector<Image<Rgb>> Sequence::render_part(std::int64_t frame, const PictureP
 
 FrameOutput Sequence::find_motion(std::int64_t frame) {
     SequenceState& s = state();
-    ALEPH_CHECK(s.shot.settings.guide.motion == MotionSource::model && !s.preparation.motion.is_edited(),
+    ALEPH_CHECK(s.shot.settings.guide.motion == MotionSource::model && !s.motion.is_edited(),
                 "motion of the scene's tracks");
-    PreparedFrame prepared =
-        prepare_frame(s.preparation, s.here,
-                      {.frame = s.static_spans.find_first(frame), .perceive = true, .maps = true, .motion_only = true});
+    PreparedFrame prepared = prepare_frame(
+        s, s.here, {.frame = s.static_spans.find_first(frame), .perceive = true, .maps = true, .motion_only = true});
     prepared.out.hits = std::move(prepared.centers.hits);
     s.rendered = true;
     return std::move(prepared.out);

@@ -1,7 +1,7 @@
 #include "render/frame/sequence_state.h"
 
-#include "render/frame/visible_limits.h"
-#include "render/pixels/sample_place.h"
+#include "render/frame/prepared_frame.h"
+#include "render/pixels/pixel_surfaces.h"
 
 namespace aleph {
 
@@ -23,8 +23,7 @@ KeyframeSource make_keyframe_source(SequenceState& s) {
     };
     const auto look = [&s](std::int64_t frame) {
         const bool perceive = s.shot.is_guided() || s.shot.settings.error > 0.0;
-        PreparedFrame prepared =
-            prepare_frame(s.preparation, s.keyframe, {.frame = frame, .perceive = perceive, .lasts = true});
+        PreparedFrame prepared = prepare_frame(s, s.keyframe, {.frame = frame, .perceive = perceive, .lasts = true});
         const auto view = std::make_shared<KeyView>();
         view->frame = frame;
         s.keyframe.copy_to(*view);
@@ -34,7 +33,7 @@ KeyframeSource make_keyframe_source(SequenceState& s) {
         return view;
     };
     const auto cast = [&s](const KeyView& view, RayCounts& counts) {
-        FrameScene& scene = s.preparation.motion.other();
+        FrameScene& scene = s.motion.other();
         scene.pose(view.frame);
         scene.update_rays();
         const Lens lens = find_lens(s.shot.scene, view.posed.pose.cameras[s.shot.camera(view.frame)]);
@@ -53,7 +52,10 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
       here(shot, shot.pose_plan),
       keyframe(shot, here),
       light_breaks(shot.scene, shot.pose_plan, shot.shutter(shot.range.first)),
-      preparation(shot, shot_light, here, keyframe) {
+      planner(shot),
+      estimate_light(shot, shot_light, keyframe),
+      motion(shot, here),
+      shutter(shot, here) {
     if (!shot.reads_keyframes()) return;
     const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
     shot_light.emplace(LightingKeyframes{shot.range, shot.scene.film.cuts, shot.settings.cache.light_step, find_breaks},
@@ -61,10 +63,19 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
 }
 
 PreparedFrame SequenceState::prepare(std::int64_t frame, bool perceive, bool maps) {
-    const bool is_edited = preparation.motion.is_edited();
+    const bool is_edited = motion.is_edited();
     const bool lasts = !is_edited && static_spans.find_first(frame + 1) == frame;
-    return prepare_frame(preparation, here,
+    return prepare_frame(*this, here,
                          {.frame = frame, .perceive = perceive, .maps = maps, .edited = is_edited, .lasts = lasts});
+}
+
+const NoiseVisibility& SequenceState::noise(const FrameWork& work) {
+    const bool lasts = work.lasts || shot.keeps_noise(work.frame);
+    std::optional<NoiseVisibility>& known = lasts ? lasting_noise : fresh_noise;
+    if (!known)
+        known.emplace(shot.scene.film.viewing, shot.scene.film.frame_rate,
+                      lasts ? NoiseOverTime::lasts : NoiseOverTime::fresh);
+    return *known;
 }
 
 std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t frame, const FramePlan& plan,

@@ -4,24 +4,27 @@
 #include <memory>
 #include <optional>
 
+#include "perception/noise_threshold.h"
 #include "render/frame/prepared_frame.h"
 #include "render/frame/static_spans.h"
 #include "render/shade/frame.h"
-#include "render/time/light_breaks.h"
+#include "render/time/lighting_keyframes.h"
 #include "render/time/shot_light.h"
 
 namespace aleph {
 
-/// A frame does not depend on what this keeps: it only saves work.
+/// A frame does not depend on what this keeps: it only saves work. All of it is updated to the same values as made
+/// anew.
 struct SequenceState {
     /// @param shots  list_camera_shots(given, name)
     SequenceState(Scene given, const RenderSettings& settings, const std::vector<CameraShot>& shots);
 
     /// Prepares a frame in `here`.
     PreparedFrame prepare(std::int64_t frame, bool perceive, bool maps);
-    TracedRays traced() const {
-        return here.traced() + keyframe.traced() + preparation.motion.traced() + preparation.shutter.traced();
-    }
+    TracedRays traced() const { return here.traced() + keyframe.traced() + motion.traced() + shutter.traced(); }
+
+    /// How visible the noise of a frame is. It lasts where other frames have the same.
+    const NoiseVisibility& noise(const FrameWork& work);
 
     Shot shot;
     StaticSpans static_spans;
@@ -30,8 +33,12 @@ struct SequenceState {
     FrameScene keyframe;  ///< the scene at a lighting keyframe
     LightBreaks light_breaks;
     std::optional<ShotLight> shot_light;  ///< if frames read lighting keyframes
-    Preparation preparation;
-    bool rendered = false;  ///< a frame, which `here` shows
+    FramePlanner planner;
+    EstimateLight estimate_light;
+    FrameMotion motion;
+    FrameScene shutter;                                         ///< the scene while the shutter is open
+    std::optional<NoiseVisibility> lasting_noise, fresh_noise;  ///< made when first needed
+    bool rendered = false;                                      ///< a frame, which `here` shows
 };
 
 /// How the samples of a prepared frame are taken.

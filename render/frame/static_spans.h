@@ -9,13 +9,9 @@
 
 namespace aleph {
 
-/// Which frames have the same picture, as a function of the scene alone.
-///
-/// Where nothing changes from the opening of the shutter of frame a to its closing at frame b, and no cut lies between,
-/// frames a to b-1 have the same pose and no motion: all of them are rendered as frame a. Frame b has the motion to the
-/// frame after it and is rendered by itself, unless it is the last of the range, whose motion is that from frame b-1.
-/// StaticSpans end at both ends of the range, and frames before it belong to none. A scene in which nothing ever
-/// changes is one static span, which frames outside of the range belong to.
+/// Which frames have the same picture (README.md), as a function of the scene alone. Static spans end at both ends of
+/// the range, and frames before it belong to none. A scene in which nothing ever changes is one static span, which
+/// frames outside of the range belong to.
 class StaticSpans {
   public:
     /// Keeps references to scene and shots.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/base/errors.h"
 
@@ -24,15 +23,11 @@ double scale_add_accuracy(double accuracy, double aleph, double k) {
 namespace {
 
 double adapt(double aleph, const RenderSettings& settings) {
-    switch (settings.guide.adapter) {
-        case Adapter::compress:
-            return compress_accuracy(settings.cache.accuracy, aleph);
-        case Adapter::scale_add:
-            return scale_add_accuracy(settings.cache.accuracy, aleph, settings.guide.adapter_k);
-        case Adapter::none:
-            break;
-    }
-    return settings.cache.accuracy;
+    const double accuracy = settings.cache.accuracy;
+    if (settings.guide.adapter == Adapter::compress) return compress_accuracy(accuracy, aleph);
+    if (settings.guide.adapter == Adapter::scale_add)
+        return scale_add_accuracy(accuracy, aleph, settings.guide.adapter_k);
+    return accuracy;
 }
 
 Image<float> adapt_by_own(const Image<float>& aleph, const RenderSettings& settings) {

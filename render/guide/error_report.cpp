@@ -5,7 +5,6 @@
 
 #include "engine/base/pixel_loops.h"
 #include "render/guide/accuracy_map.h"
-#include "render/guide/mean_around.h"
 #include "render/guide/stopping_rule.h"
 
 namespace aleph {

@@ -5,8 +5,6 @@
 #include <string>
 
 #include "engine/base/image.h"
-#include "engine/base/viewing.h"
-#include "render/guide/error_report.h"
 #include "render/pixels/outlines.h"
 #include "render/pixels/pixel_samples.h"
 #include "render/pixels/shaded_frame.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/base/pixel_loops.h"
-#include "render/guide/mean_around.h"
 
 namespace aleph {
 
@@ -37,6 +36,20 @@ NoiseSum sum_around(const Image<PixelSamples>& pixels, const Image<std::uint8_t>
         if (tells) sum.add(pixels(nx, ny));
     });
     return sum;
+}
+
+struct Sum {
+    double value = 0.0;
+    int count = 0;
+
+    void add(const Sum& other, int sign = 1) {
+        value += sign * other.value;
+        count += sign * other.count;
+    }
+};
+
+Sum known(float value) {
+    return value >= 0.0f ? Sum{static_cast<double>(value), 1} : Sum{};
 }
 
 }  // namespace
@@ -81,19 +94,11 @@ MeanEstimate estimate_own_mean(const PixelSamples& pixel) {
 
 bool is_enough(Sampling rule, Stopping stopping, const MeanEstimate& mean, double tolerance) {
     const double tolerated2 = tolerance > 0.0 ? tolerance * tolerance : 0.0;
-    switch (rule) {
-        case Sampling::uniform:
-        case Sampling::protocol:
-            break;
-        case Sampling::consecutive:
-            return mean.error2 <= tolerated2;
-        case Sampling::variance:
-            return (stopping == Stopping::pixel ? mean.variance : mean.variance / mean.samples) <= tolerated2;
-        case Sampling::threshold:
-            return error_deviations * error_deviations * std::sqrt(mean.error2 / mean.samples) * mean.around <=
-                   tolerated2;
-    }
-    return true;
+    if (rule == Sampling::consecutive) return mean.error2 <= tolerated2;
+    if (rule == Sampling::variance)
+        return (stopping == Stopping::pixel ? mean.variance : mean.variance / mean.samples) <= tolerated2;
+    if (rule != Sampling::threshold) return true;
+    return error_deviations * error_deviations * std::sqrt(mean.error2 / mean.samples) * mean.around <= tolerated2;
 }
 
 bool stands_out(const PixelSamples& pixel, double tolerance) {
@@ -110,19 +115,34 @@ double allow_noise(double error) {
 }
 
 int first_samples(Sampling rule, Outline outline, bool bright_edge, int most) {
-    switch (rule) {
-        case Sampling::uniform:
-        case Sampling::protocol:
-            return most;
-        case Sampling::consecutive:
-        case Sampling::variance:
-            return std::min(most, thesis_samples);
-        case Sampling::threshold:
-            break;
-    }
+    if (rule == Sampling::uniform || rule == Sampling::protocol) return most;
+    if (rule != Sampling::threshold) return std::min(most, thesis_samples);
     if (outline == Outline::small) return std::min(most, small_object_samples);
     if (bright_edge) return std::min(most, bright_edge_samples);
     return std::min(most, outline == Outline::none ? own_samples : outline_samples);
+}
+
+int find_seen_reach(double pixels_per_degree) {
+    constexpr double degrees = 4.0 / 31.0;
+    return static_cast<int>(std::clamp(std::round(degrees * pixels_per_degree), 1.0, 1000.0));
+}
+
+Image<float> mean_around(const Image<float>& values, int reach, bool with_own) {
+    const int width = values.width, height = values.height;
+    Image<Sum> rows(width, height);
+    Image<float> means(width, height);
+    parallel_pixels(values, 8, [&](int x, int y) {
+        for (int nx = std::max(0, x - reach); nx <= std::min(width - 1, x + reach); ++nx)
+            rows(x, y).add(known(values(nx, y)));
+    });
+    parallel_pixels(values, 8, [&](int x, int y) {
+        Sum sum;
+        for (int ny = std::max(0, y - reach); ny <= std::min(height - 1, y + reach); ++ny) sum.add(rows(x, ny));
+        const Sum own = known(values(x, y));
+        if (!with_own && sum.count > own.count) sum.add(own, -1);
+        means(x, y) = sum.count > 0 ? static_cast<float>(std::max(0.0, sum.value) / sum.count) : -1.0f;
+    });
+    return means;
 }
 
 }  // namespace aleph

@@ -20,9 +20,8 @@ inline constexpr double error_deviations = 1.585;
 /// .8: the share of the pixels in which noise is seen rises more steeply than the noise.
 double allow_noise(double error);
 
-/// The mean of a pixel's samples, as its neighbours or its own samples tell it. Where own samples decide, a pixel whose
-/// first ones happen to agree stops early, more often at a value that is too low than at one that is too high, and the
-/// picture is biased (Kirk and Arvo 1991). So neighbours tell both numbers, at this pixel's number of samples.
+/// The mean of a pixel's samples, as its neighbours or its own samples tell it. Where own samples decide, the picture
+/// is biased (Kirk and Arvo 1991; README.md).
 struct MeanEstimate {
     int samples = 0;
     double error2 = 0.0;    ///< squared error of the mean, from halves (PixelSamples::Error::total)
@@ -42,8 +41,7 @@ Image<float> deviations_around(const Image<PixelSamples>& pixels, const Image<st
 /// What the 24 pixels around (x, y) tell. Only those count that have an outline as it has, or have none as it has none:
 /// beside an outline the noise is another. Where there is no such pixel, all of them tell; where it is alone, the
 /// pixel itself.
-/// @param outlines  of the same size, or empty: none
-/// @param silent    1 for pixels that never count; empty: none
+/// @param silent  1 for pixels that never count; it and the outlines may be empty
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
                            const Image<std::uint8_t>& silent, int x, int y);
 
@@ -89,5 +87,15 @@ int protocol_samples(double aleph, int most);
 /// Samples before a rule is asked first.
 /// @param bright_edge  the outline of a lamp may lie in the pixel (find_bright_edges)
 int first_samples(Sampling rule, Outline outline, bool bright_edge, int most);
+
+/// Errors of pixels within so many on either side add up, as energy, to what is seen at one: about half a cycle where
+/// noise is seen best. 4 at 31 pixels per degree, at least 1.
+int find_seen_reach(double pixels_per_degree);
+
+/// Mean of the values around each pixel.
+/// @param values    negative: unknown, not counted
+/// @param with_own  whether the pixel's own value counts; it does where no other is known
+/// @return negative where no value is known
+Image<float> mean_around(const Image<float>& values, int reach, bool with_own);
 
 }  // namespace aleph

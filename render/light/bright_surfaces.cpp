@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "engine/base/sampling.h"
-#include "render/light/light_power.h"
 #include "render/light/light_rays.h"
+#include "render/light/lights.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {
@@ -140,21 +140,6 @@ double add_squares(const std::vector<LitSide>& sides) {
     return sum;
 }
 
-struct Box {
-    glm::vec3 center{0.0f}, size{0.0f};
-    /// m2, of its faces
-    float area() const { return 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x); }
-};
-
-Box find_box(std::span<const Receiver> places) {
-    glm::vec3 low = places.front().position, high = low;
-    for (const Receiver& place : places) {
-        low = glm::min(low, place.position);
-        high = glm::max(high, place.position);
-    }
-    return {0.5f * (low + high), high - low};
-}
-
 /// Returns whether some of the side is above the place's horizon, and the place in front of it.
 bool faces(const LitSide& side, const Receiver& place) {
     const Emitter::Triangle& t = side.triangle;
@@ -169,8 +154,14 @@ bool faces(const LitSide& side, const Receiver& place) {
 /// The bright sides, if they have enough of the light; else none.
 std::vector<LitSide> find_bright_sides(const LightingContext& context, std::span<const Receiver> places,
                                        std::size_t light_rays, RayCounts& counts) {
-    const Box box = find_box(places);
-    const LightTarget target{box.center, 0.5f * room_behind * glm::length(box.size)};
+    SceneBounds box;
+    for (const Receiver& place : places) {
+        box.low = glm::min(box.low, place.position);
+        box.high = glm::max(box.high, place.position);
+    }
+    const glm::vec3 size = box.high - box.low;
+    const double faces_of_box = 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x);  // m2
+    const LightTarget target{0.5f * (box.low + box.high), 0.5f * room_behind * glm::length(size)};
     std::vector<LitSide> sides = add_up(context.shading, cast_light_rays(context, target, light_rays, counts));
     std::erase_if(sides, [&](const LitSide& side) {
         return std::ranges::none_of(places, [&](const Receiver& place) { return faces(side, place); });
@@ -180,7 +171,7 @@ std::vector<LitSide> find_bright_sides(const LightingContext& context, std::span
         reflected += side.sum.reflected;
         area += side.area;
     }
-    area = std::max(area, static_cast<double>(box.area()));  // light may leave most of a room dark
+    area = std::max(area, faces_of_box);  // light may leave most of a room dark
     std::erase_if(sides, [](const LitSide& side) { return side.rays < fewest_rays || !(side.area > 0.0f); });
     const double all = add_squares(sides);
     std::erase_if(sides, [&](const LitSide& side) {
@@ -247,7 +238,7 @@ BrightSampler::BrightSampler(const BrightSurfaces& surfaces, const Receiver& rec
       receiver_(receiver),
       aimed_per_around_(static_cast<float>(towards) / static_cast<float>(around)) {
     const LightBounds& bounds = surfaces.patches.bounds;
-    bound_illuminances(bounds, receiver.position, receiver.normal, 0.0f, {ends_.data(), bounds.strength.size()});
+    bound_illuminances(bounds, receiver, {ends_.data(), bounds.strength.size()});
     for (std::size_t i = 0; i < bounds.strength.size(); ++i) ends_[i] = total_ += ends_[i];
     if (!std::isfinite(total_)) total_ = 0.0f;
 }

@@ -1,12 +1,7 @@
 #pragma once
-// Surfaces that reflect so much light that they are sampled like lights: the inside of a lamp's shade, bars of a window
-// beside the sky, a floor in sunlight. Seen from elsewhere they are small, and few of the rays over a hemisphere meet
-// them: these rays carry much of the light, and nearly all of its noise.
-//
-// Light rays (light_rays.h) tell what each triangle reflects, and each part of a large one. From a point, rays towards
-// bright triangles join those over the hemisphere. Both find their light, weighted by the balance heuristic (Veach and
-// Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering"): without bias, whatever was taken
-// for bright.
+// Surfaces that reflect so much light that they are sampled like lights (README.md). Rays towards them join those over
+// the hemisphere, weighted by the balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling Techniques
+// for Monte Carlo Rendering"): without bias, whatever was taken for bright.
 
 #include <array>
 #include <span>
@@ -40,7 +35,6 @@ struct BrightSurfaces {
 /// Triangles and parts of them that reflect far more than others, if most of the noise of rays over a hemisphere is
 /// theirs; else none.
 /// @param places  where light is wanted: what faces none of them does not count. None: nothing is bright
-/// @param counts  increased by the rays cast
 BrightSurfaces find_bright_surfaces(const LightingContext& context, std::span<const Receiver> places,
                                     RayCounts& counts);
 

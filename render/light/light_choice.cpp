@@ -39,10 +39,9 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
 
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             const LightNumbers& numbers) {
-    const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
-    const float behind = lit.material.has_glass() ? 1.0f : 0.0f;
-    const LightCut cut = find_light_cut(context.lights, receiver, behind);
-    const LightPick pick = pick_light(context.lights, cut, receiver, behind, numbers.choice);
+    const Receiver receiver{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()};
+    const LightCut cut = find_light_cut(context.lights, receiver);
+    const LightPick pick = pick_light(context.lights, cut, receiver, numbers.choice);
     if (pick.light == no_index) return without_light(cut);
     const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
     if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
@@ -54,8 +53,8 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
 ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
                                     const LightNumbers& numbers) {
     const Receiver receiver{place.ray_origin(), place.normal};
-    const LightCut cut = find_light_cut(context.lights, receiver, 0.0f);
-    const LightPick pick = pick_light(context.lights, cut, receiver, 0.0f, numbers.choice);
+    const LightCut cut = find_light_cut(context.lights, receiver);
+    const LightPick pick = pick_light(context.lights, cut, receiver, numbers.choice);
     if (pick.light == no_index) return without_light(cut);
     const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
     const float cosine = glm::dot(place.normal, sample.direction);
@@ -69,6 +68,16 @@ Rgb transmit_to_light(const Media& around, const LitSurface& lit, const Ray& sha
     return transmit(around.attenuation_towards(shadow_ray.direction, lit.point, lit.material), shadow_ray.far);
 }
 
+bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& passed) {
+    const SurfacePoint point = make_surface_point(shading, hit, ray.direction);
+    const ViewedSurface surface = view_surface(shading, point, -ray.direction, {});
+    if (!surface.material.passes_straight()) return false;
+    const LitSurface lit(surface);
+    passed *= sheet_transmittance(lit);
+    ray = move_origin(ray, lit.ray_origin(ray.direction));
+    return true;
+}
+
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {
     if (!context.shading.has_thin_glass) {
         ++task.counts.shadow;
@@ -80,13 +89,8 @@ Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray&
         ++task.counts.shadow;
         const Hit hit = task.tracer.intersect(left);
         if (hit.instance == no_index) return passed;
-        const SurfacePoint point = make_surface_point(context.shading, hit, left.direction);
-        const ViewedSurface surface = view_surface(context.shading, point, -left.direction, {});
-        if (!surface.material.passes_straight()) return Rgb(0.0f);
-        const LitSurface lit(surface);
-        passed *= sheet_transmittance(lit);
+        if (!pass_sheet(context.shading, hit, left, passed)) return Rgb(0.0f);
         if (passed == Rgb(0.0f)) return passed;
-        left = move_origin(left, lit.ray_origin(left.direction));
     }
     return Rgb(0.0f);
 }

@@ -45,6 +45,10 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample);
 /// Smooth sheets of glass that a straight ray passes at most.
 inline constexpr int max_sheets = 64;
 
+/// Takes a ray through the smooth sheet that it met, and multiplies `passed` by the share of light that the sheet lets
+/// pass. @return false: the surface is no such sheet
+bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& passed);
+
 /// Share of light that the medium leaves between a surface and a light. It is one medium: the walls of volumes stop
 /// shadow rays.
 /// @param around  the viewer's side of the surface

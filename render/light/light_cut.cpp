@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 
-#include "render/light/light_power.h"
+#include "render/light/lights.h"
 
 namespace aleph {
 
@@ -60,10 +59,10 @@ int find_brightest_group(const LightTree& tree, const Candidates& candidates) {
     return found;
 }
 
-Candidates find_candidates(const LightTree& tree, const Receiver& receiver, float behind) {
+Candidates find_candidates(const LightTree& tree, const Receiver& receiver) {
     Candidates candidates;
     const auto divide = [&](int place, const LightGroup& group) {
-        candidates.replace(place, group, reach_of(group, receiver.position, receiver.normal, behind));
+        candidates.replace(place, group, reach_of(group, receiver));
     };
     candidates.size = 1;
     divide(0, tree.groups.front());
@@ -90,24 +89,23 @@ std::size_t choose(std::span<const float> weights, std::span<const float> ends, 
 }
 
 /// Few lights: all, by vector instructions.
-LightCut take_all_lights(const LightSet& lights, const Receiver& receiver, float behind) {
+LightCut take_all_lights(const LightSet& lights, const Receiver& receiver) {
     LightCut cut;
     cut.size = lights.count();
     cut.has_all = true;
     static_assert(LightCut::few % LightBounds::step == 0 && LightCut::few <= LightCut::capacity);
-    bound_illuminances(lights.bounds, receiver.position, receiver.normal, behind,
-                       {cut.weights.data(), lights.bounds.strength.size()});
+    bound_illuminances(lights.bounds, receiver, {cut.weights.data(), lights.bounds.strength.size()});
     for (int i = 0; i < cut.size; ++i) cut.ends[i] = cut.total += cut.weights[i];
     return cut;
 }
 
 }  // namespace
 
-LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float behind) {
+LightCut find_light_cut(const LightSet& lights, const Receiver& receiver) {
     LightCut cut;
     if (lights.count() == 0) return cut;
-    if (lights.count() <= LightCut::few) return take_all_lights(lights, receiver, behind);
-    const Candidates candidates = find_candidates(lights.tree, receiver, behind);
+    if (lights.count() <= LightCut::few) return take_all_lights(lights, receiver);
+    const Candidates candidates = find_candidates(lights.tree, receiver);
     for (int i = 0; i < candidates.size; ++i) {
         const float weight = candidates.estimates[i];
         cut.nodes[cut.size] = candidates.nodes[i];
@@ -119,8 +117,7 @@ LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float 
     return cut;
 }
 
-LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver& receiver, float behind,
-                     float number) {
+LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver& receiver, float number) {
     LightPick pick;
     if (!std::isfinite(cut.total) || !(cut.total > 0.0f)) return pick;
     pick.rest = number;
@@ -130,7 +127,7 @@ LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver
     int node = cut.has_all ? static_cast<int>(chosen) : cut.nodes[chosen];
     while (!lights.tree.is_light(node)) {
         const LightGroup& group = lights.tree.group(node);
-        const LightReaches reaches = reach_of(group, receiver.position, receiver.normal, behind);
+        const LightReaches reaches = reach_of(group, receiver);
         LightGroup::Values ends;
         float total = 0.0f;
         for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = total += reaches.estimates[i];

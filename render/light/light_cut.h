@@ -17,8 +17,7 @@ struct LightCut {
 };
 
 /// Few lights: all of them. Else groups are divided, that of the largest bound first, until there are enough nodes.
-/// @param behind  1 where light from behind the surface counts as well, else 0
-LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float behind);
+LightCut find_light_cut(const LightSet& lights, const Receiver& receiver);
 
 /// A light chosen for a surface point.
 struct LightPick {
@@ -29,6 +28,6 @@ struct LightPick {
 
 /// Chosen in proportion to what the nodes bring, and then the groups within them.
 /// @param number  in [0,1)
-LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver& receiver, float behind, float number);
+LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver& receiver, float number);
 
 }  // namespace aleph

@@ -1,4 +1,4 @@
-#include "render/light/light_power.h"
+#include "render/light/lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,20 +17,20 @@ float finite_strength(float strength) {
     return std::isfinite(strength) ? strength : 1.0f;
 }
 
-void add_light(LightBounds& bounds, const glm::vec3& place, bool nearby, float radius, float strength,
-               const std::optional<glm::vec3>& axis = {}) {
-    bounds.x.push_back(place.x);
-    bounds.y.push_back(place.y);
-    bounds.z.push_back(place.z);
-    bounds.nearby.push_back(nearby ? 1.0f : 0.0f);
-    bounds.radius.push_back(radius);
+/// @param axis  of a flat light that shines on one side
+void add_light(LightBounds& bounds, const LightNode& light, const std::optional<glm::vec3>& axis = {}) {
+    bounds.x.push_back(light.center.x);
+    bounds.y.push_back(light.center.y);
+    bounds.z.push_back(light.center.z);
+    bounds.nearby.push_back(light.nearby ? 1.0f : 0.0f);
+    bounds.radius.push_back(light.radius);
     const glm::vec3 normal = axis.value_or(glm::vec3(0.0f));
     bounds.axis_x.push_back(normal.x);
     bounds.axis_y.push_back(normal.y);
     bounds.axis_z.push_back(normal.z);
     bounds.one_sided.push_back(axis ? 1.0f : 0.0f);
-    bounds.strength.push_back(finite_strength(strength));
-    bounds.inside.push_back(radius > 0.0f ? bounds.strength.back() / (radius * radius) : 0.0f);
+    bounds.strength.push_back(light.strength);
+    bounds.inside.push_back(light.radius > 0.0f ? light.strength / (light.radius * light.radius) : 0.0f);
 }
 
 /// The normal of a flat light that shines on one side; else nothing.
@@ -73,24 +73,27 @@ LightNode make_node(const PunctualLight& light) {
     return node;
 }
 
+/// The environment.
+/// @param share  of all its light that a surface can meet
+LightNode make_node(const ShadingEnvironment& environment, double share) {
+    LightNode node;
+    node.nearby = false;
+    node.radius = 1.0f;
+    const double mean = environment.map != nullptr ? environment.map->mean_luminance : 1.0;
+    node.strength =
+        finite_strength(static_cast<float>(std::numbers::pi * share * mean * luminance(environment.radiance)));
+    node.most = node.strength;
+    return node;
+}
+
 }  // namespace
 
 LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights) {
     LightBounds bounds;
-    for (const Emitter& emitter : lights.emitters) {
-        add_light(bounds, emitter.center, true, emitter.radius, luminance(emitter.brightest) * emitter.area,
-                  find_axis(emitter));
-    }
-    for (const PunctualLight& light : lights.punctual) {
-        const bool nearby = light.kind != Light::Kind::directional;
-        add_light(bounds, nearby ? light.position : -light.direction, nearby, 0.0f, luminance(light.intensity));
-    }
-    if (lights.has_environment) {
-        const double mean = shading.environment.map != nullptr ? shading.environment.map->mean_luminance : 1.0;
-        add_light(bounds, glm::vec3(0.0f), false, 1.0f,
-                  static_cast<float>(std::numbers::pi * mean * luminance(shading.environment.radiance)));
-    }
-    while (bounds.strength.size() % LightBounds::step != 0) add_light(bounds, glm::vec3(0.0f), false, 0.0f, 0.0f);
+    for (const Emitter& emitter : lights.emitters) add_light(bounds, make_node(emitter), find_axis(emitter));
+    for (const PunctualLight& light : lights.punctual) add_light(bounds, make_node(light));
+    if (lights.has_environment) add_light(bounds, make_node(shading.environment, 1.0));
+    while (bounds.strength.size() % LightBounds::step != 0) add_light(bounds, {.nearby = false});
     return bounds;
 }
 
@@ -98,17 +101,9 @@ std::vector<LightNode> make_light_nodes(const ShadingScene& shading, const Light
     std::vector<LightNode> nodes;
     for (const Emitter& emitter : lights.emitters) nodes.push_back(make_node(emitter));
     for (const PunctualLight& light : lights.punctual) nodes.push_back(make_node(light));
-    if (lights.has_environment) {
-        const double mean = shading.environment.map != nullptr ? shading.environment.map->mean_luminance : 0.25;
-        LightNode node;
-        node.nearby = false;
-        node.radius = 1.0f;
-        // All light of a picture may come from where the surface faces; of a constant environment, a quarter arrives.
-        node.strength = finite_strength(
-            static_cast<float>(4.0 * std::numbers::pi * mean * luminance(shading.environment.radiance)));
-        node.most = node.strength;
-        nodes.push_back(node);
-    }
+    // All light of a picture may come from where the surface faces; of a constant environment, a quarter arrives.
+    if (lights.has_environment)
+        nodes.push_back(make_node(shading.environment, shading.environment.map != nullptr ? 4.0 : 1.0));
     return nodes;
 }
 

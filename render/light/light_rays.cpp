@@ -96,12 +96,7 @@ Hit pass_sheets(const LightingContext& context, RayTask& task, Ray& ray, Rgb& pa
         ++task.counts.gather;
         const Hit hit = task.tracer.intersect(ray);
         if (hit.instance == no_index || !context.shading.has_thin_glass || sheet == max_sheets) return hit;
-        const SurfacePoint point = make_surface_point(context.shading, hit, ray.direction);
-        const ViewedSurface surface = view_surface(context.shading, point, -ray.direction, {});
-        if (!surface.material.passes_straight()) return hit;
-        const LitSurface lit(surface);
-        passed *= sheet_transmittance(lit);
-        ray = {lit.ray_origin(ray.direction), ray.direction};
+        if (!pass_sheet(context.shading, hit, ray, passed)) return hit;
     }
 }
 

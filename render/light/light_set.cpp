@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/light/light_power.h"
 #include "render/light/lights.h"
 #include "render/surface/environment_map.h"
 #include "render/surface/texture.h"

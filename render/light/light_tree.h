@@ -28,6 +28,15 @@ struct LightNode {
     float most = 0.0f;          ///< sum of the largest illuminances; infinite where there are point lights
 };
 
+/// The point that a light illuminates.
+struct Receiver {
+    /// m, where the shadow ray starts (SurfacePoint::ray_origin). If it were the surface point itself, the offset ray
+    /// could reach the light within LightSample::distance.
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f};  ///< unit
+    bool behind = false;     ///< light from behind the surface counts as well
+};
+
 /// Illuminance that eight nodes can bring to a surface without shadows.
 struct LightReaches {
     /// Never less than what they bring.
@@ -58,9 +67,7 @@ struct LightGroup {
     int used = 0;
 };
 
-/// @param normal  unit, of the surface
-/// @param behind  1 where light from behind the surface counts as well, else 0
-LightReaches reach_of(const LightGroup& group, const glm::vec3& position, const glm::vec3& normal, float behind);
+LightReaches reach_of(const LightGroup& group, const Receiver& receiver);
 
 /// Children are numbered: lights from 0; groups from the number of lights.
 struct LightTree {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/light/light_power.h"
+#include "render/light/lights.h"
 
 namespace aleph {
 
@@ -35,23 +35,45 @@ inline float with_margin(float cosine) {
     return cosine < -margin ? 0.0f : most;
 }
 
+/// bound_illuminances of one light. Without branches, so that a loop over lights becomes vector instructions.
+inline float bound_illuminance(const LightBounds& lights, std::size_t i, const Receiver& receiver) {
+    const glm::vec3 &position = receiver.position, &normal = receiver.normal;
+    const float nearby = lights.nearby[i], radius = lights.radius[i], strength = lights.strength[i];
+    const float inside = lights.inside[i], one_sided = lights.one_sided[i];
+    const float x = lights.x[i] - nearby * position.x, y = lights.y[i] - nearby * position.y,
+                z = lights.z[i] - nearby * position.z;
+    const float distance2 = x * x + y * y + z * z;
+    const float inverse = 1.0f / std::sqrt(distance2);
+    // The cosine at the light's centre, and more by what its size may add.
+    const auto widen = [radius, inverse](float along) {
+        const float wide = (along + radius) * inverse;
+        const float enough = wide < margin ? margin : wide;
+        return enough > 1.0f ? 1.0f : enough;
+    };
+    const float facing = widen(x * normal.x + y * normal.y + z * normal.z);
+    const float shining = widen(-(x * lights.axis_x[i] + y * lights.axis_y[i] + z * lights.axis_z[i]));
+    const float share = (receiver.behind ? 1.0f : facing) * (one_sided > 0.0f ? shining : 1.0f);
+    const float outside = strength * share * (inverse * inverse);
+    return distance2 <= 1.01f * (radius * radius) ? inside : outside;
+}
+
 }  // namespace
 
-void bound_illuminances(const LightBounds& lights, const glm::vec3& position, const glm::vec3& normal, float behind,
-                        std::span<float> weights) {
-    const glm::vec3 from = position, facing = normal;
+void bound_illuminances(const LightBounds& lights, const Receiver& receiver, std::span<float> weights) {
+    const Receiver at = receiver;
     for (std::size_t first = 0; first < weights.size(); first += LightBounds::step) {
         // An array that nothing else overlaps: the loop becomes vector instructions.
         std::array<float, LightBounds::step> part;
         for (std::size_t i = 0; i < LightBounds::step; ++i) {
-            part[i] = bound_illuminance(lights, first + i, from, facing, behind);
+            part[i] = bound_illuminance(lights, first + i, at);
         }
         std::copy(part.begin(), part.end(), weights.begin() + static_cast<std::ptrdiff_t>(first));
     }
 }
 
-LightReaches reach_of(const LightGroup& group, const glm::vec3& position, const glm::vec3& normal, float behind) {
-    const glm::vec3 from = position, facing = normal;
+LightReaches reach_of(const LightGroup& group, const Receiver& receiver) {
+    const glm::vec3 from = receiver.position, facing = receiver.normal;
+    const bool behind = receiver.behind;
     LightReaches reaches;
     for (std::size_t i = 0; i < LightGroup::size; ++i) {
         const float near = group.nearby[i], radius = group.radius[i];
@@ -71,7 +93,7 @@ LightReaches reach_of(const LightGroup& group, const glm::vec3& position, const 
         const float outside = subtract(at_light, {group.cone.cosine[i], group.cone.sine[i]}).cosine;
         const float falloff = group.by_cosine[i] > 0.0f ? with_margin(outside) : 1.0f;
         const float leaving = outside < group.cos_emission[i] - margin ? 0.0f : falloff;
-        const float outside_share = (behind > 0.0f ? 1.0f : arriving) * (group.directed[i] > 0.0f ? leaving : 1.0f);
+        const float outside_share = (behind ? 1.0f : arriving) * (group.directed[i] > 0.0f ? leaving : 1.0f);
         const bool is_inside = distance2 <= 1.001f * radius2;
         const float share = is_inside ? 1.0f : outside_share;
         // A point light at the point has no direction to it.

@@ -8,16 +8,20 @@
 #include <span>
 
 #include "engine/base/sampling.h"
-#include "render/light/light_power.h"
 #include "render/light/seen_light.h"
-#include "render/light/spherical_triangle.h"
 #include "render/surface/environment_map.h"
 #include "render/surface/surface_material.h"
-#include "render/surface/texture.h"
 
 namespace aleph {
 
 namespace {
+
+/// The part of v perpendicular to the unit vector n, unit.
+glm::vec3 perpendicular(const glm::vec3& v, const glm::vec3& n) {
+    const glm::vec3 p = v - n * glm::dot(v, n);
+    const float length = glm::length(p);
+    return length > 0.0f ? p / length : glm::vec3(0.0f);
+}
 
 /// Shadow rays end before the light, so that they do not hit it, by this share of the distance at most.
 constexpr float most_shortened = 1e-4f;
@@ -72,24 +76,9 @@ glm::vec2 meet_triangle(const Emitter::Triangle& t, const glm::vec3& position, c
     return b.x + b.y > 1.0f ? b / (b.x + b.y) : b;
 }
 
-/// The index of the part of [0,1) that u falls into, given where each part ends; u is stretched to [0,1) within it.
-std::size_t choose_part(std::span<const float> ends, float& u) {
-    std::size_t i = 0;
-    if (ends.size() > max_spherical_triangles) {
-        i = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), u) - ends.begin());
-    } else {
-        while (i < ends.size() && ends[i] <= u) ++i;
-    }
-    i = std::min(i, ends.size() - 1);
-    const float low = i == 0 ? 0.0f : ends[i - 1];
-    const float width = ends[i] - low;
-    u = width > 0.0f ? std::clamp((u - low) / width, 0.0f, 0x1.fffffep-1f) : 0.0f;
-    return i;
-}
-
 LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const SolidAngles& angles,
                            const glm::vec3& position, glm::vec2 u, float share) {
-    std::size_t chosen = 0;
+    int chosen = 0;
     glm::vec2 b;
     if (angles.total > 0.0f) {
         std::array<float, max_spherical_triangles> ends{};
@@ -188,6 +177,39 @@ LightSample sample_surroundings(const ShadingScene& shading, const Receiver& rec
 }
 
 }  // namespace
+
+float solid_angle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const float la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    // The volume a (b x c), without cancellation for small triangles.
+    const float numerator = std::abs(glm::dot(a, glm::cross(b - a, c - a)));
+    if (!(numerator > 0.0f)) return 0.0f;
+    const float denominator = la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la;
+    return 2.0f * std::atan2(numerator, denominator);
+}
+
+glm::vec3 sample_spherical_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float solid_angle,
+                                    const glm::vec2& u) {
+    const glm::vec3 ua = glm::normalize(a), ub = glm::normalize(b), uc = glm::normalize(c);
+    // The angle at a, between the planes of the arcs to b and to c.
+    const glm::vec3 ab = glm::cross(ua, ub), ac = glm::cross(ua, uc);
+    const float lengths = std::sqrt(glm::dot(ab, ab) * glm::dot(ac, ac));
+    if (!(lengths > 0.0f)) return ub;
+    const float cos_alpha = glm::dot(ab, ac) / lengths;
+    const float sin_alpha = std::abs(glm::dot(ua, glm::cross(ub - ua, uc - ua))) / lengths;
+    // Cuts off a part of the triangle with the share u.x of its area; the part's third corner is on the arc from a to
+    // c.
+    const float area = u.x * solid_angle;
+    const float sin_area = std::sin(area), cos_area = std::cos(area);
+    const float s = sin_area * cos_alpha - cos_area * sin_alpha, t = cos_area * cos_alpha + sin_area * sin_alpha;
+    const float k1 = t - cos_alpha;
+    const float k2 = s + sin_alpha * glm::dot(ua, ub);
+    const float below = (k2 * s + k1 * t) * sin_alpha;
+    const float q =
+        below != 0.0f ? std::clamp(((k2 * t - k1 * s) * cos_alpha - k2) / below, -1.0f, 1.0f) : glm::dot(ua, uc);
+    const glm::vec3 corner = ua * q + perpendicular(uc, ua) * std::sqrt(std::max(0.0f, 1.0f - q * q));
+    const float z = 1.0f - u.y * (1.0f - glm::dot(corner, ub));
+    return ub * z + perpendicular(corner, ub) * std::sqrt(std::max(0.0f, 1.0f - z * z));
+}
 
 float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction) {
     if (shading.environment.map != nullptr) {

@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "render/light/light_tree.h"
@@ -93,14 +94,6 @@ struct LightSample {
     float pdf = 0.0f;    ///< per solid angle; 0 for punctual lights, which no ray can hit
 };
 
-/// The point that a light illuminates.
-struct Receiver {
-    /// m, where the shadow ray starts (SurfacePoint::ray_origin). If it were the surface point itself, the offset ray
-    /// could reach the light within LightSample::distance.
-    glm::vec3 position{0.0f};
-    glm::vec3 normal{0.0f};  ///< unit
-};
-
 /// Density per steradian of sample_light for the environment.
 float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction);
 
@@ -116,5 +109,16 @@ LightSample sample_light(const ShadingScene& shading, const LightSet& lights, in
 /// whose normal has this cosine with the ray. Emitters of few triangles are sampled by solid angle if they are near,
 /// all others by area.
 float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance);
+
+/// LightSet::bounds.
+LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights);
+
+/// The lights as leaves of a tree. Textures are taken to be as bright as Emitter::brightest all over.
+std::vector<LightNode> make_light_nodes(const ShadingScene& shading, const LightSet& lights);
+
+/// About the illuminance that each of the first lights brings to a point without obstacles. Above 0 wherever the light
+/// can bring any.
+/// @param weights  set; a multiple of LightBounds::step of them, as far as the lights' arrays reach
+void bound_illuminances(const LightBounds& lights, const Receiver& receiver, std::span<float> weights);
 
 }  // namespace aleph

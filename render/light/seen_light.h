@@ -7,6 +7,16 @@
 
 namespace aleph {
 
+/// Solid angle of a triangle with corners at these offsets from the eye, sr (Van Oosterom and Strackee 1983). Accurate
+/// for small triangles; 0 if the triangle is seen edge-on or a corner lies at the eye.
+float solid_angle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
+/// Sampling by solid angle (Arvo 1995, "Stratified Sampling of Spherical Triangles") has much less noise near a light
+/// than sampling by area. A unit direction into the triangle of this solid angle, uniform in solid angle; u in [0,1)^2.
+/// It must be at least about 1e-3 sr: for smaller ones, float angles are too coarse.
+glm::vec3 sample_spherical_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float solid_angle,
+                                    const glm::vec2& u);
+
 /// Emitters of at most this many triangles are sampled by solid angle if they are near.
 inline constexpr std::size_t max_spherical_triangles = 4;
 

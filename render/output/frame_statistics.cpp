@@ -8,7 +8,7 @@
 #include "engine/base/parallel.h"
 #include "render/guide/error_report.h"
 #include "render/output/frame_files.h"
-#include "render/plan/effects_json.h"
+#include "render/plan/effect_table.h"
 #include "render/settings/setting_table.h"
 
 namespace aleph {

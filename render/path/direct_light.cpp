@@ -1,14 +1,10 @@
 #include "render/path/direct_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "render/light/light_cut.h"
 #include "render/light/seen_light.h"
-#include "render/pixels/lattice.h"
 
 namespace aleph {
 
@@ -16,26 +12,15 @@ namespace {
 
 constexpr float min_estimate_alpha = 0.1f;  // GGX width of the quick estimate's lobes
 
-/// Adds the light of samples that nothing blocks.
-class Unblocked {
-  public:
-    Unblocked(const LightingContext& context, RayTask& task) : context_(context), task_(task) {}
-
-    /// @param pdf  LightSample::pdf
-    void add(const LitSurface& lit, const Ray& ray, float pdf, const Rgb& contribution) {
-        if (contribution == Rgb(0.0f)) return;
-        Rgb passed = transmit_to_light(context_.around, lit, ray);
-        if (context_.shading.needs_shadow_ray(pdf)) passed *= find_transmittance(context_, task_, ray);
-        if (passed != Rgb(0.0f)) light_ += contribution * passed;
-    }
-
-    const Rgb& light() const { return light_; }
-
-  private:
-    const LightingContext& context_;
-    RayTask& task_;
-    Rgb light_{0.0f};
-};
+/// The part of a sample's light that nothing blocks.
+Rgb find_unblocked(const LightingContext& context, RayTask& task, const LitSurface& lit, const LightSample& sample,
+                   const Rgb& light) {
+    if (light == Rgb(0.0f)) return light;
+    const Ray ray = make_shadow_ray(lit, sample);
+    Rgb passed = transmit_to_light(context.around, lit, ray);
+    if (context.shading.needs_shadow_ray(sample.pdf)) passed *= find_transmittance(context, task, ray);
+    return passed == Rgb(0.0f) ? passed : light * passed;
+}
 
 /// The quick estimate's choice: the same points for every pixel, and no lobe is sampled.
 constexpr glm::vec2 estimate_shift{0.0f, 0.25f};
@@ -60,23 +45,22 @@ class ChosenLights {
         : context_(context),
           lit_(lit),
           shares_(shares),
-          receiver_{lit.point.ray_origin(), lit.point.normal},
-          behind_(lit.material.has_glass() ? 1.0f : 0.0f),
-          cut_(find_light_cut(context.lights, receiver_, behind_)),
+          receiver_{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()},
+          cut_(find_light_cut(context.lights, receiver_)),
           seen_(context.lights, receiver_) {}
 
-    /// Adds one sample of `count`.
+    /// Light of one sample of `count`.
     /// @param u            x chooses the light; what that leaves of it, and y, are the point on it
     /// @param light_share  sample_light
-    void add_sample(const glm::vec2& u, int count, float light_share, Unblocked& sum) {
-        const LightPick pick = pick_light(context_.lights, cut_, receiver_, behind_, u.x);
-        if (pick.light == no_index) return;
+    Rgb sample(RayTask& task, const glm::vec2& u, int count, float light_share) {
+        const LightPick pick = pick_light(context_.lights, cut_, receiver_, u.x);
+        if (pick.light == no_index) return Rgb(0.0f);
         const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen_.at(pick.light), receiver_,
                                                      {pick.rest, u.y}, light_share);
-        if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return;
-        sum.add(lit_, make_shadow_ray(lit_, sample), sample.pdf,
-                scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
-                    (pick.probability * static_cast<float>(count)));
+        if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return Rgb(0.0f);
+        return find_unblocked(context_, task, lit_, sample,
+                              scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
+                                  (pick.probability * static_cast<float>(count)));
     }
 
     const LightCut& cut() const { return cut_; }
@@ -86,7 +70,6 @@ class ChosenLights {
     const LitSurface& lit_;
     const LobeShares& shares_;
     Receiver receiver_;
-    float behind_;
     LightCut cut_;
     SeenLights seen_;
 };
@@ -96,16 +79,16 @@ class ChosenLights {
 Rgb estimate_chosen_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples) {
     ChosenLights lights(context, lit, estimate_shares);
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
-    Unblocked sum(context, task);
+    Rgb sum(0.0f);
     const int count = samples * LightCut::few;
     for (int i = 0; i < count; ++i)
-        lights.add_sample(lattice_point(i, count, estimate_shift), count, 1.0f / static_cast<float>(samples), sum);
-    return sum.light();
+        sum += lights.sample(task, lattice_point(i, count, estimate_shift), count, 1.0f / static_cast<float>(samples));
+    return sum;
 }
 
 /// The quick estimate of a few lights: samples of each.
 Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples) {
-    Unblocked sum(context, task);
+    Rgb sum(0.0f);
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
     for (int light = 0; light < context.lights.count(); ++light) {
         const int count = has_area(context.lights, light) ? samples : 1;
@@ -115,11 +98,12 @@ Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const Lit
             const LightSample sample = sample_seen_light(context.shading, context.lights, seen, receiver,
                                                          lattice_point(i, count, estimate_shift), share);
             if (!lit.is_reached(sample.direction)) continue;
-            sum.add(lit, make_shadow_ray(lit, sample), sample.pdf,
-                    scatter_towards(lit, sample.direction, sample.pdf, estimate_shares) * sample.incoming * share);
+            sum += find_unblocked(
+                context, task, lit, sample,
+                scatter_towards(lit, sample.direction, sample.pdf, estimate_shares) * sample.incoming * share);
         }
     }
-    return sum.light();
+    return sum;
 }
 
 }  // namespace
@@ -128,12 +112,11 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
                         const PixelSequence& sequence, const DirectSamples& samples) {
     ChosenLights lights(context, lit, shares);
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
-    Unblocked sum(context, task);
+    Rgb sum(0.0f);
     SequenceOfUse points = sequence.of(SampleUse::light_point);
-    for (int i = samples.first; i < samples.first + samples.count; ++i) {
-        lights.add_sample(points.at(i), samples.count, 0.0f, sum);
-    }
-    return sum.light();
+    for (int i = samples.first; i < samples.first + samples.count; ++i)
+        sum += lights.sample(task, points.at(i), samples.count, 0.0f);
+    return sum;
 }
 
 Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples) {

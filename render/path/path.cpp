@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "render/pixels/lattice.h"
+#include "render/pixels/pixel_sequence.h"
 
 namespace aleph {
 
@@ -20,26 +20,13 @@ constexpr float narrow_lobe = 0.05f;
 constexpr float loosest_accuracy = 0.5f;
 
 void count_ray(RayCounts& counts, const ScatterSample& sample) {
-    if (sample.lobe == Lobe::diffuse) {
-        ++counts.path;
-    } else if (sample.pdf > 0.0f) {
-        ++counts.glossy;
-    } else {
-        ++counts.specular;
-    }
+    ++(sample.lobe == Lobe::diffuse ? counts.path : sample.pdf > 0.0f ? counts.glossy : counts.specular);
 }
 
 /// Weight of light that was met, against the density with which the light would have been sampled.
 float weigh(const PathState& state, float light_pdf) {
-    switch (state.emission) {
-        case EmissionWeight::full:
-            return 1.0f;
-        case EmissionWeight::weighted:
-            return power_heuristic(state.pdf, light_pdf);
-        case EmissionWeight::none:
-            break;
-    }
-    return 0.0f;
+    if (state.emission == EmissionWeight::weighted) return power_heuristic(state.pdf, light_pdf);
+    return state.emission == EmissionWeight::full ? 1.0f : 0.0f;
 }
 
 /// Solid angle of the lobe that the path's last turn was sampled from, about, sr.

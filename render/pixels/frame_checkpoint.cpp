@@ -15,27 +15,30 @@ namespace {
 constexpr std::string_view magic = "alephC1\n";
 constexpr std::size_t digest_size = 40;
 
-/// The file without its digest; empty if it is not whole, or there is none.
-std::string read_whole(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::exists(file, error)) return {};
-    const Bytes bytes = read_regular_file(file, file.string(), "");
-    std::string text(bytes.begin(), bytes.end());
-    if (text.size() < magic.size() + digest_size || !text.starts_with(magic)) return {};
-    const std::string digest = text.substr(text.size() - digest_size);
-    text.resize(text.size() - digest_size);
-    return hash_bytes(text) == digest ? text : std::string();
+}  // namespace
+
+std::string seal(std::string_view magic, std::string_view content) {
+    const std::string text = std::string(magic).append(content);
+    return text + hash_bytes(text);
 }
 
-}  // namespace
+std::optional<std::string_view> unseal(std::string_view magic, std::string_view file) {
+    if (!file.starts_with(magic) || file.size() < magic.size() + digest_size) return std::nullopt;
+    const std::string_view text = file.substr(0, file.size() - digest_size);
+    if (hash_bytes(text) != file.substr(text.size())) return std::nullopt;
+    return text.substr(magic.size());
+}
 
 FrameCheckpoint::FrameCheckpoint(std::filesystem::path file, std::string identity, std::function<bool()> is_due)
     : file_(std::move(file)), identity_(std::move(identity)), is_due_(std::move(is_due)) {
-    const std::string text = read_whole(file_);
-    if (text.empty()) return;
-    ByteReader in(std::string_view(text).substr(magic.size()));
+    std::error_code error;
+    if (!std::filesystem::exists(file_, error)) return;
+    const Bytes bytes = read_regular_file(file_, file_.string(), "");
+    const auto content = unseal(magic, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (!content) return;
+    ByteReader in(*content);
     if (in.read_text() != identity_) return;
-    std::vector<Gathers> gathers(std::min(in.read<std::size_t>(), text.size()));
+    std::vector<Gathers> gathers(std::min(in.read<std::size_t>(), content->size()));
     for (auto& [results, found] : gathers) {
         results = in.read_text();
         found = in.read_text();
@@ -71,9 +74,7 @@ void FrameCheckpoint::offer(const std::function<std::string()>& find_samples) {
     }
     out.add_text(find_light_ ? find_light_() : std::string());
     out.add_text(find_samples ? find_samples() : std::string());
-    std::string text = std::string(magic) + out.take();
-    text += hash_bytes(text);
-    write_file(file_, text);
+    write_file(file_, seal(magic, out.take()));
 }
 
 }  // namespace aleph

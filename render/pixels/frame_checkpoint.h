@@ -77,6 +77,12 @@ class ByteReader {
     bool good_ = true;
 };
 
+/// The bytes of a file of ours: 8 bytes of magic, the content, and SHA-1 of both in 40 hexadecimal digits.
+std::string seal(std::string_view magic, std::string_view content);
+
+/// The content of such a file; nothing if it is damaged or not complete.
+std::optional<std::string_view> unseal(std::string_view magic, std::string_view file);
+
 class FrameCheckpoint {
   public:
     /// Reads the state that an earlier process left, if the file is whole and of this identity; any other is ignored.

@@ -2,7 +2,6 @@
 // The samples of one pixel, added up, with what tells the error of their mean.
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -50,12 +49,8 @@ struct SampleLight {
     Rgb total() const { return parts[0] + parts[1] + parts[2]; }
 };
 
-/// The valid samples of a pixel so far. Sums are in double: a float sum of 65,536 samples can be off by 0.2 %.
-///
-/// Samples of a low-discrepancy sequence are more even than independent ones, so that their variance tells too large an
-/// error. The error is therefore found from halves: whenever 2, 4, 8, ... samples have been taken, the means of the
-/// first and of the second half are compared. A quarter of their squared difference is the squared error of the mean
-/// of independent halves, and more than that of halves that complement each other.
+/// The valid samples of a pixel so far. Sums are in double: a float sum of 65,536 samples can be off by 0.2 %. The
+/// error is found from halves (README.md): an upper bound where these complement each other.
 class PixelSamples {
   public:
     /// Squared errors of the mean, of luminance and of its red-green signal in the luminance that it is worth

@@ -1,8 +1,12 @@
 #include "render/pixels/pixel_surfaces.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
+#include "render/pixels/pixel_samples.h"
 #include "render/pixels/pixel_sequence.h"
 
 namespace aleph {
@@ -19,7 +23,60 @@ glm::dvec2 sample_disc(const glm::vec2& u) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
+constexpr double radius = 1.5;  // pixels, of the Blackman-Harris window
+constexpr int steps = 512;
+
+/// Integral of the window (Harris 1978, four terms) from -radius to x, over the whole.
+double cumulative(double x) {
+    constexpr std::array<double, 4> a{0.35875, 0.48829, 0.14128, 0.01168};
+    const double t = (x + radius) / (2.0 * radius), turn = 2.0 * std::numbers::pi;
+    double sum = a[0] * t;
+    sum -= a[1] * std::sin(turn * t) / turn;
+    sum += a[2] * std::sin(2.0 * turn * t) / (2.0 * turn);
+    sum -= a[3] * std::sin(3.0 * turn * t) / (3.0 * turn);
+    return sum / a[0];
+}
+
+double invert(double u) {
+    double low = -radius, high = radius;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (cumulative(middle) < u ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+std::array<double, steps + 1> make_inverse() {
+    std::array<double, steps + 1> table;
+    for (int i = 0; i <= steps; ++i) table[i] = invert(static_cast<double>(i) / steps);
+    table.front() = -radius;
+    table.back() = radius;
+    return table;
+}
+
 }  // namespace
+
+float find_spacing(const RenderSettings& settings, int index) {
+    const auto first_of_stage = static_cast<unsigned>(std::max(index + 1, own_samples));
+    const int count = settings.sampling.rule == Sampling::uniform
+                          ? settings.sampling.spp
+                          : std::min(settings.sampling.spp, static_cast<int>(std::bit_ceil(first_of_stage)));
+    return 1.0f / std::sqrt(static_cast<float>(count));
+}
+
+SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t noise_key,
+                              int index) {
+    SamplePlace place;
+    place.index = index;
+    place.centered = settings.sampling.spp == 1;
+    place.spacing = find_spacing(settings, index);
+    place.lens = lens;
+    place.filter = settings.picture.filter;
+    place.seed = settings.seed;
+    place.noise_key = noise_key;
+    place.blend = blended ? Blend::random : Blend::cutout;
+    return place;
+}
 
 glm::dvec2 place_sample(const SamplePlace& place, int x, int y) {
     if (place.centered) return {x + 0.5, y + 0.5};
@@ -79,6 +136,14 @@ SampleHits cast_sample(const RayScene& rays, const CameraView& view, const Sampl
 
 SampleHits cast_centers(const RayScene& rays, const CameraView& view, std::uint64_t* rays_cast) {
     return cast_sample(rays, view, {}, rays_cast);
+}
+
+double place_in_filter(PixelFilter filter, double u) {
+    if (filter == PixelFilter::box) return u - 0.5;
+    static const std::array<double, steps + 1> inverse = make_inverse();
+    const double place = std::clamp(u, 0.0, 1.0) * steps;
+    const int i = std::min(static_cast<int>(place), steps - 1);
+    return inverse[i] + (inverse[i + 1] - inverse[i]) * (place - i);
 }
 
 }  // namespace aleph

@@ -3,7 +3,7 @@
 
 #include "engine/pose/camera_view.h"
 #include "engine/rays/first_hits.h"
-#include "render/pixels/pixel_filter.h"
+#include "render/settings/settings.h"
 #include "render/surface/surface_material.h"
 
 namespace aleph {
@@ -24,6 +24,20 @@ struct SamplePlace {
     std::uint32_t seed = 0, noise_key = 0;  ///< for the pixels' sequences
     Blend blend = Blend::cutout;            ///< what blended surfaces do to the rays
 };
+
+/// Where a sample lies along x or y, in pixels from the pixel's centre: distributed like the filter (filter importance
+/// sampling, Ernst et al. 2006), so that every sample counts the same and belongs to one pixel alone.
+/// @param u  uniform in [0,1)
+double place_in_filter(PixelFilter filter, double u);
+
+/// Pixels between the samples of a pixel that is left after the stage of this one: 1 over the square root of their
+/// number. Textures are averaged over it, so later samples of a pixel see them sharper.
+float find_spacing(const RenderSettings& settings, int index);
+
+/// Placing of sample `index` of the pixels. A single sample is the pixel's centre.
+/// @param noise_key  key of random numbers: the same in all frames if their noise is (Shot::keeps_noise)
+SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t noise_key,
+                              int index);
 
 /// Where a sample lies in the picture, in pixels.
 glm::dvec2 place_sample(const SamplePlace& place, int x, int y);

@@ -26,20 +26,13 @@ bool is_in_plane(const ObjectFacts& flat, const Bounds& box) {
 }
 
 double largest_illuminance(const LightFacts& light, const Bounds& box) {
-    switch (light.kind) {
-        case LightFacts::Kind::surroundings:
-            return pi * light.strength;
-        case LightFacts::Kind::directional:
-            return light.strength;
-        case LightFacts::Kind::point: {
-            const double distance = distance_to(box, light.center);
-            if (light.range > 0.0 && distance > light.range) return 0.0;
-            return distance > 0.0 ? light.strength / (distance * distance) : unbounded;
-        }
-        case LightFacts::Kind::surface:
-            break;
-    }
+    if (light.kind == LightFacts::Kind::surroundings) return pi * light.strength;
+    if (light.kind == LightFacts::Kind::directional) return light.strength;
     const double distance = distance_to(box, light.center);
+    if (light.kind == LightFacts::Kind::point) {
+        if (light.range > 0.0 && distance > light.range) return 0.0;
+        return distance > 0.0 ? light.strength / (distance * distance) : unbounded;
+    }
     const double share = distance > light.radius ? light.radius * light.radius / (distance * distance) : 1.0;
     return pi * light.strength * share;
 }

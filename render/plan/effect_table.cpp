@@ -23,7 +23,7 @@ bool Planning::any_seen(bool MaterialFacts::*layer) const {
 }
 
 bool Planning::may_leave_out(Effect effect) const {
-    return in.settings.effects.plan == EffectsPlanning::on && !in.settings.effects.force.contains(effect);
+    return settings.effects.plan == EffectsPlanning::on && !settings.effects.force.contains(effect);
 }
 
 EffectBound Planning::bound_of(double radiance, bool everywhere) const {
@@ -59,6 +59,36 @@ Finding leave_to_user(const Planning& frame, std::string reason, double radiance
     finding.planned.bound = frame.bound_of(radiance);
     if (!std::isfinite(finding.planned.bound->luminance)) finding.planned.bound.reset();
     return finding;
+}
+
+namespace {
+
+Rgb mix(const EffectTable& left_out, const MaterialFacts& material, const FrameFacts& facts) {
+    Rgb sum(0.0f);
+    float count = 0.0f;
+    for (const EffectRow& row : left_out) {
+        if (row.shows != nullptr && !row.shows(material, facts)) continue;
+        sum += row.color;
+        count += 1.0f;
+    }
+    return count > 0.0f ? sum / count : sum;
+}
+
+}  // namespace
+
+Image<Rgb> make_effect_picture(const Image<Hit>& hits, const FrameFacts& facts, const EffectsPlan& plan,
+                               std::size_t instances, const EffectTable& table) {
+    EffectTable left_out;
+    for (const EffectRow& row : table) {
+        if (row.color != Rgb(0.0f) && plan.of(row.effect.id).leaves_out()) left_out.push_back(row);
+    }
+    std::vector<Rgb> colors(instances, Rgb(0.0f));
+    for (const ObjectFacts& object : facts.objects) colors[object.instance] = mix(left_out, object.material, facts);
+    Image<Rgb> picture(hits.width, hits.height, Rgb(0.0f));
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (hits.pixels[i].instance != no_index) picture.pixels[i] = colors[hits.pixels[i].instance];
+    }
+    return picture;
 }
 
 }  // namespace aleph

@@ -2,13 +2,19 @@
 // The table of effects: one row for each, with all that a plan, its JSON, `aleph explain`, the picture of effects and
 // --forbid know of it. README.md says how to add one.
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "engine/base/color.h"
+#include "engine/base/image.h"
+#include "engine/rays/hit.h"
 #include "render/plan/effects_plan.h"
 
 namespace aleph {
 
 /// The frame that is planned, as effects look at it.
 struct Planning {
+    const Scene& scene;
+    const RenderSettings& settings;
     const PlanInput& in;
     const std::optional<VisibleFrame>& visible;
     double left = 0.0;  ///< visible thresholds that may still be left out
@@ -63,5 +69,18 @@ EffectTable light_effects();
 EffectTable indirect_effects();
 EffectTable object_effects();
 EffectTable view_effects();
+
+/// {"effect":NAME,"decision":"simulate|simplify|skip","reason":...,"bound":{"luminance":cd/m2,"thresholds":...}}; a
+/// bound is null where none is known.
+nlohmann::ordered_json to_json(const PlannedEffect& planned);
+
+/// All effects, in order; an empty list for a plan that was not made: pictures without a scene have none.
+nlohmann::ordered_json to_json(const EffectsPlan& plan);
+
+/// For each pixel the mean colour of the effects that its surface has and that are left out; black where all are
+/// simulated, and behind all surfaces.
+/// @param hits  first hits through the pixel centres
+Image<Rgb> make_effect_picture(const Image<Hit>& hits, const FrameFacts& facts, const EffectsPlan& plan,
+                               std::size_t instances, const EffectTable& table = effect_table());
 
 }  // namespace aleph

@@ -1,8 +1,12 @@
 #include "render/plan/effects_plan.h"
 
+#include <nlohmann/json.hpp>
+
 #include "render/plan/effect_table.h"
 
 namespace aleph {
+
+using nlohmann::ordered_json;
 
 namespace {
 
@@ -51,11 +55,12 @@ double EffectsPlan::left_out_thresholds() const {
     return sum;
 }
 
-EffectsPlan plan_effects(const PlanInput& input, const std::optional<VisibleFrame>& visible, const EffectTable& table) {
-    Planning frame{input, visible, planned_thresholds(input.settings), {}};
+EffectsPlan plan_effects(const Scene& scene, const RenderSettings& settings, const PlanInput& input,
+                         const std::optional<VisibleFrame>& visible, const EffectTable& table) {
+    Planning frame{scene, settings, input, visible, planned_thresholds(settings), {}};
     for (const EffectRow& row : table) frame.plan.effects.push_back(decide(row, frame));
     // Afterwards, because effects are found as if those before them were not overridden.
-    for (const EffectRow& row : table) override_by_user(input.settings, row.effect.id, frame.plan.of(row.effect.id));
+    for (const EffectRow& row : table) override_by_user(settings, row.effect.id, frame.plan.of(row.effect.id));
     return std::move(frame.plan);
 }
 
@@ -70,6 +75,23 @@ RenderSettings without_forbidden(RenderSettings settings, const EffectTable& tab
         if (row.turn_off != nullptr && settings.effects.forbid.contains(row.effect.id)) row.turn_off(settings);
     }
     return settings;
+}
+
+ordered_json to_json(const PlannedEffect& planned) {
+    ordered_json json = {{"effect", planned.name},
+                         {"decision", decision_name(planned.decision)},
+                         {"reason", planned.reason},
+                         {"bound", nullptr}};
+    if (planned.bound) {
+        json["bound"] = {{"luminance", planned.bound->luminance}, {"thresholds", planned.bound->thresholds}};
+    }
+    return json;
+}
+
+ordered_json to_json(const EffectsPlan& plan) {
+    ordered_json list = ordered_json::array();
+    for (const PlannedEffect& effect : plan.effects) list.push_back(to_json(effect));
+    return list;
 }
 
 }  // namespace aleph

@@ -82,11 +82,9 @@ struct LensFacts {
     double circle = 0.0;  ///< pixels: largest diameter of the circle of confusion
 };
 
-/// Data that a frame's plan is made from.
+/// What is known of a frame when its plan is made.
 struct PlanInput {
-    const Scene& scene;
-    const RenderSettings& settings;
-    const FrameFacts& facts;
+    FrameFacts facts;
     ShutterFacts shutter;
     LensFacts lens;
     bool perceives = false;        ///< something obeys the model of vision, or its maps are wanted
@@ -110,8 +108,8 @@ using EffectTable = std::vector<EffectRow>;  ///< in the order of Effect
 const EffectTable& effect_table();
 
 /// @param visible  nothing before the estimate: then only what cannot change the picture at all is skipped
-EffectsPlan plan_effects(const PlanInput& input, const std::optional<VisibleFrame>& visible,
-                         const EffectTable& table = effect_table());
+EffectsPlan plan_effects(const Scene& scene, const RenderSettings& settings, const PlanInput& input,
+                         const std::optional<VisibleFrame>& visible, const EffectTable& table = effect_table());
 
 /// Takes forbidden effects out of a scene, where they come from the scene alone: textures, emission and the like.
 /// Others are left out of the work of each frame.

@@ -62,7 +62,7 @@ double bound_further_bounces(const FrameFacts& facts, int bounces, int most) {
 }
 
 int count_bounces(const Planning& frame) {
-    return std::min(frame.in.settings.light.bounces, frame.in.settings.light.path_depth - 1);
+    return std::min(frame.settings.light.bounces, frame.settings.light.path_depth - 1);
 }
 
 Finding find_indirect_diffuse(Planning& frame) {
@@ -84,7 +84,7 @@ Finding find_more_bounces(Planning& frame) {
 
 Finding find_caustics(Planning& frame) {
     if (frame.plan.skips(Effect::indirect_diffuse)) return skip(no_indirect_light);
-    const float width = find_caustic_width(frame.in.settings);
+    const float width = find_caustic_width(frame.settings);
     const bool blurred = frame.in.facts.any([width](const MaterialFacts& material) {
         return width > 0.0f && (material.mirror || material.volume || material.least_width < width);
     });

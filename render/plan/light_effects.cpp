@@ -44,15 +44,9 @@ bool may_block_parallel(const Bounds& receiver, const Bounds& blocker, const glm
 }
 
 bool may_block(const LightFacts& light, const ObjectFacts& receiver, const ObjectFacts& blocker) {
-    switch (light.kind) {
-        case LightFacts::Kind::surroundings:
-            return !(receiver.flat && is_in_plane(receiver, blocker.bounds));
-        case LightFacts::Kind::directional:
-            return may_block_parallel(receiver.bounds, blocker.bounds, -light.direction);
-        case LightFacts::Kind::surface:
-        case LightFacts::Kind::point:
-            break;
-    }
+    if (light.kind == LightFacts::Kind::surroundings) return !(receiver.flat && is_in_plane(receiver, blocker.bounds));
+    if (light.kind == LightFacts::Kind::directional)
+        return may_block_parallel(receiver.bounds, blocker.bounds, -light.direction);
     Bounds hull = receiver.bounds;
     hull.add(light.center - light.radius);
     hull.add(light.center + light.radius);
@@ -98,7 +92,7 @@ double choose_faint_lights(const Planning& frame, std::vector<LightFacts>& chose
     std::vector<std::pair<double, std::size_t>> brought;
     for (std::size_t i = 0; i < facts.lights.size(); ++i) {
         if (facts.lights[i].kind == LightFacts::Kind::surroundings) continue;
-        brought.emplace_back(bound_light(facts, facts.lights[i], frame.in.settings.light.bounces), i);
+        brought.emplace_back(bound_light(facts, facts.lights[i], frame.settings.light.bounces), i);
     }
     std::ranges::sort(brought);
     double sum = 0.0;
@@ -121,7 +115,7 @@ Finding find_direct_light(Planning& frame) {
     if (count == 0) return finding;
     finding.cheaper = {.decision = count == all ? Decision::skip : Decision::simplify,
                        .reason = fmt::format("{} of {} lights bring less than {:.2g} visible thresholds together",
-                                             count, all, 0.5 * planned_thresholds(frame.in.settings)),
+                                             count, all, 0.5 * planned_thresholds(frame.settings)),
                        .bound = frame.bound_of(radiance)};
     return finding;
 }

@@ -23,7 +23,7 @@ double bound_glossy_light(const FrameFacts& facts, int bounces) {
 Finding find_gloss(Planning& frame) {
     if (!frame.in.facts.any(&MaterialFacts::glossy)) return skip("no material in use is glossy");
     if (!frame.any_seen(&MaterialFacts::glossy)) return skip("no glossy surface can be seen");
-    return simulate_if_visible(frame, bound_glossy_light(frame.in.facts, frame.in.settings.light.bounces),
+    return simulate_if_visible(frame, bound_glossy_light(frame.in.facts, frame.settings.light.bounces),
                                "glossy surfaces reflect light", "there is no light that glossy surfaces reflect");
 }
 
@@ -80,7 +80,7 @@ void make_opaque(Scene& scene) {
 }
 
 Finding find_subdivision(Planning& frame) {
-    const Scene& scene = frame.in.scene;
+    const Scene& scene = frame.scene;
     int most = no_index;  // level of the cages
     for (const ObjectFacts& object : frame.in.facts.objects) {
         const int cage = scene.meshes[object.mesh].subdivision.cage;

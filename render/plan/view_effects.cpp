@@ -39,10 +39,10 @@ Finding find_blur(const Planning& frame, double size, const BlurMoments& blur, c
     if (size == 0.0) return skip("nothing is blurred");
     Finding finding = simulate(fmt::format("{} up to {:.3g} pixels", what, size));
     if (!frame.visible || !(size < half_pixel)) return finding;
-    const double radiance = bound_blur(blur, frame.in.settings.picture.filter) * largest_contrast(frame);
+    const double radiance = bound_blur(blur, frame.settings.picture.filter) * largest_contrast(frame);
     finding.cheaper = {.decision = Decision::skip,
                        .reason = fmt::format("{} by {:.2g} pixels", what, size),
-                       .bound = frame.bound_of(radiance, frame.in.scene.environment.image != no_index)};
+                       .bound = frame.bound_of(radiance, frame.scene.environment.image != no_index)};
     return finding;
 }
 
@@ -68,14 +68,14 @@ Finding find_motion(Planning& frame) {
     if (!in.perceives) return skip(not_perceived);
     if (!in.has_other) return skip("there is no other frame in this shot");
     if (in.moves) return simulate("objects or the camera move");
-    return simulate_if(picture_search(in.settings.guide.motion).has_value(), "it is found from pictures",
+    return simulate_if(picture_search(frame.settings.guide.motion).has_value(), "it is found from pictures",
                        "nothing moves into the next frame");
 }
 
 Finding find_saliency(Planning& frame) {
     const PlanInput& in = frame.in;
     if (!in.perceives) return skip(not_perceived);
-    if (in.settings.perception.guide != Guide::saliency) return skip("the guide is not saliency");
+    if (frame.settings.perception.guide != Guide::saliency) return skip("the guide is not saliency");
     if (in.maps) return simulate("its map is asked for");
     if (frame.plan.skips(Effect::motion)) return skip("nothing moves, so it does not matter where viewers look");
     return simulate("viewers track what stands out");

@@ -8,7 +8,6 @@
 namespace aleph {
 
 /// Pixels that may see such an outline, or a lamp too small for the pixels' centres to meet: 1, else 0.
-/// @param centers    hits of the pixels' centres
 /// @param exposure   brighter than about half of white counts
 /// @param rays_cast  counts those around the picture
 Image<std::uint8_t> find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,

@@ -5,8 +5,6 @@
 #include "render/cache/bounce_places.h"
 #include "render/cache/cache_fill.h"
 #include "render/cache/further_bounces.h"
-#include "render/cache/mirror_places.h"
-#include "render/shade/frame_irradiance.h"
 #include "render/shade/integrator.h"
 #include "render/shade/resolve.h"
 

@@ -3,7 +3,7 @@
 
 #include "render/cache/cache_fill.h"
 #include "render/pixels/picture_part.h"
-#include "render/shade/error_budget.h"
+#include "render/shade/progressive.h"
 #include "render/shade/sample_shading.h"
 #include "render/time/keyframe_check.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Integrators: ways to find the light of a frame's samples. To add one, write a class like those of
-// cache_integrator.cpp and path_integrator.cpp, give it a row in make_integrator (integrator.cpp) and a name in the
-// setting table.
+// cache_integrator.cpp and path_integrator.cpp, give it a row in make_integrator (path_integrator.cpp) and a name in
+// the setting table.
 
 #include <memory>
 
@@ -19,13 +19,12 @@ class LightIntegrator {
     virtual bool shares_light() const { return false; }
     /// Computes it.
     /// @param first  the first sample of every pixel
-    virtual void fill(const SampleHits& first);
+    virtual void fill(const SampleHits& /*first*/) {}
 
     /// Samples are taken at this time until the next call.
     virtual void begin(const SampleScene& scene) = 0;
 
     /// Finds the light that a pixel's surface sends to the camera. Called from any thread.
-    /// @param pixel  its samples so far
     /// @param light  set, but for what begin_light sets
     virtual void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel,
                        SampleLight& light) = 0;
@@ -49,6 +48,5 @@ struct IntegratorInput {
 
 std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input);
 std::unique_ptr<LightIntegrator> make_cache_integrator(const IntegratorInput& input);
-std::unique_ptr<LightIntegrator> make_path_integrator(const IntegratorInput& input);
 
 }  // namespace aleph

@@ -34,7 +34,8 @@ class PathIntegrator final : public LightIntegrator {
 
 }  // namespace
 
-std::unique_ptr<LightIntegrator> make_path_integrator(const IntegratorInput& input) {
+std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input) {
+    if (input.context.settings.light.integrator == Integrator::cache) return make_cache_integrator(input);
     return std::make_unique<PathIntegrator>(input);
 }
 

@@ -5,6 +5,8 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
+#include "render/guide/stopping_rule.h"
 #include "render/time/shutter.h"
 
 namespace aleph {
@@ -120,6 +122,12 @@ std::vector<PixelRange> select_sample(std::span<const PixelRange> ranges, int in
     return taken;
 }
 
+float strictest_around(const Image<float>& threshold, int x, int y) {
+    float least = threshold(x, y);
+    visit_around(threshold, x, y, 1, [&](int nx, int ny) { least = std::min(least, threshold(nx, ny)); });
+    return least;
+}
+
 }  // namespace
 
 double sum_samples(std::span<const PixelRange> ranges) {
@@ -162,6 +170,39 @@ void sample_by_stages(const SamplingPlan& plan, Image<PixelSamples>& pixels, con
         if (plan.tolerance.empty()) return;
         stage = next_ranges(plan, pixels, stage);
     }
+}
+
+Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure) {
+    if (settings.sampling.rule == Sampling::uniform || settings.sampling.rule == Sampling::protocol) return {};
+    const bool by_noise = settings.sampling.rule == Sampling::threshold;
+    const Image<float>& limit = by_noise ? limits.noise : limits.threshold;
+    const double asked = settings.error > 0.0 ? settings.error : 1.0;
+    const double factor = (by_noise ? allow_noise(asked) : asked) / (limits.viewing.display_white * exposure);
+    Image<float> tolerance(limits.threshold.width, limits.threshold.height);
+    for (int y = 0; y < tolerance.height; ++y) {
+        for (int x = 0; x < tolerance.width; ++x) {
+            const Outline outline = limits.outlines(x, y);
+            const bool moves = outline == Outline::moving || outline == Outline::small;
+            const float threshold = moves ? strictest_around(limit, x, y) : limit(x, y);
+            tolerance(x, y) = static_cast<float>(factor * threshold);
+        }
+    }
+    return tolerance;
+}
+
+SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSettings& settings, double exposure) {
+    SamplingPlan plan;
+    plan.rule = settings.sampling.rule;
+    plan.stopping = settings.sampling.stopping;
+    plan.own = settings.sampling.own_rule;
+    plan.most = settings.sampling.spp;
+    if (limits == nullptr) return plan;
+    plan.tolerance = compute_sampling_tolerance(*limits, settings, exposure);
+    plan.aleph = limits->aleph;
+    plan.outlines = limits->outlines;
+    plan.reach = find_seen_reach(limits->viewing.pixels_per_degree);
+    if (plan.rule == Sampling::threshold) plan.white = 1.0 / exposure;
+    return plan;
 }
 
 }  // namespace aleph

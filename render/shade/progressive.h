@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/viewing.h"
 #include "render/guide/stopping_rule.h"
 #include "render/pixels/picture_part.h"
 
@@ -50,10 +51,30 @@ using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;
 /// samples. A decision reads what all pixels have after a stage, so the result does not depend on the number of
 /// threads. A pixel that stopped never goes on: it would when its neighbours, which go on because of its own rare
 /// bright sample, meet another, and then that sample is averaged away. With `threshold`, a pixel whose own samples say
-/// otherwise (stands_out) keeps its mean and goes on: spread_lost_light (lost_light.h) has to follow.
+/// otherwise (stands_out) keeps its mean and goes on: spread_lost_light (resolve.h) has to follow.
 /// @param pixels  what `take` adds to; read between stages
 /// @param begin   the stage to begin with; empty: the first
 void sample_by_stages(const SamplingPlan& plan, Image<PixelSamples>& pixels, const TakeSamples& take,
                       std::vector<PixelRange> begin = {});
+
+/// Errors that a viewer tolerates in a frame. Images have the frame's size.
+struct VisibleLimits {
+    const Image<float>& threshold;  ///< cd/m2 (6.9)
+    const Image<float>& noise;      ///< cd/m2 (NoiseVisibility)
+    const Image<float>& aleph;      ///< elevation of the threshold
+    const Image<float>& accuracy;   ///< alpha, of cached light
+    const Image<Outline>& outlines;
+    ViewingConditions viewing;
+};
+
+/// The luminance that samples may err by, as they have it (before exposure).
+/// threshold: allow_noise of RenderSettings::error, times what noise of single pixels goes unseen.
+/// consecutive, variance: RenderSettings::error times the threshold.
+/// Beside the outline of a moving object it is the strictest of the nine around the pixel (README.md).
+/// @return empty for rules that need none
+Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure);
+
+/// @param limits  null: not known, which Sampling::uniform alone allows
+SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSettings& settings, double exposure);
 
 }  // namespace aleph

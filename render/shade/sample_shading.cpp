@@ -1,7 +1,7 @@
 #include "render/shade/sample_shading.h"
 
 #include "render/cache/aimed_rays.h"
-#include "render/cache/record_worth.h"
+#include "render/cache/gather_at.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {
@@ -20,22 +20,22 @@ int count_sample_rays(const RenderSettings& settings) {
     return chosen ? settings.cache.gather : sample_rays;
 }
 
-RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface,
-                         std::uint32_t mask = path_seed_mask) {
-    return path_stream(shading.context.settings.seed, shading.noise_key, surface, mask);
-}
-
-/// Indirect irradiance from lighting keyframes or from the cache; nothing where neither has a record.
-std::optional<Rgb> read_irradiance(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
+/// Indirect irradiance from lighting keyframes or from the cache, while the shutter is open at its centre; nothing
+/// where neither has a record.
+std::optional<Rgb> look_up(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
     const IndirectContext& context = shading.context;
     const float accuracy = context.accuracy(surface.x, surface.y);
     RecordUse* const used = shading.uses == nullptr ? nullptr : &(*shading.uses)(surface.x, surface.y);
     std::optional<Rgb> found;
-    if (context.carried != nullptr) {
+    if (shading.blurred) {
+        if (shading.shutter == nullptr || !(accuracy > 0.0f)) return std::nullopt;
+        ++task.lookups;
+        found = shading.shutter->find(surface, accuracy, task.at_frame, used);
+    } else if (context.carried != nullptr) {
         ++task.lookups;
         found = context.carried->find(surface, accuracy, task, used);
     }
-    if (!found && shading.cache != nullptr && accuracy > 0.0f) {
+    if (!found && !shading.blurred && shading.cache != nullptr && accuracy > 0.0f) {
         CacheQuery query{surface.point.position, surface.point.normal, accuracy * shade_reach, &task};
         query.used = used;
         ++task.lookups;
@@ -45,28 +45,13 @@ std::optional<Rgb> read_irradiance(const SampleShading& shading, ShadingTask& ta
     return found;
 }
 
-/// Indirect irradiance while the shutter is open, from the shutter's centre.
-std::optional<Rgb> read_blurred(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
-    const float accuracy = shading.context.accuracy(surface.x, surface.y);
-    if (shading.shutter == nullptr || !(accuracy > 0.0f)) return std::nullopt;
-    RecordUse* const used = shading.uses == nullptr ? nullptr : &(*shading.uses)(surface.x, surface.y);
-    ++task.lookups;
-    const std::optional<Rgb> found = shading.shutter->find(surface, accuracy, task.at_frame, used);
-    if (found) ++task.hits;
-    return found;
-}
-
-std::optional<Rgb> look_up(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
-    return shading.blurred ? read_blurred(shading, task, surface) : read_irradiance(shading, task, surface);
-}
-
 /// Indirect irradiance at the sample's own time, from random paths whose first directions belong to the pixel's
 /// sequence. Lamps that they meet straight away are direct light.
 Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                       const PixelSurface& surface) {
     const RenderSettings& settings = shading.context.settings;
     const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
-    RandomStream random = path_stream(shading, surface, irradiance_seed_mask);
+    RandomStream random = path_stream(settings.seed, shading.noise_key, surface, irradiance_seed_mask);
     PathState state;
     state.left = {settings.light.bounces - 1, settings.light.path_depth - 1};
     state.emission = EmissionWeight::none;
@@ -122,12 +107,6 @@ PathState start_beyond(const SampleShading& shading, const SampleScene& scene, c
     return beyond;
 }
 
-/// One sample of the lobes, from the pixel's sequence.
-ScatterSample sample_lobes(const LitSurface& lit, const LobeShares& shares, const PixelSequence& sequence, int i) {
-    return sample_scatter(lit, shares, sequence.at_1d(SampleUse::lobe_choice, i),
-                          sequence.at_2d(SampleUse::lobe_direction, i), sequence.at_1d(SampleUse::lobe_side, i));
-}
-
 /// Adds all but the indirect light of the Lambert layer.
 void add_with_cache(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                     const PixelSurface& surface, SampleLight& light) {
@@ -141,8 +120,11 @@ void add_with_cache(const SampleShading& shading, const SampleScene& scene, Shad
     light[LightPart::direct] =
         sample_direct_light(lighting, task, lit, shares, sequence, {surface.sample * count, count});
     if (shares != LobeShares{}) {
-        const ScatterSample sample = sample_lobes(lit, shares, sequence, surface.sample);
-        RandomStream random = path_stream(shading, surface);
+        const int i = surface.sample;
+        const ScatterSample sample =
+            sample_scatter(lit, shares, sequence.at_1d(SampleUse::lobe_choice, i),
+                           sequence.at_2d(SampleUse::lobe_direction, i), sequence.at_1d(SampleUse::lobe_side, i));
+        RandomStream random = path_stream(settings.seed, shading.noise_key, surface);
         light[LightPart::gloss] =
             follow_sample(lighting, task, lit, sample, start_beyond(shading, scene, surface), random);
     }

@@ -1,8 +1,6 @@
 #pragma once
 // Shading one sample of a pixel: emission, direct light, gloss, and indirect light read from a filled cache.
 
-#include <vector>
-
 #include "render/cache/indirect_context.h"
 #include "render/path/direct_light.h"
 #include "render/pixels/pixel_samples.h"
@@ -55,11 +53,9 @@ PathState start_path(const RenderSettings& settings, const Media& around);
 Rgb share_left(const Media& around, const PixelSurface& surface);
 
 /// Sets what a sample's light tells of its surface.
-/// @param light  new
 void begin_light(const PixelSurface& surface, SampleLight& light);
 
 /// Finds the light that a pixel's surface sends to the camera, with the cache.
-/// @param pixel  its samples so far
 /// @param light  after begin_light
 void shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                   const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light);

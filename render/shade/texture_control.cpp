@@ -1,7 +1,6 @@
 #include "render/shade/texture_control.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "engine/base/pixel_loops.h"

@@ -16,9 +16,8 @@ namespace aleph {
 /// The texture of one pixel, on the plane of the triangle at its centre, whatever lies before that plane.
 class PixelTexture {
   public:
-    /// @param surface    at the pixel's centre
-    /// @param texture    base colour of its material
-    /// @param scale      from texel to the radiance that is expected; finite
+    /// @param surface  at the pixel's centre, with the texture of its base colour
+    /// @param scale    from texel to the radiance that is expected; finite
     PixelTexture(const ShadingScene& shading, const CameraView& view, const PixelSurface& surface,
                  const TextureUse& texture, const Rgb& scale);
 
@@ -47,9 +46,7 @@ class TextureControl {
   public:
     /// Keeps references, but for the estimate. At first it corrects pixels that show a texture, and around which there
     /// is one object.
-    /// @param centers   hits of the pixels' centres
-    /// @param estimate  quick estimate of the frame there
-    /// @param exposure  of the estimate
+    /// @param estimate  quick estimate of the frame at the pixels' centres, with this exposure
     TextureControl(const ShadingScene& shading, const CameraView& view, const SampleHits& centers,
                    const Image<Rgb>& estimate, double exposure);
 

@@ -14,7 +14,7 @@
 #include "engine/scene/scene_hash.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
-#include "render/plan/effects_json.h"
+#include "render/plan/effect_table.h"
 #include "render/settings/fingerprint.h"
 #include "render/settings/measure.h"
 #include "render/study/reference_picture.h"

@@ -24,7 +24,7 @@ struct FrameRun {
     std::vector<std::pair<std::string, double>> rays;    ///< by kind
     double samples = 0.0;                                ///< per pixel
     double records = 0.0;
-    std::string plan;   ///< of effects, JSON (effects_json.h)
+    std::string plan;   ///< of effects, JSON (effect_table.h)
     bool timed = true;  ///< false: another program made it, and what it took is not known
 };
 

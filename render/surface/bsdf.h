@@ -37,4 +37,14 @@ glm::vec3 sample_glossy(const SurfaceMaterial& material, const glm::vec3& view, 
 /// Density of sample_glossy per solid angle; 0 for a mirror.
 float pdf_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light);
 
+/// Share of uniform light that a GGX lobe reflects to the viewer: the parts that are proportional to the reflectance
+/// straight on and at grazing incidence.
+struct AlbedoParts {
+    float straight = 0.0f, grazing = 0.0f;
+};
+
+/// From a table; within .005.
+/// @param cos_view  with the shading normal
+AlbedoParts ggx_albedo(float alpha, float cos_view);
+
 }  // namespace aleph

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include "render/settings/numbers.h"
 #include "render/surface/texture_texels.h"
@@ -48,16 +47,6 @@ double mean_luminance(const Image<Rgb>& texels, int x, int y) {
         }
     }
     return sum;
-}
-
-/// The part of [0,1) that u falls into; u is stretched to [0,1) within it.
-int choose(std::span<const float> ends, float& u) {
-    const auto found = std::upper_bound(ends.begin(), ends.end(), u);
-    const int i = std::min(static_cast<int>(found - ends.begin()), static_cast<int>(ends.size()) - 1);
-    const float low = i == 0 ? 0.0f : ends[i - 1];
-    const float width = ends[i] - low;
-    u = width > 0.0f ? std::clamp((u - low) / width, 0.0f, below_one) : 0.5f;
-    return i;
 }
 
 void build_distribution(EnvironmentMap& map) {
@@ -108,6 +97,15 @@ float texel_density(const EnvironmentMap& map, int x, int y) {
 
 }  // namespace
 
+int choose_part(std::span<const float> ends, float& u) {
+    const auto found = std::upper_bound(ends.begin(), ends.end(), u);
+    const int i = std::min(static_cast<int>(found - ends.begin()), static_cast<int>(ends.size()) - 1);
+    const float low = i == 0 ? 0.0f : ends[i - 1];
+    const float width = ends[i] - low;
+    u = width > 0.0f ? std::clamp((u - low) / width, 0.0f, below_one) : 0.0f;
+    return i;
+}
+
 EnvironmentMap make_environment_map(const SceneImage& image) {
     EnvironmentMap map;
     const int width = image.bytes.empty() ? image.floats.width : image.bytes.width;
@@ -137,9 +135,9 @@ Rgb look_up(const EnvironmentMap& map, const glm::vec3& direction) {
 EnvironmentSample sample_environment(const EnvironmentMap& map, const glm::vec2& u) {
     if (map.black) return {};
     glm::vec2 within = u;
-    const int y = choose(map.rows, within.y);
+    const int y = choose_part(map.rows, within.y);
     const std::size_t width = static_cast<std::size_t>(map.texels.width);
-    const int x = choose(std::span(map.columns).subspan(static_cast<std::size_t>(y) * width, width), within.x);
+    const int x = choose_part(std::span(map.columns).subspan(static_cast<std::size_t>(y) * width, width), within.x);
     const double height = map.texels.height;
     const double top = std::cos(std::numbers::pi * y / height), bottom = std::cos(std::numbers::pi * (y + 1) / height);
     const double polar = std::acos(top + (bottom - top) * within.y);

@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "engine/base/color.h"
@@ -23,6 +24,9 @@ struct EnvironmentMap {
 
     bool empty() const { return texels.empty(); }
 };
+
+/// The index of the part of [0,1) that u falls into, given where each part ends; u is stretched to [0,1) within it.
+int choose_part(std::span<const float> ends, float& u);
 
 /// 8-bit pictures are decoded from sRGB.
 EnvironmentMap make_environment_map(const SceneImage& image);

@@ -26,7 +26,7 @@ glm::vec3 flip(const glm::vec3& v) {
     return {v.x, v.y, -v.z};
 }
 
-GlassValue evaluate_refracted(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
+LobeValue evaluate_refracted(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
     const float ratio = material.glass.ior_ratio;
     glm::vec3 h = view + light * ratio;
     const float length = glm::length(h);
@@ -39,14 +39,14 @@ GlassValue evaluate_refracted(const SurfaceMaterial& material, const glm::vec3& 
     const float denominator = vh + ratio * lh;
     const float jacobian = ratio * ratio * -lh / (denominator * denominator);
     const float common = ggx_d(widths, h) * vh / view.z * jacobian * passed * material.glass.share;
-    const GlassValue value{material.glass.tint * (common * smith_g2(widths, view, flip(light))),
-                           common / material.glass.share * smith_g1(widths, view)};
-    return std::isfinite(value.pdf) ? value : GlassValue{};
+    const LobeValue value{material.glass.tint * (common * smith_g2(widths, view, flip(light))),
+                          common / material.glass.share * smith_g1(widths, view)};
+    return std::isfinite(value.pdf) ? value : LobeValue{};
 }
 
 }  // namespace
 
-GlassValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
+LobeValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
     if (!(view.z > 0.0f) || light.z == 0.0f || material.is_glass_smooth()) return {};
     const bool passes = light.z < 0.0f;
     if (passes && material.glass.volume) return evaluate_refracted(material, view, light);

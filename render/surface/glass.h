@@ -8,14 +8,14 @@
 
 namespace aleph {
 
-/// f times the cosine of the light, and the density of sample_glass per steradian.
-struct GlassValue {
+/// f times the cosine of the light, and the density per steradian with which it is sampled.
+struct LobeValue {
     Rgb f_cos{0.0f};
     float pdf = 0.0f;
 };
 
 /// 0 for glass without roughness.
-GlassValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light);
+LobeValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light);
 
 struct GlassSample {
     glm::vec3 light{0.0f};  ///< z < 0: passed

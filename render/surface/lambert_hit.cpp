@@ -1,6 +1,5 @@
 #include "render/surface/lambert_hit.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "render/surface/texture_footprint.h"

@@ -19,7 +19,6 @@ struct RayTask {
 };
 
 /// Calls body(i, task) for every i below `count`, on all threads: pieces of `grain` share a task.
-/// @param counts  increased by the rays cast
 template <class Body>
 void cast_parallel(std::size_t count, std::size_t grain, const RayScene& rays, RayCounts& counts, const Body& body,
                    Blend blend = Blend::random) {

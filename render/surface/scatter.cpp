@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "render/surface/fresnel.h"
@@ -20,10 +21,6 @@ float coat_reflectance(const LitSurface& lit) {
     return lit.material.coat.strength * (coat_f0 + (1.0f - coat_f0) * schlick_power(lit.coat_view.z));
 }
 
-float largest(const Rgb& c) {
-    return std::max({c.x, c.y, c.z});
-}
-
 Basis make_shading_basis(const SurfacePoint& point, const SurfaceMaterial& material) {
     if (material.gloss.stretch > 0.0f) {
         const glm::vec3 flat = material.gloss.tangent - point.normal * glm::dot(point.normal, material.gloss.tangent);
@@ -35,12 +32,6 @@ Basis make_shading_basis(const SurfacePoint& point, const SurfaceMaterial& mater
     }
     return make_basis(point.normal);
 }
-
-/// f cos of one lobe, and its density.
-struct LobeValue {
-    Rgb f_cos{0.0f};
-    float pdf = 0.0f;
-};
 
 LobeValue evaluate_coat(const LitSurface& lit, const glm::vec3& direction) {
     const SurfaceMaterial& material = lit.material;
@@ -57,7 +48,7 @@ LobeValue evaluate_coat(const LitSurface& lit, const glm::vec3& direction) {
 LobeValue evaluate_lobe(const LitSurface& lit, Lobe lobe, const glm::vec3& direction, const glm::vec3& light) {
     const SurfaceMaterial& material = lit.material;
     if (lobe == Lobe::glass) {
-        const GlassValue glass = evaluate_glass(material, lit.view, light);
+        const LobeValue glass = evaluate_glass(material, lit.view, light);
         return {glass.f_cos * lit.below_sheen, glass.pdf};
     }
     if (!(light.z > 0.0f)) return {};
@@ -80,23 +71,11 @@ LobeValue evaluate_lobe(const LitSurface& lit, Lobe lobe, const glm::vec3& direc
     return {};
 }
 
-bool has_lobe(const SurfaceMaterial& material, Lobe lobe) {
-    switch (lobe) {
-        case Lobe::diffuse:
-            return material.has_diffuse();
-        case Lobe::gloss:
-            return material.has_glossy();
-        case Lobe::coat:
-            return material.has_coat();
-        case Lobe::sheen:
-            return material.has_sheen();
-        case Lobe::glass:
-            return material.has_glass();
-    }
-    return false;
+/// Which lobes a material has, in the order of Lobe.
+std::array<bool, lobe_count> list_lobes(const SurfaceMaterial& material) {
+    return {material.has_diffuse(), material.has_glossy(), material.has_coat(), material.has_sheen(),
+            material.has_glass()};
 }
-
-constexpr std::array lobes{Lobe::diffuse, Lobe::gloss, Lobe::coat, Lobe::sheen, Lobe::glass};
 
 /// Direction that the coat reflects to, in the frame of the surface; none below the coat.
 std::optional<glm::vec3> sample_coat(const LitSurface& lit, const glm::vec2& u) {
@@ -138,7 +117,7 @@ LitSurface::LitSurface(const ViewedSurface& surface)
     if (material.has_sheen()) {
         const float albedo = sheen_albedo(material.sheen.alpha, cos_view);
         sheen_scale = 1.0f / std::max(albedo, 1.0f);
-        below_sheen *= 1.0f - largest(material.sheen.color) * albedo * sheen_scale;
+        below_sheen *= 1.0f - largest_channel(material.sheen.color) * albedo * sheen_scale;
     }
 }
 
@@ -159,8 +138,7 @@ LobeShares share_lobes(const LitSurface& lit, LobeSet set) {
     if (material.has_coat()) set_share(Lobe::coat, 1.0f - lit.below_coat);
     if (material.has_sheen()) set_share(Lobe::sheen, std::max(lit.below_coat - lit.below_sheen, 1e-4f));
     if (material.has_glass()) set_share(Lobe::glass, material.glass.share * lit.below_sheen);
-    float total = 0.0f;
-    for (const float share : shares) total += share;
+    const float total = std::accumulate(shares.begin(), shares.end(), 0.0f);
     if (!(total > 0.0f) || !std::isfinite(total)) return {};
     // A lobe that is next to never sampled would be all noise where it matters.
     constexpr float least = 0.02f;
@@ -176,10 +154,11 @@ LobeShares share_lobes(const LitSurface& lit, LobeSet set) {
 Rgb scatter_towards(const LitSurface& lit, const glm::vec3& direction, float pdf_light, const LobeShares& shares) {
     const glm::vec3 light = lit.basis.to_local(direction);
     Rgb sum(0.0f);
-    for (const Lobe lobe : lobes) {
-        if (!has_lobe(lit.material, lobe)) continue;
-        const LobeValue value = evaluate_lobe(lit, lobe, direction, light);
-        const float pdf = value.pdf * shares[static_cast<int>(lobe)];
+    const std::array<bool, lobe_count> lobes = list_lobes(lit.material);
+    for (int i = 0; i < lobe_count; ++i) {
+        if (!lobes[i]) continue;
+        const LobeValue value = evaluate_lobe(lit, static_cast<Lobe>(i), direction, light);
+        const float pdf = value.pdf * shares[i];
         sum += value.f_cos * (pdf_light > 0.0f && pdf > 0.0f ? power_heuristic(pdf_light, pdf) : 1.0f);
     }
     return sum;
@@ -194,7 +173,7 @@ ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, fl
     ScatterSample sample;
     if (!(share > 0.0f)) return sample;
     const SurfaceMaterial& material = lit.material;
-    sample.lobe = lobes[chosen];
+    sample.lobe = static_cast<Lobe>(chosen);
     const bool needs_view = sample.lobe != Lobe::diffuse && sample.lobe != Lobe::coat;
     if (needs_view && !(lit.view.z > 0.0f)) return sample;
     bool mirror = false;

@@ -17,6 +17,10 @@ namespace aleph {
 struct EnvironmentMap;
 struct TextureSet;
 
+inline glm::mat3 abs_of(const glm::mat3& m) {
+    return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
+}
+
 struct PosedInstance {
     const Mesh* mesh = nullptr;
     int material = no_index;      ///< into ShadingScene::materials; the default material is its last entry
@@ -145,5 +149,12 @@ SurfacePlace make_surface_place(const ShadingScene& shading, const Hit& hit, con
 /// The same from one side of the surface.
 /// @param front  the front side of its winding
 SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, bool front);
+
+/// The same point in another pose of the scene: light that was computed there belongs to it. Its place on the triangle
+/// and its side are the same. Its shading normal turns with the triangle, so that normal maps and bent normals keep
+/// their effect.
+/// @param from  make_surface_point of the hit in the pose where it was found, perhaps with another shading normal
+/// @return nothing if the surface is hidden in the pose `to`
+std::optional<SurfacePoint> carry_point(const ShadingScene& to, const Hit& hit, const SurfacePoint& from);
 
 }  // namespace aleph

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render/surface/glossy_albedo.h"
+#include "render/surface/bsdf.h"
 #include "render/surface/sheen.h"
 
 namespace aleph {
@@ -14,20 +14,24 @@ namespace {
 struct Lookup {
     const ShadingScene& shading;
     const SurfacePoint& point;
+    const MaterialTextures& textures;
     UvFootprint footprints[2]{};
 
-    Lookup(const ShadingScene& s, const SurfacePoint& p) : shading(s), point(p) {}
     Lookup(const ShadingScene& s, const SurfacePoint& p, const RayFootprint& footprint)
-        : shading(s), point(p), footprints{make_uv_footprint(p, footprint, 0), make_uv_footprint(p, footprint, 1)} {}
+        : shading(s), point(p), textures(s.textures->materials[p.material]) {
+        if (!textures.any) return;
+        for (int set = 0; set < 2; ++set) footprints[set] = make_uv_footprint(p, footprint, set);
+    }
 
-    glm::vec4 operator()(const TextureUse& use) const {
+    bool has(TextureSlot slot) const { return textures.any && textures[slot].texture != no_index; }
+
+    /// 1 without a texture.
+    glm::vec4 operator()(TextureSlot slot) const {
+        const TextureUse& use = textures[slot];
+        if (!has(slot)) return glm::vec4(1.0f);
         return sample_texture(*shading.textures, use, point.uv[use.uv_set], footprints[use.uv_set]);
     }
 };
-
-bool is_used(const TextureUse& use) {
-    return use.texture != no_index;
-}
 
 /// Along +u and against v, on the surface's front side; 0 where the texture coordinates have no area.
 struct TangentFrame {
@@ -58,12 +62,14 @@ TangentFrame find_tangents(const SurfacePoint& point, const TextureUse& use, con
 }
 
 /// The normal that a normal map gives, on the viewer's side.
-glm::vec3 map_normal(const Lookup& look_up, const TextureUse& use, float scale, const glm::vec3& view) {
+glm::vec3 map_normal(const Lookup& look_up, TextureSlot slot, double map_scale, const glm::vec3& view) {
     const SurfacePoint& point = look_up.point;
+    if (!look_up.has(slot)) return point.normal;
     const glm::vec3 outward = point.front ? point.normal : -point.normal;
-    const TangentFrame frame = find_tangents(point, use, outward);
+    const TangentFrame frame = find_tangents(point, look_up.textures[slot], outward);
     if (frame.tangent == glm::vec3(0.0f)) return point.normal;
-    const glm::vec4 texel = look_up(use);
+    const glm::vec4 texel = look_up(slot);
+    const auto scale = static_cast<float>(map_scale);
     const glm::vec3 local((2.0f * texel.x - 1.0f) * scale, (2.0f * texel.y - 1.0f) * scale, 2.0f * texel.z - 1.0f);
     const glm::vec3 mapped = frame.tangent * local.x + frame.bitangent * local.y + outward * local.z;
     const float length = glm::length(mapped);
@@ -71,39 +77,30 @@ glm::vec3 map_normal(const Lookup& look_up, const TextureUse& use, float scale, 
     return keep_visible((point.front ? mapped : -mapped) / length, point.normal, point.geometric, view);
 }
 
-void add_layers(const MaterialValues& values, const MaterialTextures& textures, const Lookup& look_up,
-                SurfaceMaterial& surface) {
-    if (values.layers.clearcoat > 0.0f) {
-        float roughness = values.layers.clearcoat_roughness;
-        surface.coat.strength = values.layers.clearcoat;
-        if (is_used(textures[TextureSlot::clearcoat]))
-            surface.coat.strength *= look_up(textures[TextureSlot::clearcoat]).x;
-        if (is_used(textures[TextureSlot::clearcoat_roughness]))
-            roughness *= look_up(textures[TextureSlot::clearcoat_roughness]).y;
-        surface.coat.strength = std::clamp(surface.coat.strength, 0.0f, 1.0f);
-        roughness = std::clamp(roughness, 0.0f, 1.0f);
+void add_layers(const LayersOf<float, Rgb>& layers, const Lookup& look_up, SurfaceMaterial& surface) {
+    if (layers.clearcoat > 0.0f) {
+        const float strength = layers.clearcoat * look_up(TextureSlot::clearcoat).x;
+        const float roughness =
+            std::clamp(layers.clearcoat_roughness * look_up(TextureSlot::clearcoat_roughness).y, 0.0f, 1.0f);
+        surface.coat.strength = std::clamp(strength, 0.0f, 1.0f);
         surface.coat.alpha = roughness * roughness;
     }
-    if (values.layers.sheen_color != Rgb(0.0f)) {
-        float roughness = values.layers.sheen_roughness;
-        surface.sheen.color = values.layers.sheen_color;
-        if (is_used(textures[TextureSlot::sheen_color]))
-            surface.sheen.color *= Rgb(look_up(textures[TextureSlot::sheen_color]));
-        if (is_used(textures[TextureSlot::sheen_roughness]))
-            roughness *= look_up(textures[TextureSlot::sheen_roughness]).w;
-        surface.sheen.color = glm::clamp(surface.sheen.color, 0.0f, 1.0f);
+    if (layers.sheen_color != Rgb(0.0f)) {
+        const Rgb color = layers.sheen_color * Rgb(look_up(TextureSlot::sheen_color));
+        const float roughness = layers.sheen_roughness * look_up(TextureSlot::sheen_roughness).w;
+        surface.sheen.color = glm::clamp(color, 0.0f, 1.0f);
         surface.sheen.alpha = std::clamp(roughness * roughness, min_sheen_alpha, 1.0f);
     }
-    if (values.layers.anisotropy > 0.0f) {
-        float strength = values.layers.anisotropy, angle = values.layers.anisotropy_rotation;
-        if (is_used(textures[TextureSlot::anisotropy])) {
-            const glm::vec4 texel = look_up(textures[TextureSlot::anisotropy]);
+    if (layers.anisotropy > 0.0f) {
+        float strength = layers.anisotropy, angle = layers.anisotropy_rotation;
+        if (look_up.has(TextureSlot::anisotropy)) {
+            const glm::vec4 texel = look_up(TextureSlot::anisotropy);
             angle += std::atan2(2.0f * texel.y - 1.0f, 2.0f * texel.x - 1.0f);
             strength *= texel.z;
         }
         const SurfacePoint& point = look_up.point;
         const TangentFrame frame =
-            find_tangents(point, textures[TextureSlot::anisotropy], point.front ? point.normal : -point.normal);
+            find_tangents(point, look_up.textures[TextureSlot::anisotropy], point.front ? point.normal : -point.normal);
         if (frame.tangent != glm::vec3(0.0f)) {
             surface.gloss.stretch = std::min(strength * strength, 1.0f);
             surface.gloss.tangent = frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle);
@@ -154,6 +151,12 @@ void remove_specular(SurfaceMaterial& material) {
     material.sheen.color = Rgb(0.0f);
 }
 
+/// The widths of an anisotropic lobe count as their mean.
+AlbedoParts glossy_albedo(const SurfaceMaterial& material, float cosine) {
+    const glm::vec2 widths = material.widths();
+    return ggx_albedo(0.5f * (widths.x + widths.y), cosine);
+}
+
 /// Returns whether a wide lobe would let light out from inside that is totally reflected, or keep in much that is not.
 /// @param width   GGX alpha
 /// @param cosine  of the view
@@ -173,9 +176,9 @@ void blur_caustics(const ShadingScene& shading, ViewedSurface& surface) {
     const float cosine = std::abs(glm::dot(surface.point.normal, surface.view));
     if (material.passes_straight() || material.gloss.alpha >= width || leaks(material, width, cosine)) return;
     // Wider microfacets hide more of each other, and fewer of them are seen at grazing angles.
-    const AlbedoParts narrow = ggx_albedo(mean_alpha(material), cosine);
+    const AlbedoParts narrow = glossy_albedo(material, cosine);
     material.gloss.alpha = width;
-    const AlbedoParts wide = ggx_albedo(mean_alpha(material), cosine);
+    const AlbedoParts wide = glossy_albedo(material, cosine);
     material.gloss.f0 *= narrow.straight / wide.straight;
     material.gloss.f90 *= narrow.grazing / wide.grazing;
 }
@@ -208,65 +211,48 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
                                   const RayFootprint& footprint) {
     const ShadingMaterial& entry = shading.materials[point.material];
     const MaterialValues& values = entry.values;
-    Rgb base = values.base_color * Rgb(point.color);
-    float metallic = values.gloss.metallic, roughness = values.gloss.roughness, specular = values.gloss.specular;
-    float transmission = values.glass.transmission, thickness = values.glass.thickness;
-    Rgb emission = values.emission, specular_color = values.gloss.specular_color;
-    const MaterialTextures& textures = shading.textures->materials[point.material];
-    const auto finish = [&](const Lookup& look_up) {
-        SurfaceMaterial surface;
-        if (entry.material != nullptr && entry.material->unlit) {
-            surface.emission = base;
-            return surface;
-        }
-        // A texture or vertex colour may have more, or less than nothing; no surface reflects more.
-        base = glm::clamp(base, 0.0f, 1.0f);
-        for (float* share : {&metallic, &roughness, &specular, &transmission}) *share = std::clamp(*share, 0.0f, 1.0f);
-        const float ior_reflectance = (values.gloss.ior - 1.0f) / (values.gloss.ior + 1.0f);
-        const Rgb dielectric_f0 = glm::min(ior_reflectance * ior_reflectance * specular_color, Rgb(1.0f)) * specular;
-        const float dielectric = 1.0f - metallic, opaque = dielectric * (1.0f - transmission);
-        surface.diffuse = base * opaque;
-        surface.gloss.f0 = dielectric_f0 * opaque + base * metallic;
-        surface.gloss.f90 = specular * opaque + metallic;
-        surface.gloss.f0_max = std::max({dielectric_f0.x, dielectric_f0.y, dielectric_f0.z});
-        surface.gloss.f90_max = specular * dielectric + metallic;
-        surface.gloss.alpha = roughness * roughness;
-        if (transmission > 0.0f) {
-            surface.glass.share = dielectric * transmission;
-            surface.glass.tint = base;
-            surface.glass.specular = specular;
-            add_refraction(values, thickness, point.front, surface);
-        }
-        if (entry.layered) add_layers(values, textures, look_up, surface);
-        if (entry.emits && (point.front || entry.double_sided)) surface.emission = emission;
-        if (!shading.skipped.empty()) remove_lobes(shading.skipped, surface);
-        return surface;
-    };
-    if (!textures.any) return finish(Lookup(shading, point));
     const Lookup look_up(shading, point, footprint);
-    if (is_used(textures[TextureSlot::base_color])) base *= Rgb(look_up(textures[TextureSlot::base_color]));
-    if (is_used(textures[TextureSlot::metallic_roughness])) {
-        const glm::vec4 t = look_up(textures[TextureSlot::metallic_roughness]);
-        roughness *= t.y;
-        metallic *= t.z;
+    SurfaceMaterial surface;
+    Rgb base = values.base_color * Rgb(point.color) * Rgb(look_up(TextureSlot::base_color));
+    if (entry.material != nullptr && entry.material->unlit) {
+        surface.emission = base;
+        return surface;
     }
-    if (entry.emits && is_used(textures[TextureSlot::emission]))
-        emission *= Rgb(look_up(textures[TextureSlot::emission]));
-    if (is_used(textures[TextureSlot::specular])) specular *= look_up(textures[TextureSlot::specular]).w;
-    if (is_used(textures[TextureSlot::specular_color]))
-        specular_color *= Rgb(look_up(textures[TextureSlot::specular_color]));
-    if (is_used(textures[TextureSlot::transmission])) transmission *= look_up(textures[TextureSlot::transmission]).x;
-    if (is_used(textures[TextureSlot::thickness])) thickness *= look_up(textures[TextureSlot::thickness]).y;
-    return finish(look_up);
+    const glm::vec4 gloss = look_up(TextureSlot::metallic_roughness);
+    float metallic = values.gloss.metallic * gloss.z, roughness = values.gloss.roughness * gloss.y;
+    float specular = values.gloss.specular * look_up(TextureSlot::specular).w;
+    float transmission = values.glass.transmission * look_up(TextureSlot::transmission).x;
+    // A texture or vertex colour may have more, or less than nothing; no surface reflects more.
+    base = glm::clamp(base, 0.0f, 1.0f);
+    for (float* share : {&metallic, &roughness, &specular, &transmission}) *share = std::clamp(*share, 0.0f, 1.0f);
+    const float ior_reflectance = (values.gloss.ior - 1.0f) / (values.gloss.ior + 1.0f);
+    const Rgb specular_color = values.gloss.specular_color * Rgb(look_up(TextureSlot::specular_color));
+    const Rgb dielectric_f0 = glm::min(ior_reflectance * ior_reflectance * specular_color, Rgb(1.0f)) * specular;
+    const float dielectric = 1.0f - metallic, opaque = dielectric * (1.0f - transmission);
+    surface.diffuse = base * opaque;
+    surface.gloss.f0 = dielectric_f0 * opaque + base * metallic;
+    surface.gloss.f90 = specular * opaque + metallic;
+    surface.gloss.f0_max = largest_channel(dielectric_f0);
+    surface.gloss.f90_max = specular * dielectric + metallic;
+    surface.gloss.alpha = roughness * roughness;
+    if (transmission > 0.0f) {
+        surface.glass.share = dielectric * transmission;
+        surface.glass.tint = base;
+        surface.glass.specular = specular;
+        add_refraction(values, values.glass.thickness * look_up(TextureSlot::thickness).y, point.front, surface);
+    }
+    if (entry.layered) add_layers(values.layers, look_up, surface);
+    if (entry.emits && (point.front || entry.double_sided))
+        surface.emission = values.emission * Rgb(look_up(TextureSlot::emission));
+    if (!shading.skipped.empty()) remove_lobes(shading.skipped, surface);
+    return surface;
 }
 
 float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint) {
     const ShadingMaterial& entry = shading.materials[point.material];
     if (entry.material == nullptr || entry.material->opacity.mode == Opacity::Mode::opaque) return 1.0f;
-    const MaterialTextures& textures = shading.textures->materials[point.material];
-    float alpha = entry.values.alpha * point.color.w;
-    if (textures.any && is_used(textures[TextureSlot::base_color]))
-        alpha *= Lookup(shading, point, footprint)(textures[TextureSlot::base_color]).w;
+    const float texel = Lookup(shading, point, footprint)(TextureSlot::base_color).w;
+    const float alpha = entry.values.alpha * point.color.w * texel;
     if (entry.material->opacity.mode == Opacity::Mode::blend) return std::clamp(alpha, 0.0f, 1.0f);
     return alpha < static_cast<float>(entry.material->opacity.cutoff) ? 0.0f : 1.0f;
 }
@@ -274,27 +260,21 @@ float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, c
 ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& point, const glm::vec3& view,
                            const RayFootprint& footprint) {
     ViewedSurface surface{point, evaluate_material(shading, point, footprint), view};
-    const MaterialTextures& textures = shading.textures->materials[point.material];
     const Material* const material = shading.materials[point.material].material;
     if (surface.material.has_specular() && point.normal != point.geometric) {
         surface.point.normal = keep_visible(point.normal, point.geometric, point.geometric, view);
     }
-    if (!textures.maps_normals || material == nullptr) return surface;
+    if (!shading.textures->materials[point.material].maps_normals) return surface;
     const SurfacePoint unmapped = surface.point;
     // Averaged normals, made unit again, reflect more light than the normals do. Where several rays share a pixel, each
     // takes the normal at its own point.
     const Lookup look_up(shading, unmapped, footprint.whole_pixel ? footprint : RayFootprint{});
+    const auto& scales = material->textures;
     if (surface.material.has_coat()) {
         surface.material.coat.normal =
-            is_used(textures[TextureSlot::clearcoat_normal])
-                ? map_normal(look_up, textures[TextureSlot::clearcoat_normal],
-                             static_cast<float>(material->textures.clearcoat_normal_scale), view)
-                : unmapped.normal;
+            map_normal(look_up, TextureSlot::clearcoat_normal, scales.clearcoat_normal_scale, view);
     }
-    if (is_used(textures[TextureSlot::normal])) {
-        surface.point.normal = map_normal(look_up, textures[TextureSlot::normal],
-                                          static_cast<float>(material->textures.normal_scale), view);
-    }
+    surface.point.normal = map_normal(look_up, TextureSlot::normal, scales.normal_scale, view);
     return surface;
 }
 

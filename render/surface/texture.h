@@ -2,7 +2,6 @@
 // Texture look-up filtered by footprint. Magnified textures are bilinear. Minified ones are averaged over probes into a
 // pyramid of coarser levels, placed along the longer axis of the footprint.
 
-#include <array>
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>

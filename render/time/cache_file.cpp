@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <system_error>
+#include <utility>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
@@ -45,6 +47,11 @@ std::string find_difference(const Json& found, const Fingerprint& wanted) {
     throw InputError(file, "", "the cache file is damaged or not complete");
 }
 
+bool means_folder(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return !path.has_filename() || std::filesystem::is_directory(path, ignored);
+}
+
 }  // namespace
 
 Fingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings,
@@ -64,9 +71,7 @@ void write_cache_file(const std::filesystem::path& path, const Fingerprint& fing
         out.add(records.seen);
         out.add(records.further);
     }
-    std::string text = std::string(magic) + out.take();
-    text += hash_bytes(text);
-    write_file(path, text);
+    write_file(path, seal(magic, out.take()));
 }
 
 ShotRecords read_cache_file(const std::filesystem::path& path, const Fingerprint& fingerprint) {
@@ -75,12 +80,9 @@ ShotRecords read_cache_file(const std::filesystem::path& path, const Fingerprint
     const Bytes bytes = read_regular_file(path, file, "");
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (!all.starts_with(magic)) throw InputError(file, "", "this is not a cache file of aleph");
-    constexpr std::size_t digest_size = 40;
-    if (all.size() < magic.size() + digest_size ||
-        hash_bytes(all.substr(0, all.size() - digest_size)) != all.substr(all.size() - digest_size)) {
-        refuse_damaged(file);
-    }
-    ByteReader in(all.substr(magic.size(), all.size() - magic.size() - digest_size));
+    const std::optional<std::string_view> content = unseal(magic, all);
+    if (!content) refuse_damaged(file);
+    ByteReader in(*content);
     const Json found = Json::parse(in.read_text(), nullptr, false);
     if (!is_fingerprint(found)) refuse_damaged(file);
     const std::string difference = find_difference(found, fingerprint);
@@ -96,6 +98,43 @@ ShotRecords read_cache_file(const std::filesystem::path& path, const Fingerprint
     }
     if (!in.is_good() || !in.at_end()) refuse_damaged(file);
     return keyframes;
+}
+
+LightStore::LightStore(std::filesystem::path path, Fingerprint fingerprint)
+    : path_(std::move(path)), fingerprint_(std::move(fingerprint)), is_folder_(means_folder(path_)) {
+    if (!is_folder_) {
+        records_ = read_cache_file(path_, fingerprint_);
+        return;
+    }
+    std::error_code error;
+    std::filesystem::create_directories(path_, error);
+    if (error) throw OutputError(printable(path_.string(), 4096), "cannot create the folder: " + error.message());
+}
+
+std::filesystem::path LightStore::file_of(std::int64_t keyframe) const {
+    return path_ / fmt::format("{}.{}.light", hash_bytes(format_fingerprint(fingerprint_)).substr(0, 16), keyframe);
+}
+
+std::optional<KeyframeRecords> LightStore::find(std::int64_t keyframe) const {
+    const ShotRecords read = is_folder_ ? read_cache_file(file_of(keyframe), fingerprint_) : ShotRecords();
+    const ShotRecords& known = is_folder_ ? read : records_;
+    const auto found = known.find(keyframe);
+    return found == known.end() ? std::nullopt : std::optional(found->second);
+}
+
+void LightStore::keep(std::int64_t keyframe, const KeyframeRecords& records) {
+    if (is_folder_) {
+        write_cache_file(file_of(keyframe), fingerprint_, {{keyframe, records}});
+        return;
+    }
+    records_[keyframe] = records;
+    changed_ = true;
+}
+
+void LightStore::save() {
+    if (is_folder_ || (!changed_ && std::filesystem::exists(path_))) return;
+    write_cache_file(path_, fingerprint_, records_);
+    changed_ = false;
 }
 
 }  // namespace aleph

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "render/surface/carried_point.h"
-
 namespace aleph {
 
 namespace {

@@ -5,7 +5,7 @@
 #include <deque>
 #include <memory>
 
-#include "render/estimate/indirect_estimate.h"
+#include "render/estimate/estimate.h"
 #include "render/time/keyframe_light.h"
 
 namespace aleph {

@@ -1,9 +1,5 @@
 #pragma once
-// Checks the light of lighting keyframes at a frame between them. Both keyframes may agree and be wrong: a ball that
-// touches the floor half way darkens it and itself, and neither keyframe shows that.
-//
-// The frame computes irradiance of its own at probes: surfaces of the picture, the closer to each other the more may
-// have happened there. Where a probe differs from what the keyframes say, the frame does not read them.
+// Checks the light of lighting keyframes at a frame between them: both may agree and be wrong (README.md).
 
 #include <cstdint>
 #include <span>
@@ -19,8 +15,6 @@ struct KeyframeRisk {
     std::vector<BoundingSphere> movers;
 };
 
-/// @param shading  of the frame
-/// @param keyframes  the scene at the lighting keyframes around it
 KeyframeRisk find_keyframe_risk(const ShadingScene& shading, const PosePlan& plan,
                                 std::span<const ShadingScene* const> keyframes);
 
@@ -29,7 +23,6 @@ class CheckedLight final : public CarriedLight {
   public:
     /// Keeps references. Until `check`, probed parts are not used: their light may turn out not to be known.
     /// @param context  of the frame; `carried` is the light of lighting keyframes
-    /// @param sample   of its pixels
     CheckedLight(const IndirectContext& context, const KeyframeRisk& risk, const SampleHits& sample);
 
     /// Computes irradiance at the probes, as records of the frame's cache, and compares it.

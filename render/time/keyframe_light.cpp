@@ -5,8 +5,6 @@
 #include "render/cache/aimed_rays.h"
 #include "render/cache/bounce_places.h"
 #include "render/cache/further_bounces.h"
-#include "render/cache/mirror_places.h"
-#include "render/surface/carried_point.h"
 
 namespace aleph {
 

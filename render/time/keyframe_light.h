@@ -1,9 +1,6 @@
 #pragma once
 // Indirect light of lighting keyframes (lighting_keyframes.h): computed at each of them, and read by the frames in
-// between.
-//
-// Records belong to surfaces. A frame looks up the light of a surface point where that point lies at the keyframe, so
-// records ride with rigid and with deforming objects. Between two keyframes the light is interpolated linearly in time.
+// between, where a surface point lies at the keyframe.
 
 #include <functional>
 #include <memory>
@@ -62,7 +59,6 @@ struct KeyframeInput {
 };
 
 /// The records of a base keyframe, if there is one, and those computed at surfaces that they do not cover.
-/// @param counts  increased
 KeyframeRecords compute_records(const KeyframeInput& input, FrameCounts& counts);
 
 /// Light of the keyframes before and after a frame.

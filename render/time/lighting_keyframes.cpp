@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/pose/parts.h"
+#include "render/time/shutter.h"
+
 namespace aleph {
 
 namespace {
@@ -22,6 +25,8 @@ bool is_start(const LightingKeyframes& keyframes, std::int64_t frame) {
 bool is_end(const LightingKeyframes& keyframes, std::int64_t frame) {
     return frame == keyframes.range.last || std::ranges::find(keyframes.cuts, frame + 1) != keyframes.cuts.end();
 }
+
+constexpr float max_change = 0.25f;  // from one frame to the next, of the largest value in the span
 
 }  // namespace
 
@@ -69,6 +74,86 @@ std::int64_t find_base_keyframe(const LightingKeyframes& keyframes, std::int64_t
     const double part = static_cast<double>(end - first) / static_cast<double>(parts);
     const double middle = part * (std::floor(static_cast<double>(frame - first) / part) + 0.5);
     return find_keyframes(keyframes, first + static_cast<std::int64_t>(middle)).before;
+}
+
+/// Sources of light in a frame, and the objects that are there to receive it.
+struct LightBreaks::Sources {
+    std::vector<int> there;     ///< instances that can come or go: shown or not; nodes of the visible lamps
+    std::vector<float> values;  ///< radiance and intensity, channel by channel
+
+    void add(const Rgb& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
+};
+
+LightBreaks::Sources LightBreaks::look(double seconds) {
+    if (!posed_) posed_ = pose(scene_, seconds);
+    ScenePose& posed = *posed_;
+    posed.seconds = seconds;
+    for (const int node : plan_.nodes) place_node(scene_, node, seconds, posed);
+    Sources sources;
+    for (const int i : plan_.instances) sources.there.push_back(is_shown(scene_, posed, static_cast<std::size_t>(i)));
+    for (const int m : plan_.materials) sources.add(pose_material(scene_.materials[m], seconds).emission);
+    if (plan_.lights) {
+        for (const int node : plan_.light_nodes) {
+            if (posed.visible[node] == 0) continue;
+            sources.there.push_back(node);
+            sources.add(pose_light(scene_, node, posed.world[node], seconds).intensity);
+        }
+    }
+    if (plan_.environment) {
+        pose_environment(scene_.environment, seconds, posed);
+        sources.add(posed.environment);
+    }
+    return sources;
+}
+
+namespace {
+
+/// With other lamps the lists differ in length: that is a jump by itself.
+bool differ_by(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& largest) {
+    if (a.size() != b.size()) return true;
+    for (std::size_t k = 0; k < std::min(largest.size(), a.size()); ++k) {
+        if (std::abs(a[k] - b[k]) > max_change * largest[k]) return true;
+    }
+    return false;
+}
+
+void raise_to(std::vector<float>& largest, const std::vector<float>& values) {
+    for (std::size_t k = 0; k < std::min(largest.size(), values.size()); ++k) {
+        largest[k] = std::max(largest[k], values[k]);
+    }
+}
+
+}  // namespace
+
+const std::vector<std::int64_t>& LightBreaks::find(std::int64_t first, std::int64_t last) {
+    const auto [entry, is_new] = found_.try_emplace({first, last});
+    if (!is_new) return entry->second;
+    std::vector<Sources> frames;
+    for (std::int64_t frame = first; frame <= last; ++frame)
+        frames.push_back(look(find_shutter_center(scene_, shutter_, frame)));
+    std::vector<float> largest(frames.front().values.size(), 0.0f);
+    for (const Sources& sources : frames) raise_to(largest, sources.values);
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+        const Sources &before = frames[i - 1], &now = frames[i];
+        if (before.there != now.there || differ_by(before.values, now.values, largest)) {
+            entry->second.push_back(first + static_cast<std::int64_t>(i));
+        }
+    }
+    return entry->second;
+}
+
+bool LightBreaks::changes(double open, double close) {
+    constexpr int looks = 9;
+    const Sources first = look(open / scene_.film.frame_rate.per_second());
+    std::vector<float> largest = first.values, smallest = first.values;
+    for (int i = 1; i < looks; ++i) {
+        const double at = open + (close - open) * i / (looks - 1);
+        const Sources now = look(at / scene_.film.frame_rate.per_second());
+        if (now.there != first.there || now.values.size() != first.values.size()) return true;
+        raise_to(largest, now.values);
+        for (std::size_t k = 0; k < smallest.size(); ++k) smallest[k] = std::min(smallest[k], now.values[k]);
+    }
+    return differ_by(smallest, largest, largest);
 }
 
 }  // namespace aleph

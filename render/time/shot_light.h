@@ -4,8 +4,8 @@
 #include <functional>
 #include <map>
 
+#include "render/time/cache_file.h"
 #include "render/time/keyframe_light.h"
-#include "render/time/light_store.h"
 
 namespace aleph {
 

@@ -1,11 +1,9 @@
 #include "render/time/shutter_light.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "render/settings/numbers.h"
-#include "render/surface/carried_point.h"
 
 namespace aleph {
 

@@ -32,19 +32,15 @@ std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingSc
 /// An upper bound of the share of a point's light that things hide at one of the two times and not at the other.
 /// @param position  m, where the point is at the frame's time
 /// @param moved     m, from there to where it is at the sample's time, in the frame's coordinates
-/// @param instance  that the point is on: it moves along
-/// @param enough    the sum stops above this
+/// @param instance  that the point is on: it moves along. The sum stops above `enough`
 float find_hidden_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved,
                          int instance, float enough);
 
 /// Known indirect light of a frame, for surfaces seen at the time of one of its samples.
 class ShutterLight {
   public:
-    /// Keeps references to the poses and what is known.
-    /// @param frame    the scene at the shutter's centre
-    /// @param sample   at the sample's time
-    /// @param carried  light of lighting keyframes at the frame's time; may be null
-    /// @param cache    the frame's own; may be null
+    /// Keeps references. The poses are those of the shutter's centre and of the sample's time; both kinds of light are
+    /// those of the frame's time, and may be null.
     ShutterLight(const ShadingScene& frame, const ShadingScene& sample, const CarriedLight* carried,
                  const IrradianceCache* cache)
         : frame_(frame),
@@ -55,7 +51,6 @@ class ShutterLight {
 
     /// Irradiance at a surface of the sample's time, where it is known to this accuracy. Any thread may call it.
     /// @param task  casts rays at the shutter's centre
-    /// @param used  increased by the records that are used; may be null
     std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
                             RecordUse* used = nullptr) const;
 

@@ -11,7 +11,7 @@
 #include "render/cli/explain/explain.h"
 #include "render/frame/sequence.h"
 #include "render/frame/shot.h"
-#include "render/plan/effects_json.h"
+#include "render/plan/effect_table.h"
 
 namespace aleph {
 

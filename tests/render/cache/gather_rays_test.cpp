@@ -1,6 +1,6 @@
 // Strata of the hemisphere, and the ray of each, against formulas in double.
 
-#include "render/cache/gather_rays.h"
+#include "render/cache/gather.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 

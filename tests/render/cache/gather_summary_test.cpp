@@ -1,6 +1,6 @@
 // The summary of a hemisphere against its formulas, written anew in double.
 
-#include "render/cache/gather_summary.h"
+#include "render/cache/gather.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -1,6 +1,6 @@
 // Places that mirrors show: a mirror faces a wall behind the camera.
 
-#include "render/cache/mirror_places.h"
+#include "render/cache/bounce_places.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 

@@ -1,13 +1,12 @@
 // Records beside rays of samples: which cost less, and pictures that mix the two.
 
-#include "render/cache/record_worth.h"
+#include "render/cache/gather_at.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "engine/load/load_scene.h"
 #include "perception/vision/castle.h"
-#include "render/cache/gather_at.h"
 #include "render/frame/sequence.h"
 #include "render/guide/stopping_rule.h"
 #include "tests/support/indirect_pictures.h"

@@ -1,6 +1,6 @@
 // Maps of a frame whose shutter or lens is open: motion at the shutter's centre, an estimate blurred as the picture is.
 
-#include "render/frame/blurred_estimate.h"
+#include "render/frame/frame_estimate.h"
 #include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/quick_settings.h"

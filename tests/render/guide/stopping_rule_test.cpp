@@ -2,7 +2,6 @@
 // them.
 
 #include "render/guide/stopping_rule.h"
-#include "render/guide/mean_around.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 

@@ -90,7 +90,7 @@ TEST(LightTree, NoNodeBringsMoreThanItsBound) {
         const std::vector<double> brought = add_up(tree, find_illuminances(stage, receiver));
         double bounds = 0.0;
         for (const LightGroup& group : tree.groups) {
-            const LightReaches reaches = reach_of(group, receiver.position, receiver.normal, 0.0f);
+            const LightReaches reaches = reach_of(group, receiver);
             for (int k = 0; k < LightGroup::size; ++k) {
                 if (k >= group.used) {
                     ASSERT_EQ(reaches.estimates[k], 0.0f);
@@ -121,7 +121,7 @@ TEST(LightTree, TheBoundOfATexturedLampIsThatOfItsBrightestTexel) {
         const Stage stage(std::move(scene));
         const Receiver receiver{{0.3f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}};
         const double brought = find_illuminances(stage, receiver).front();
-        const LightReaches reaches = reach_of(stage.lights.tree.groups.front(), receiver.position, receiver.normal, 0);
+        const LightReaches reaches = reach_of(stage.lights.tree.groups.front(), receiver);
         EXPECT_GT(brought, 0.0);
         EXPECT_GE(reaches.bounds[0], brought);
         EXPECT_LT(reaches.bounds[0], 3.0 * brought);
@@ -157,12 +157,12 @@ TEST(LightTree, LightsAreChosenWithTheProbabilityThatIsSaid) {
         const Stage stage(make_crowd(count, true));
         for (int i = 0; i < 4; ++i) {
             const Receiver receiver{{unit(engine), unit(engine), unit(engine)}, random_direction(engine)};
-            const LightCut cut = find_light_cut(stage.lights, receiver, 0.0f);
+            const LightCut cut = find_light_cut(stage.lights, receiver);
             std::vector<double> times(static_cast<std::size_t>(stage.lights.count())), said(times.size()),
                 rests(times.size());
             for (int k = 0; k < numbers; ++k) {
                 const float number = (static_cast<float>(k) + 0.5f) / numbers;
-                const LightPick pick = pick_light(stage.lights, cut, receiver, 0.0f, number);
+                const LightPick pick = pick_light(stage.lights, cut, receiver, number);
                 if (pick.light == no_index) continue;
                 ASSERT_TRUE(pick.rest >= 0.0f && pick.rest < 1.0f);
                 ++times[pick.light];

@@ -1,8 +1,8 @@
 // Paths that look up irradiance where it is known: in rooms whose light is known exactly, and from a filled cache.
 
-#include "render/path/known_irradiance.h"
-#include "render/cache/mirror_places.h"
-#include "render/shade/frame_irradiance.h"
+#include "render/cache/bounce_places.h"
+#include "render/cache/further_bounces.h"
+#include "render/path/path.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/lobes.h"
 #include "tests/support/path_estimates.h"

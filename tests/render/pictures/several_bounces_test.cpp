@@ -2,8 +2,7 @@
 
 #include "render/cache/cache_fill.h"
 #include "render/cache/further_bounces.h"
-#include "render/cache/gather_rays.h"
-#include "render/cache/light_transport.h"
+#include "render/cache/gather.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/shot_scenes.h"

@@ -1,6 +1,6 @@
 // The default pixel filter against its window: places, a step, a point, and the border of the picture.
 
-#include "render/pixels/pixel_filter.h"
+#include "render/pixels/pixel_surfaces.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 

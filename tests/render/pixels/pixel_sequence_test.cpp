@@ -2,7 +2,6 @@
 // Evenly spread points.
 
 #include "render/pixels/pixel_sequence.h"
-#include "render/pixels/lattice.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -4,9 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "render/cli/explain/explain.h"
-#include "render/plan/effect_picture.h"
 #include "render/plan/effect_table.h"
-#include "render/plan/effects_json.h"
+#include "render/plan/effects_plan.h"
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/test.h"
@@ -58,7 +57,7 @@ struct ExampleFrame {
         scene.lights.emplace_back().range = Track<double>(3.0);
     }
     EffectsPlan plan(double threshold) const {
-        return plan_effects({.scene = scene, .settings = settings, .facts = facts, .shutter = {}, .lens = {}},
+        return plan_effects(scene, settings, {.facts = facts, .shutter = {}, .lens = {}},
                             VisibleFrame{threshold, threshold, 1.0}, table);
     }
 

@@ -1,8 +1,8 @@
 // Tolerances of samples, from thresholds and the error that is asked for; and what that error must not leave out.
 
-#include "render/shade/error_budget.h"
 #include "render/frame/sequence.h"
 #include "render/guide/stopping_rule.h"
+#include "render/shade/progressive.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 

@@ -1,6 +1,6 @@
 // Light that a pixel's further samples took from its mean goes to the pixels around.
 
-#include "render/shade/lost_light.h"
+#include "render/shade/resolve.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 

@@ -2,7 +2,7 @@
 
 #include "render/shade/progressive.h"
 #include "engine/base/sampling.h"
-#include "render/shade/lost_light.h"
+#include "render/shade/resolve.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"

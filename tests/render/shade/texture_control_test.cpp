@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "render/pixels/sample_place.h"
+#include "render/pixels/pixel_surfaces.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 

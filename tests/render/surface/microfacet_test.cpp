@@ -1,7 +1,6 @@
 // Lobes at their limits: widths that single precision can hardly resolve, and smooth surfaces.
 // The sheen layer: its table, its reciprocity.
 
-#include "render/surface/glossy_albedo.h"
 #include "render/surface/sheen.h"
 #include "tests/support/lobes.h"
 #include "tests/support/test.h"

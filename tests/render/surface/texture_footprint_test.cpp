@@ -2,7 +2,7 @@
 // A checker texture at a grazing angle, filtered by the footprints of pixels, against many samples per pixel.
 
 #include "render/surface/texture_footprint.h"
-#include "render/pixels/sample_place.h"
+#include "render/pixels/pixel_surfaces.h"
 #include "tests/support/first_hits.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
