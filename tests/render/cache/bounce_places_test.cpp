@@ -3,7 +3,6 @@
 #include "render/cache/bounce_places.h"
 #include "render/cache/further_bounces.h"
 #include "render/cache/gather_at.h"
-#include "tests/support/directions.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 

@@ -1,7 +1,8 @@
-// Gathers at smooth-shaded facets, where a part of the hemisphere about the shading normal is below the surface.
+// Gathers in rooms: at smooth-shaded facets, in edges, and their estimate of their own noise.
 
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -71,7 +72,7 @@ TEST(GatherHemisphere, IC17_NoRaysBelowTheTrueSurface) {
     add_mesh(scene, make_faceted_sphere(2.0, 32, add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true)));
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.5, 1.0, 0.2});
     Gathering ball(std::move(scene));
-    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
+    SurfacePoint point = make_point(glm::vec3(0.0f), up);
     point.normal = glm::normalize(glm::vec3(1.0f, 1.0f, 0.0f));
     const IrradianceSample sample = ball.gather(point, {choose_strata(1024)});
     // At 45 degrees, (1 + cos) / 2 of the cosine-weighted hemisphere is above the surface.
@@ -109,6 +110,43 @@ TEST(Gather, MC29_PointsOnTheEdgeWhereTwoWallsMeet) {
             }
         }
     }
+}
+
+/// The mean over points. At single points, where light varies smoothly, the estimate is up to twice the spread.
+TEST(GatherNoise, TheEstimateIsTheSpreadOverSeeds) {
+    Gathering room(make_cluttered_room());
+    const SurfacePoint points[] = {make_point({-0.2f, -1.499f, -0.2f}, up), make_point({0.3f, -1.499f, 1.2f}, up),
+                                   make_point({1.999f, 0.3f, 0.8f}, {-1.0f, 0.0f, 0.0f}),
+                                   make_point({-1.999f, -0.6f, -0.6f}, {1.0f, 0.0f, 0.0f}),
+                                   make_point({0.4f, 1.499f, 1.5f}, {0.0f, -1.0f, 0.0f})};
+    for (const int samples : {16, 61, 256, 1024}) {
+        double ratio = 0.0;
+        for (const SurfacePoint& point : points) {
+            Mean light, variance;
+            for (std::uint32_t seed = 0; seed < 64; ++seed) {
+                const IrradianceSample sample = room.gather(point, {choose_strata(samples), {seed, 7, 0, 0}});
+                light.add(luminance(sample.irradiance));
+                variance.add(static_cast<double>(sample.relative_error) * sample.relative_error);
+            }
+            const double spread = light.error() * 8.0 / light.mean();
+            ratio += std::sqrt(variance.mean()) / spread / 5.0;
+        }
+        EXPECT_NEAR(ratio, 1.0, 0.3) << samples;
+    }
+}
+
+TEST(GatherNoise, EdgesOfTheEstimate) {
+    Gathering room(make_cluttered_room());
+    const auto error_of = [&](int samples) { return room.at({-0.2f, -1.499f, -0.2f}, up, samples).relative_error; };
+    EXPECT_TRUE(std::isinf(error_of(1)));
+    EXPECT_TRUE(std::isinf(error_of(2)));
+    for (int samples = 16; samples < 64; ++samples) {
+        EXPECT_TRUE(std::isfinite(error_of(samples))) << samples;
+        EXPECT_GE(choose_strata(samples).rows, 2) << samples;
+    }
+    Scene dark;
+    add_mesh(dark, make_faceted_sphere(2.0, 16, add_lambert(dark, glm::dvec3(0.5))));
+    EXPECT_EQ(Gathering(std::move(dark)).at(glm::vec3(0.0f), up, 64).relative_error, 0.0f);
 }
 
 }  // namespace

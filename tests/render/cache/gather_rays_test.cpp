@@ -107,7 +107,7 @@ struct Placed {
 };
 
 TEST(GatherRays, OneRayLiesInEachCell) {
-    for (const glm::vec3& normal : {glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(0.48f, -0.6f, 0.64f)}) {
+    for (const glm::vec3& normal : {up, glm::vec3(0.48f, -0.6f, 0.64f)}) {
         const Placed placed({6, 16}, normal, normal);
         ASSERT_EQ(placed.scratch.rays.size(), 96u);  // more than one block
         ASSERT_EQ(placed.scratch.places.size(), 96u);

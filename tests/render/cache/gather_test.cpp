@@ -2,7 +2,6 @@
 // against differences of closed forms.
 
 #include "render/cache/gather.h"
-#include "tests/support/directions.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/penumbra.h"
 #include "tests/support/test.h"

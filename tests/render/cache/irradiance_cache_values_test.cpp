@@ -1,6 +1,5 @@
 // Caches of two or three records, with weights, radii and averages by hand.
 
-#include "tests/support/directions.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 

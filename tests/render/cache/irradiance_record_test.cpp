@@ -1,7 +1,7 @@
 // Irradiance records one by one and in pairs, with values by hand.
 
 #include "render/cache/irradiance_record.h"
-#include "tests/support/directions.h"
+#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -2,7 +2,7 @@
 
 #include "render/cache/gather_at.h"
 #include "render/cache/irradiance_cache.h"
-#include "tests/support/directions.h"
+#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -99,7 +99,7 @@ TEST(SelfHits, RC04_FarFromTheOriginOfTheFlatTreeTooSecondRaysDoNotMeetTheirOwnS
     const int white = add_lambert(scene, glm::dvec3(0.5));
     const glm::dvec3 others(24.3, -22.9, 25.1), turn(1.0, 2.0, 3.0);
     add_mesh(scene, make_faceted_sphere(0.1, 48, white), {0.0, 0.0, 0.0}, glm::angleAxis(0.7, glm::normalize(turn)));
-    for (const double up : {0.0, 1.0}) add_mesh(scene, make_quad(1.0, 1.0, white), others + glm::dvec3(0.0, up, 0.0));
+    for (const double y : {0.0, 1.0}) add_mesh(scene, make_quad(1.0, 1.0, white), others + glm::dvec3(0.0, y, 0.0));
     add_camera(scene, {0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
     const Stage stage(std::move(scene), 8, 8);
     ASSERT_TRUE(stage.rays.is_flat(0));

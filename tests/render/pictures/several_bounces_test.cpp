@@ -148,7 +148,7 @@ TEST(SeveralBounces, IC23_ALampBehindGlassIsNotFoundAgain) {
     const Stage stage(std::move(scene));
     RayTask task(stage.rays);
     RandomStream random({1, 2, 3, 4});
-    const SurfacePoint floor = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
+    const SurfacePoint floor = make_point(glm::vec3(0.0f), up);
     for (int i = 0; i < 200; ++i) {
         ASSERT_EQ(sample_multi_bounce_irradiance(stage.lighting(), task, floor, nullptr, {.bounces = 2}, 8, random),
                   Rgb(0.0f));

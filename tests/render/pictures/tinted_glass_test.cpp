@@ -69,7 +69,7 @@ TEST(TintedGlass, ChannelsWithoutLossPassFromAnyDistance) {
 double gather_at_origin(const Stage& stage) {
     RayTask task(stage.rays);
     GatherScratch scratch;
-    const auto found = gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}),
+    const auto found = gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), up),
                                          {choose_strata(1024), {1, 2, 3, 4}}, scratch, {.depth = 8});
     return found.irradiance.x / std::numbers::pi;
 }
@@ -106,7 +106,6 @@ TEST(TintedGlass, MediaAroundAPointAreThoseThatARayLeaves) {
     add_mesh(scene, make_faceted_sphere(20.0, 48, add_medium(scene, 0.0, 1.33, false)));
     const Stage stage(std::move(scene));
     RayTask task(stage.rays);
-    const glm::vec3 up(0.0f, 1.0f, 0.0f);
     const auto find = [&](float height, const glm::vec3& direction, std::uint64_t expected_rays) {
         std::uint64_t rays = 0;
         const Media media = find_media(stage.shading, task, {glm::vec3(0.0f, height, 0.0f), direction}, rays);
