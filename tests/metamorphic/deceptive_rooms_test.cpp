@@ -94,8 +94,7 @@ Scene make_flash(Dice& dice) {
 
 /// Luminance as the display shows it, up to white.
 Image<double> render_flash(const Scene& scene, RenderSettings settings, int width, std::uint32_t seed) {
-    settings.picture.width = width;
-    settings.picture.height = 3 * width / 4;
+    set_size(settings, width, 3 * width / 4);
     settings.seed = seed;
     const Image<Rgb> picture = Sequence(scene, settings).render(flash_frame).shaded.color;
     Image<double> shown(picture.width, picture.height);

@@ -9,6 +9,7 @@
 
 #include "engine/surface/shapes.h"
 #include "render/shade/frame.h"
+#include "tests/support/quick_settings.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

@@ -110,11 +110,9 @@ Scene make_lit_spot() {
         }
     }
     const auto corner = [](int x, int y) { return static_cast<unsigned>(y * (tiles + 1) + x); };
-    for (int y = 0; y < tiles; ++y) {
-        for (int x = 0; x < tiles; ++x) {
-            wall.triangles.emplace_back(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1));
-            wall.triangles.emplace_back(corner(x, y), corner(x + 1, y + 1), corner(x, y + 1));
-        }
+    for (const auto [x, y] : all_pixels(tiles, tiles)) {
+        wall.triangles.emplace_back(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1));
+        wall.triangles.emplace_back(corner(x, y), corner(x + 1, y + 1), corner(x, y + 1));
     }
     add_mesh(scene, wall);
     add_lamp(scene, ShadedLamp::side, glm::dvec3(100.0), {0.0, 0.0, 0.1},

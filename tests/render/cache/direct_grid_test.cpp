@@ -22,26 +22,10 @@ TEST(DirectGrid, CellsAreAsWideAsTheRaysFootprint) {
     }
 }
 
-TEST(DirectGrid, CellsBelongToOneInstanceAndOneSide) {
-    const glm::vec3 place(0.3f, 0.1f, -0.2f);
-    std::vector<std::uint64_t> keys;
-    for (const int instance : {0, 1, 2}) {
-        for (int axis = 0; axis < 3; ++axis) {
-            for (const float sign : {-1.0f, 1.0f}) {
-                glm::vec3 normal(0.3f);
-                normal[axis] = sign;
-                keys.push_back(DirectGrid().key_of(instance, place, glm::normalize(normal), 0.1f));
-            }
-        }
-    }
-    std::sort(keys.begin(), keys.end());
-    EXPECT_EQ(std::unique(keys.begin(), keys.end()), keys.end());
-}
-
 TEST(DirectGrid, EveryCellHasAKeyOfItsOwn) {
     const DirectGrid grid;
     std::set<std::uint64_t> keys;
-    for (const int instance : {0, 5}) {
+    for (const int instance : {1, 2}) {
         for (int facing = 0; facing < 6; ++facing) {
             glm::vec3 normal(0.1f);
             normal[facing / 2] = facing % 2 == 0 ? 0.9f : -0.9f;

@@ -206,11 +206,6 @@ void expect_gradient(const std::function<double(const IrradianceSample&)>& predi
     }));
 }
 
-TEST(Gather, PatchIrradiance) {
-    Gathering gathering(Patch::make_scene());
-    expect_irradiance(gathering, glm::vec3(0.0f), up, Patch::irradiance(glm::dvec3(0.0), {0.0, 1.0, 0.0}), 0.03);
-}
-
 TEST(Gather, TranslationGradientAgainstDifferences) {
     expect_gradient([](const IrradianceSample& s) { return s.gradients.translation[0].x; },
                     [](double d) {

@@ -179,5 +179,18 @@ TEST(IrradianceRecord, GrowthIsTheDifferenceBeyondNoise) {
     EXPECT_EQ(measure_growth(a, b), 0.0f);
 }
 
+TEST(RecordCorrection, ContactsHaveNoGradientBeyondThem) {
+    const auto gradient = [](float nearest) {
+        IrradianceSample sample{.irradiance = Rgb(1.0f)};
+        sample.gradients.translation.fill({0.5f, 0.0f, 0.0f});
+        sample.nearest_distance = nearest;
+        return make_record(glm::vec3(0.0f), up, 0.2f, sample, {0.7f, 10.0f, 0.01f})->gradients.translation[0].x;
+    };
+    EXPECT_EQ(gradient(0.2f), 0.5f);   // a radius of 3.5 x 0.2 m
+    EXPECT_EQ(gradient(0.05f), 0.5f);  // the least radius is 4 times that by distance
+    EXPECT_NEAR(gradient(0.025f), 0.25f, 1e-6f);
+    EXPECT_EQ(gradient(0.0f), 0.0f);
+}
+
 }  // namespace
 }  // namespace aleph

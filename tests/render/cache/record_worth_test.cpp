@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "engine/load/load_scene.h"
-#include "perception/vision/castle.h"
 #include "render/cache/gather_at.h"
 #include "render/frame/sequence.h"
 #include "render/guide/stopping_rule.h"
@@ -58,32 +57,6 @@ TEST(RecordWorth, MoreRaysKeepNoiseBelowThatOfSamples) {
     EXPECT_NEAR(0.1 * std::sqrt(5.0 / more), 0.5 * 0.01 / error_deviations, 1e-5) << "half a standard error of samples";
 }
 
-/// How visible noise is at rest that is smooth over so many pixels (the deviation of a normal distribution), over white
-/// noise with the same variance, at 31 pixels per degree: the root mean square of the sensitivity over its spectrum.
-double relative_visibility(double smooth, double luminance) {
-    constexpr int steps = 400;
-    constexpr double lowest = 0.002, highest = 0.5 * std::numbers::sqrt2, pixels_per_degree = 31.0;
-    const auto visibility = [&](double deviation) {
-        double sum = 0.0, energy = 0.0;
-        for (int i = 0; i < steps; ++i) {
-            const double f = lowest * std::pow(highest / lowest, (i + 0.5) / steps);  // cycles per pixel
-            const double arc = f <= 0.5 ? 2.0 * std::numbers::pi : 2.0 * std::numbers::pi - 8.0 * std::acos(0.5 / f);
-            const double share = arc * f * f * std::exp(-std::pow(2.0 * std::numbers::pi * f * deviation, 2.0));
-            const double rho = f * pixels_per_degree, radius = 1.5 / rho;
-            const double sensitivity = castle_sensitivity(rho, 0.0, luminance, std::numbers::pi * radius * radius);
-            sum += share * sensitivity * sensitivity;
-            energy += share;
-        }
-        return std::sqrt(sum / energy);
-    };
-    return visibility(smooth) / visibility(0.0);
-}
-
-TEST(RecordWorth, NoiseThatIsSmoothOverAPixelIsSeenBetter) {
-    EXPECT_NEAR(relative_visibility(1.0, 60.0), 2.5, 0.1);
-    EXPECT_NEAR(relative_visibility(1.0, 5.0), 2.9, 0.1);
-}
-
 TEST(RecordWorth, ATolerantPictureHasFewerRecordsAndAStrictOneAll) {
     IndirectStage room(make_cluttered_room(), 96, 72, 0.05, 1024);  // where a record costs much, fewer pay
     const auto count = [&](const Image<float>* tolerance) {
@@ -123,6 +96,19 @@ TEST(RecordWorth, FramesMixRecordsAndRaysOfSamples) {
         of_traced += luminance(traced.shaded.color.pixels[i]);
     }
     EXPECT_NEAR(of_mixed / of_traced, 1.0, 0.01);
+}
+
+TEST(RecordCorrection, RaysFollowVarianceAndAccuracy) {
+    RenderSettings settings;
+    settings.cache.accuracy = 0.1;
+    EXPECT_EQ(choose_rays(settings, 0.1f, 1.0f), 2500);  // a standard error of a fifth of the accuracy: 1 / .02^2
+    EXPECT_EQ(choose_rays(settings, 0.2f, 1.0f), 625);
+    EXPECT_EQ(choose_rays(settings, 1.0f, 1.0f), 64);
+    EXPECT_EQ(choose_rays(settings, 0.01f, 1.0f), 8192);
+    EXPECT_EQ(choose_rays(settings, 0.1f, std::nullopt), 512);
+    settings.cache.gather = 1000;
+    EXPECT_EQ(choose_rays(settings, 0.1f, 9.0f), 1000);
+    EXPECT_EQ(choose_rays(settings, 0.2f, 9.0f), 250);
 }
 
 }  // namespace

@@ -86,13 +86,11 @@ TEST(MotionLines, LeadFromAPixelToWhereItGoes) {
     motion.displacement(17, 6) = glm::dvec2(0.0, 5.0);   // no line begins here
     motion.displacement(6, 18) = glm::dvec2(-9.0, 0.0);  // beyond the picture
     draw_motion(picture, motion);
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-            const bool on_first = x >= 18 && x <= 26 && y >= 6 && y <= 10 && std::abs(y - 6 - 0.5 * (x - 18)) <= 1.0;
-            const bool on_second = x <= 7 && (y == 18 || y == 19);
-            if (picture(x, y) != Rgb(0.0f)) {
-                EXPECT_TRUE(on_first || on_second) << x << ", " << y;
-            }
+    for (const auto [x, y] : all_pixels(picture)) {
+        const bool on_first = x >= 18 && x <= 26 && y >= 6 && y <= 10 && std::abs(y - 6 - 0.5 * (x - 18)) <= 1.0;
+        const bool on_second = x <= 7 && (y == 18 || y == 19);
+        if (picture(x, y) != Rgb(0.0f)) {
+            EXPECT_TRUE(on_first || on_second) << x << ", " << y;
         }
     }
     for (const glm::ivec2 p : {glm::ivec2(18, 6), glm::ivec2(22, 8), glm::ivec2(26, 10), glm::ivec2(0, 18)})

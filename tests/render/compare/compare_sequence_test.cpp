@@ -69,9 +69,8 @@ TEST(CompareSequence, ErrorsAgainstTheThresholdOfTheMaps) {
 ChannelImage checkers(float step) {
     ChannelImage picture = grey(0.5f);
     for (Channel& channel : picture.channels) {
-        for (int y = 0; y < picture_height; ++y) {
-            for (int x = 0; x < picture_width; ++x) channel.values(x, y) += (x / 2 + y / 2) % 2 ? step : -step;
-        }
+        for (const auto [x, y] : all_pixels(picture_width, picture_height))
+            channel.values(x, y) += (x / 2 + y / 2) % 2 ? step : -step;
     }
     return picture;
 }

@@ -33,11 +33,9 @@ TEST(SurfaceTrack, UniformMotionAddsUp) {
 
 TEST(SurfaceTrack, ZoomAndItsInverseMeet) {
     MotionMaps zoom = uniform(0.0f, 0.0f);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            zoom.u(x, y) = 0.1f * static_cast<float>(x - 20);
-            zoom.v(x, y) = -0.1f * static_cast<float>(y - 15);
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        zoom.u(x, y) = 0.1f * static_cast<float>(x - 20);
+        zoom.v(x, y) = -0.1f * static_cast<float>(y - 15);
     }
     const std::vector<const MotionMaps*> motion(2, &zoom);
     const glm::vec2 source = track_surfaces(motion, 1).before[0](31, 4);

@@ -70,11 +70,9 @@ TEST(VisibleDifference, ContrastOfBothPicturesMasks) {
 
 TEST(VisibleDifference, ChangesOfHueAreSeenAtEqualLuminance) {
     Image<Rgb> redder = picture_of(flat);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const auto shift = static_cast<float>(0.05 * std::cos(2.0 * std::numbers::pi * x / pixels_per_degree));
-            redder(x, y) += Rgb{shift, -0.2126f / 0.7152f * shift, 0.0f};
-        }
+    for (const auto [x, y] : all_pixels(width, height)) {
+        const auto shift = static_cast<float>(0.05 * std::cos(2.0 * std::numbers::pi * x / pixels_per_degree));
+        redder(x, y) += Rgb{shift, -0.2126f / 0.7152f * shift, 0.0f};
     }
     const double hue = show([&](int) { return redder; }, still(flat)).seen;
     const double brightness = show(still(grating(1.0, 0.05)), still(flat)).seen;

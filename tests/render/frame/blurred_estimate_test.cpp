@@ -139,8 +139,7 @@ Scene make_wall(bool plate) {
 
 RenderSettings outline_settings(PixelFilter filter) {
     RenderSettings settings;
-    settings.picture.width = outline_width;
-    settings.picture.height = outline_height;
+    set_size(settings, outline_width, outline_height);
     settings.picture.filter = filter;
     settings.cache.light_step = 0;
     settings.light.bounces = 0;

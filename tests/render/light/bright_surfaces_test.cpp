@@ -4,6 +4,7 @@
 
 #include "render/light/bright_surfaces.h"
 #include "render/light/light_rays.h"
+#include "tests/support/penumbra.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/shaded_lamp.h"
 #include "tests/support/test.h"
@@ -29,13 +30,6 @@ TEST(BrightSurfaces, AreTheInsideOfAShade) {
     EXPECT_NEAR(reflected, 0.8 * 4.0 * 0.200044 * 100.0 * pi * ShadedLamp::side * ShadedLamp::side, 0.01 * reflected);
 }
 
-/// Share of what leaves a point of a plane in all directions that meets a rectangle parallel to it at distance 1, of
-/// which a corner faces the point (Howell 2010, B-3).
-double find_factor(double width, double depth) {
-    const double a = std::sqrt(1.0 + width * width), b = std::sqrt(1.0 + depth * depth);
-    return (width / a * std::atan(depth / a) + depth / b * std::atan(width / b)) / (2.0 * std::numbers::pi);
-}
-
 /// A lamp close above a wide floor of two triangles.
 TEST(BrightSurfaces, ArePartsOfLargeTriangles) {
     constexpr double above = 0.25, radiance = 50.0, albedo = 0.5;  // m, cd/m2
@@ -57,8 +51,8 @@ TEST(BrightSurfaces, ArePartsOfLargeTriangles) {
         double factor = 0.0;
         for (const double x : {-1.0, 1.0}) {
             for (const double z : {-1.0, 1.0}) {
-                factor += find_factor((0.5 * ShadedLamp::side + x * place.x) / above,
-                                      (0.5 * ShadedLamp::side + z * place.z) / above);
+                factor +=
+                    corner_factor(0.5 * ShadedLamp::side + x * place.x, 0.5 * ShadedLamp::side + z * place.z, above);
             }
         }
         return albedo * radiance * factor;
@@ -252,13 +246,6 @@ TEST(LightRays, PassSheetsOfGlass) {
     add_light(scene, Light::Kind::directional, glm::dvec3(3.0), {}, z_to_up);  // along -z of its node
     const double expected = wall_albedo * 3.0 * 4.0 * 0.96;
     EXPECT_NEAR(add_light_rays(std::move(scene)).front(), expected, 0.01 * expected);
-}
-
-TEST(LightRays, AreNoneInTheDark) {
-    const Stage stage(make_square());
-    RayCounts counts;
-    EXPECT_TRUE(cast_light_rays(stage.lighting(), {{}, 2.0f}, 1000, counts).empty());
-    EXPECT_EQ(counts.gather, 0u);
 }
 
 }  // namespace

@@ -40,19 +40,17 @@ TEST_P(TruckRender, RollsItsWheelsAndNothingElse) {
     const ScenePose frame = pose(scene, scene.film.frame_rate.seconds_of(3));
     int wheel_pixels = 0, body_pixels = 0;
     double fastest = 0.0;
-    for (int y = 0; y < output.view.height; ++y) {
-        for (int x = 0; x < output.view.width; ++x) {
-            const Hit& hit = output.hits(x, y);
-            if (hit.instance == no_index) continue;
-            const int node = frame.instances[hit.instance].node;
-            const double moved = glm::length(output.motion.displacement(x, y));
-            if (is_animated(scene.nodes[node].transform.rotation)) {
-                ++wheel_pixels;
-                fastest = std::max(fastest, moved);
-            } else {
-                ++body_pixels;
-                EXPECT_EQ(moved, 0.0) << x << ", " << y;
-            }
+    for (const auto [x, y] : all_pixels(output.view)) {
+        const Hit& hit = output.hits(x, y);
+        if (hit.instance == no_index) continue;
+        const int node = frame.instances[hit.instance].node;
+        const double moved = glm::length(output.motion.displacement(x, y));
+        if (is_animated(scene.nodes[node].transform.rotation)) {
+            ++wheel_pixels;
+            fastest = std::max(fastest, moved);
+        } else {
+            ++body_pixels;
+            EXPECT_EQ(moved, 0.0) << x << ", " << y;
         }
     }
     EXPECT_GT(wheel_pixels, 20);
@@ -96,14 +94,12 @@ TEST_P(BoxRender, BleedsColour) {
     // The light that the bounce adds has the walls' colours: reddish on one side of the picture, greenish on the other.
     Rgb left(0.0f), right(0.0f);
     double more = 0.0, less = 0.0;  // reflections are sampled, so single pixels may get darker
-    for (int y = 0; y < 72; ++y) {
-        for (int x = 0; x < 96; ++x) {
-            const Rgb added = full.shaded.color(x, y) - direct.shaded.color(x, y);
-            (luminance(added) >= 0.0f ? more : less) += luminance(added);
-            const auto& hit = full.hits(x, y);
-            if (hit.instance == no_index) continue;
-            (x < 48 ? left : right) += added;
-        }
+    for (const auto [x, y] : all_pixels(96, 72)) {
+        const Rgb added = full.shaded.color(x, y) - direct.shaded.color(x, y);
+        (luminance(added) >= 0.0f ? more : less) += luminance(added);
+        const auto& hit = full.hits(x, y);
+        if (hit.instance == no_index) continue;
+        (x < 48 ? left : right) += added;
     }
     EXPECT_LT(-less, 0.05 * more);
     const float left_tint = (left.x - left.y) / luminance(left), right_tint = (right.x - right.y) / luminance(right);

@@ -34,12 +34,10 @@ struct Spot {
 
 Spot measure(const Image<float>& coverage) {
     double sum = 0.0, squares = 0.0;
-    for (int y = 0; y < picture_height; ++y) {
-        for (int x = 0; x < picture_width; ++x) {
-            const glm::dvec2 from_middle(x + 0.5 - 0.5 * picture_width, y + 0.5 - 0.5 * picture_height);
-            sum += coverage(x, y);
-            squares += coverage(x, y) * glm::dot(from_middle, from_middle);
-        }
+    for (const auto [x, y] : all_pixels(picture_width, picture_height)) {
+        const glm::dvec2 from_middle(x + 0.5 - 0.5 * picture_width, y + 0.5 - 0.5 * picture_height);
+        sum += coverage(x, y);
+        squares += coverage(x, y) * glm::dot(from_middle, from_middle);
     }
     return {std::sqrt(2.0 * squares / sum), sum};
 }
@@ -151,8 +149,7 @@ TEST(DepthOfField, MC28_ATinyLensInATinyDistanceHasItsCircleOfConfusion) {
 
 TEST(DepthOfField, MC28_FocusAtTheCameraIsRefused) {
     RenderSettings settings = path_settings(0, 4);
-    settings.picture.width = 8;
-    settings.picture.height = 6;
+    set_size(settings, 8, 6);
     for (const double focus : {0.0, -1.0}) {
         Scene scene = make_disc_scene(3.0, 0.7f);
         scene.cameras[0].aperture = 0.1;

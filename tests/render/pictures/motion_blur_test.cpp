@@ -17,8 +17,7 @@ constexpr double pixels_per_metre = 4.0;  // the picture is 6 m by 4 m, parallel
 
 RenderSettings blur_settings(std::uint32_t seed) {
     RenderSettings settings = path_settings(0, spp, seed);
-    settings.picture.width = width;
-    settings.picture.height = height;
+    set_size(settings, width, height);
     settings.picture.filter = PixelFilter::box;
     return settings;
 }

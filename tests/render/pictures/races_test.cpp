@@ -11,8 +11,7 @@ namespace {
 
 RenderSettings tiny_settings() {
     RenderSettings settings = small_settings();
-    settings.picture.width = 64;
-    settings.picture.height = 48;
+    set_size(settings, 64, 48);
     settings.cache.gather = 16;
     return settings;
 }
@@ -28,8 +27,7 @@ TEST(Races, DT01_DT08_KeyMomentsAndAnOpenShutter) {
     Scene scene = make_shot_with_mover();
     scene.cameras[0].shutter = {-0.5, 0.5};
     RenderSettings settings = tiny_settings();
-    settings.picture.width = 32;
-    settings.picture.height = 24;
+    set_size(settings, 32, 24);
     settings.cache.light_step = 5;
     settings.light.bounces = 2;
     for (const Integrator integrator : {Integrator::cache, Integrator::path}) {

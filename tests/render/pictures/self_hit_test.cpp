@@ -153,12 +153,10 @@ TEST(SelfHits, RC05_OffsetsAreSmallForSmallObjects) {
     const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
     float largest = 0.0f;
     int met[2] = {};
-    for (int y = 0; y < 48; ++y) {
-        for (int x = 0; x < 64; ++x) {
-            if (hits.hits(x, y).instance == no_index) continue;
-            ++met[hits.hits(x, y).instance];
-            largest = std::max(largest, make_pixel_surface(stage.shading, stage.view, hits, x, y).point.offset);
-        }
+    for (const auto [x, y] : all_pixels(64, 48)) {
+        if (hits.hits(x, y).instance == no_index) continue;
+        ++met[hits.hits(x, y).instance];
+        largest = std::max(largest, make_pixel_surface(stage.shading, stage.view, hits, x, y).point.offset);
     }
     EXPECT_GT(met[0], 100);
     EXPECT_GT(met[1], 100);

@@ -200,8 +200,7 @@ TEST(SeveralBounces, RecordsTakeMoreRaysForALargePicture) {
     const Stage stage(make_lit_sphere(), 96, 72);
     const auto count_rays = [&](int width, int height) {
         RenderSettings settings = cache_settings(2, 0.3, 64);
-        settings.picture.width = width;
-        settings.picture.height = height;
+        set_size(settings, width, height);
         const FrameCounts counts = shade(stage, settings).counts;
         EXPECT_GT(counts.multi_bounce_records, 20u);
         return counts.multi_bounce_rays;
@@ -219,8 +218,7 @@ TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {
         settings.sampling.spp = 2;
         settings.cache.gather = 16;
         settings.cache.accuracy = 0.5;
-        settings.picture.width = 32;
-        settings.picture.height = 24;
+        set_size(settings, 32, 24);
         Sequence sequence(scene, settings);
         for (const int frame : {1, 2}) frame_bytes(sequence, scene, settings, frame);
         const std::string expected = frame_bytes(sequence, scene, settings, 3);

@@ -160,10 +160,6 @@ TEST(PixelFilterTest, PlacesAreDistributedLikeTheWindow) {
     EXPECT_EQ(place_in_filter(PixelFilter::blackman_harris, 1.0), 1.5);
 }
 
-TEST(PixelFilterTest, TheBoxIsUniform) {
-    for (const double u : {0.0, 0.25, 0.5, 0.999}) EXPECT_EQ(place_in_filter(PixelFilter::box, u), u - 0.5);
-}
-
 /// A flat, parallel view of 16 x 12 pixels of 1 m, whose rows and columns begin at the origin.
 Scene make_flat_view(double left, double right, double bottom, double top) {
     Scene scene;

@@ -75,28 +75,6 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
     }
 }
 
-TEST(Frame, WithoutBouncesThereIsNoGathering) {
-    const Stage stage(make_everything(), 40, 30);
-    RenderSettings settings = plain_settings(0.15, 16);
-    settings.light.bounces = 0;
-    const ShadedFrame out = shade(stage, settings);
-    EXPECT_EQ(out.counts.rays.gather, 0u);
-    EXPECT_EQ(out.counts.records, 0u);
-    EXPECT_EQ(out.counts.cache.lookups, 0u);
-}
-
-TEST(Frame, RecordsPerPixelAddUp) {
-    const Stage stage(make_everything(), 40, 30);
-    for (const double accuracy : {0.0, 0.2}) {
-        const ShadedFrame out = shade(stage, plain_settings(accuracy, 16));
-        double records = 0.0;
-        for (const float r : out.records.pixels) records += r;
-        EXPECT_EQ(records, static_cast<double>(out.counts.records));
-        EXPECT_EQ(records > 10.0, accuracy > 0.0);
-        EXPECT_LE(out.counts.cache.hits, out.counts.cache.lookups);
-    }
-}
-
 TEST(Frame, EmissionCoverageAndBackground) {
     Scene scene;
     scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.5, 0.25, 0.125));

@@ -13,8 +13,7 @@ const FrameRequest only_maps{.frame = false, .maps = true, .progress = {}};
 
 RenderSettings estimate_settings(int light_step) {
     RenderSettings settings = shot_settings(light_step);
-    settings.picture.width = 96;
-    settings.picture.height = 72;
+    set_size(settings, 96, 72);
     return settings;
 }
 

@@ -28,11 +28,9 @@ std::vector<Image<double>> find_block_noise(const Scene& scene, RenderSettings s
     for (settings.seed = 1; settings.seed <= seeds; ++settings.seed) {
         const FrameOutput out = Sequence(scene, settings).render(frame, {.frame = true, .maps = true, .progress = {}});
         Image<double>& blocks = noise.emplace_back(width / block, height / block);
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                const double shown = luminance(out.shaded.color(x, y)) * scene.film.viewing.display_white;
-                blocks(x / block, y / block) += shown / out.limits.threshold_noise(x, y) / (block * block);
-            }
+        for (const auto [x, y] : all_pixels(width, height)) {
+            const double shown = luminance(out.shaded.color(x, y)) * scene.film.viewing.display_white;
+            blocks(x / block, y / block) += shown / out.limits.threshold_noise(x, y) / (block * block);
         }
         for (std::size_t i = 0; i < mean.size(); ++i) mean.pixels[i] += blocks.pixels[i] / seeds;
     }
