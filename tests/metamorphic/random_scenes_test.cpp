@@ -210,7 +210,6 @@ Scene make_scene(int number) {
     return scene;
 }
 
-/// Means of blocks of pixels.
 std::vector<double> render_blocks(const Scene& scene, const RenderSettings& settings) {
     const Image<Rgb> color = Sequence(scene, settings).render(0).shaded.color;
     std::vector<double> blocks(columns / block * (rows / block));

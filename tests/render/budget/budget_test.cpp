@@ -225,7 +225,6 @@ TEST_F(PartTiming, LightIsTimedOnceForEachMoment) {
 
 class Budgets : public RenderCommand {
   protected:
-    /// @return the exit code
     int run(const std::vector<std::string>& more) { return RenderCommand::run({"--size", "8x6", "-t", "1"}, more); }
 };
 

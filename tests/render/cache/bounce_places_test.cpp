@@ -9,7 +9,6 @@
 namespace aleph {
 namespace {
 
-/// Knows the light of pixels of the left half.
 struct LeftHalfKnown : CarriedLight {
     int half = 0;
     std::optional<Rgb> find(const PixelSurface& surface, float, RayTask&, RecordUse*) const override {

@@ -80,7 +80,6 @@ TEST(GatherRays, SectorsAreSixteenthsOfTheCircle) {
     EXPECT_EQ(sectors.size(), 16u);
 }
 
-/// The rays of a hemisphere, and what they should be.
 struct Placed {
     HemisphereStrata strata;
     SurfacePoint point;

@@ -46,7 +46,6 @@ struct Hemisphere {
     }
 };
 
-/// Some number in [0, 1) for every cell.
 double number_of(int cell, int dimension) {
     return RandomStream({5, 0, static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(dimension)}).at(0);
 }

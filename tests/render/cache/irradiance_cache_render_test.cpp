@@ -9,7 +9,6 @@
 namespace aleph {
 namespace {
 
-/// An open corner of three walls, lit, seen from inside.
 Scene make_corner() {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.8));
@@ -142,7 +141,6 @@ TEST(IrradianceCache, IC10_WindingDoesNotMatterToATwoSidedSurface) {
     EXPECT_LT(difference, 0.01 * sum);
 }
 
-/// A closed room with a block in it and a lamp on the ceiling.
 Scene make_room() {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);

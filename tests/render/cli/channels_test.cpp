@@ -22,7 +22,6 @@ void make_one_pixel(Images&... images) {
     ((images = std::remove_reference_t<decltype(images)>(1, 1)), ...);
 }
 
-/// All channels that a file can have.
 std::set<std::string> written_channels() {
     FrameOutput output;
     make_one_pixel(output.shaded.color, output.shaded.coverage, output.shaded.variance, output.shaded.samples,
@@ -56,7 +55,6 @@ std::vector<std::string> documented_rows() {
     return rows;
 }
 
-/// The rows that channel_table makes.
 std::vector<std::string> expected_rows() {
     std::vector<std::string> rows;
     for (const ChannelInfo& info : channel_table()) {

@@ -7,7 +7,6 @@
 namespace aleph {
 namespace {
 
-/// A coloured box that passes coloured walls in nine frames.
 void write_passing_box(const fs::path& path) {
     std::ofstream(path) << R"({"aleph": 1, "exposure": 1, "fps": "30000/1001", "frames": [1, 9], "nodes": [
         {"translation": [0, 1, 5], "camera": {"fov": 40}}, {"translation": [0, 3, 2], "light": {"type": "point", "intensity": 30}},
@@ -32,7 +31,6 @@ class Films : public ProgramTest {
         return run(words("render", output, joined({"--size", "64x48", "--gather", "16", "--spp", "4"}, more)));
     }
 
-    /// The frame as a PNG file of the same command.
     ChannelImage png(int frame, const Words& more = {}) const {
         const std::string name = fmt::format("../f{}.png", frame);
         EXPECT_EQ(render(name, joined(more, {"--frames", std::to_string(frame)})).code, 0);

@@ -102,7 +102,6 @@ TEST(OutputPath, RefusesPatternsWithTwoMeanings) {
     }
 }
 
-/// The message that refuses a pattern; empty if it is taken.
 std::string refused_pattern(const std::string& pattern) {
     return find_refusal([&] { output_path(pattern, "pool", 1); }).message;
 }

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int few = 1500;
 
-/// A glTF file of nodes without names that all show one triangle.
 std::string gltf_of_nodes(int count, bool deep) {
     std::string nodes, roots = "0";
     for (int i = 0; i < count; ++i) {
@@ -33,7 +32,6 @@ std::string gltf_of_nodes(int count, bool deep) {
            std::string(48, 'A') + "\"}]}";
 }
 
-/// A scene file of nodes, each the parent of the next one if it is deep.
 std::string scene_of_nodes(int count, bool deep) {
     std::string nodes;
     for (int i = 0; i < count; ++i) {
@@ -45,7 +43,6 @@ std::string scene_of_nodes(int count, bool deep) {
     return R"({"aleph": 1, "meshes": {"box": {"shape": {"type": "box"}}}, "nodes": [)" + nodes + "]}";
 }
 
-/// The bytes that each part of the work with a scene allocates.
 using Costs = std::vector<std::pair<std::string, std::size_t>>;
 
 Costs costs_of(const std::filesystem::path& file, const std::string& text) {

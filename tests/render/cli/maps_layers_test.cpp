@@ -13,7 +13,6 @@ void add_flat(ChannelImage& file, const std::string& name, float value) {
     file.channels.push_back({name, Image<float>(width, height, value)});
 }
 
-/// The picture in a layer of its own.
 ChannelImage in_layer(const std::string& layer, int frame) {
     ChannelImage file = make_color_image(picture(frame));
     for (Channel& channel : file.channels) channel.name = layer + '.' + channel.name;
@@ -23,11 +22,12 @@ ChannelImage in_layer(const std::string& layer, int frame) {
 /// A frame as Blender writes it: something that moves 3 pixels to the right and 2 up, before a far background.
 ChannelImage blender_frame(int frame) {
     ChannelImage file = in_layer("ViewLayer.Combined", frame);
-    add_flat(file, "ViewLayer.Vector.X", -1.0f);
-    add_flat(file, "ViewLayer.Vector.Y", 7.0f);
-    add_flat(file, "ViewLayer.Vector.Z", -3.0f);
-    add_flat(file, "ViewLayer.Vector.W", -2.0f);
-    add_flat(file, "ViewLayer.Depth.Z", 5.0f);
+    for (const auto& [name, value] : {std::pair("Vector.X", -1.0f),
+                                      {"Vector.Y", 7.0f},
+                                      {"Vector.Z", -3.0f},
+                                      {"Vector.W", -2.0f},
+                                      {"Depth.Z", 5.0f}})
+        add_flat(file, std::string("ViewLayer.") + name, value);
     return file;
 }
 
@@ -35,7 +35,6 @@ Image<float>& channel(ChannelImage& file, const std::string& name) {
     return const_cast<Image<float>&>(*file.find(name));
 }
 
-/// Writes frames 1 and 2, and runs maps on them.
 template <class Make>
 Ran maps_of(const Frames& frames, const Make& make, const Words& options = {}) {
     for (const int frame : {1, 2}) write_exr(frames.file(frame), make(frame));
@@ -73,12 +72,13 @@ TEST(MapsLayers, OurOwnMotionComesBackAsItWas) {
     const Frames frames(1, 0);
     const auto own = [](int frame) {
         ChannelImage file = make_color_image(picture(frame));
-        add_flat(file, "forward.u", 1.25f);
-        add_flat(file, "forward.v", -0.5f);
-        add_flat(file, "motion.valid", 1.0f);
-        add_flat(file, "backward.u", -1.5f);
-        add_flat(file, "backward.v", 0.25f);
-        add_flat(file, "backward.valid", -4.0f);
+        for (const auto& [name, value] : {std::pair("forward.u", 1.25f),
+                                          {"forward.v", -0.5f},
+                                          {"motion.valid", 1.0f},
+                                          {"backward.u", -1.5f},
+                                          {"backward.v", 0.25f},
+                                          {"backward.valid", -4.0f}})
+            add_flat(file, name, value);
         channel(file, "motion.valid")(3, 4) = -4.0f;
         add_flat(file, "Z", 2.0f);
         return file;
@@ -146,7 +146,6 @@ TEST(MapsLayers, AFrameWithoutMotionAmongFramesWithIt) {
     expect_answer(maps_of(frames, make), 2, "f.0002.exr: this frame has no motion");
 }
 
-/// Exit code 2, one line that holds every part.
 void expect_refusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
     const Ran ran = run_maps(arguments);
     EXPECT_EQ(ran.code, 2) << ran.errors;

@@ -77,7 +77,6 @@ TEST(BlurredEstimate, AMovingSquareCoversItsShareOfTheTime) {
         sum_expected += expected;
     }
     EXPECT_NEAR(sum, sum_expected, 0.01 * sum_expected);
-    // Above and below the square nothing moves.
     for (int x = 0; x < width; ++x) EXPECT_NEAR(out.estimate(x, 2).x, 0.1f, 1e-6f);
 }
 

@@ -27,7 +27,6 @@ Scene make_moving_scene() {
     return scene;
 }
 
-/// Renders the pictures of two frames of a sequence.
 std::vector<Image<Rgb>> render_two(Sequence& sequence) {
     std::vector<Image<Rgb>> pictures;
     for (const int frame : {0, 15}) pictures.push_back(sequence.render(frame).shaded.color);
@@ -43,7 +42,6 @@ TEST(Sequence, SeesWithAProgramsOwnModelOfVision) {
     EXPECT_EQ(frame.limits.alpha, Image<float>(40, 30, static_cast<float>(settings.cache.accuracy)));
 }
 
-/// Share of the pixels that two frames have in common.
 double share_equal(const Image<Rgb>& a, const Image<Rgb>& b) {
     const auto equal =
         std::inner_product(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), 0, std::plus<>(), std::equal_to<>());
@@ -171,7 +169,6 @@ TEST(SequenceCameras, KeysAscendAndNameCameras) {
 
 const auto maps_only = FrameRequest{.frame = false, .maps = true, .progress = {}};
 
-/// Returns whether no surface has motion.
 bool is_without_motion(const MotionField& motion) {
     return std::ranges::none_of(motion.validity.pixels, [](MotionValidity v) { return v == MotionValidity::valid; });
 }

@@ -12,7 +12,6 @@ namespace {
 
 constexpr int frames = 15;
 
-/// A key in every frame.
 template <class T, class ValueAt>
 Track<T> make_keys(const Scene& scene, const ValueAt& value_at) {
     Track<T> track;

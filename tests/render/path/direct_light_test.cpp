@@ -98,7 +98,6 @@ Scene make_square_lamp(const glm::dquat& turn, bool double_sided, double size = 
     return scene;
 }
 
-/// The form factor of a square, by its four corners.
 double square_factor(double size, double height) {
     return 4.0 * corner_factor(0.5 * size, 0.5 * size, height);
 }

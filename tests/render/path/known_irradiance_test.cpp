@@ -22,7 +22,6 @@ Scene make_glowing_box() {
     return scene;
 }
 
-/// The same irradiance everywhere.
 struct ConstantIrradiance : KnownIrradiance {
     using KnownIrradiance::KnownIrradiance;
 
@@ -127,7 +126,6 @@ TEST(KnownIrradianceTest, AccuracyIsLooserForFaintAndWideLobes) {
     EXPECT_FLOAT_EQ(asked(make_metal(0.0f), 0.01f).first, 0.5f);
 }
 
-/// A room with a lamp, half of it in shadow.
 Scene make_lit_room() {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);

@@ -59,7 +59,6 @@ TEST(Path, MC14_WithoutLossTheDepthIsTheLight) {
     }
 }
 
-/// Every lobe at once, without textures.
 Material make_layered(double roughness) {
     return {.base_color = glm::dvec3(0.8, 0.6, 0.9),
             .gloss = {.metallic = 0.3, .roughness = roughness},

@@ -188,7 +188,6 @@ TEST(GlassPictures, MC25_BallInABlockInAFurnace) {
     }
 }
 
-/// The picture of a frame, from both integrators, with and without loss.
 TEST(GlassPictures, MC25_FrameOfASlab) {
     Scene scene;
     add_mesh(scene, make_box({60.0, 60.0, 0.5}, add_glass(scene, 1.5, 0.5, 0.8)));

@@ -52,7 +52,6 @@ TEST(Races, DT08_SequencesSideBySide) {
     EXPECT_TRUE(together[1] == alone[1]);
 }
 
-/// A different picture for every index.
 ChannelImage make_picture(std::size_t index) {
     ChannelImage image;
     for (const char* name : {"R", "G", "B"}) {

@@ -210,7 +210,6 @@ TEST(SelfHits, RC06_RaysFromTheFloorUnderTheBoxDoNotEnterIt) {
     Directions random;
     Tracer tracer(stage.rays);
     for (int i = 0; i < 20000; ++i) {
-        // Between floor and box, along the floor.
         Ray ray{glm::vec3(random.number() - 0.5f, 0.5e-3f, random.number() - 0.5f), glm::vec3(0.0f, -1.0f, 0.0f)};
         ray.origin -= glm::vec3(stage.shading.anchor);
         const Hit hit = tracer.intersect(ray);

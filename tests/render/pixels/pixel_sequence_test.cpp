@@ -143,7 +143,6 @@ TEST(PixelSequence, PointsAreUniformOverSeeds) {
     }
 }
 
-/// Correlation of the numbers of many pixels and samples.
 double correlation(const std::function<float(int x, int y, int i)>& a,
                    const std::function<float(int x, int y, int i)>& b) {
     double sum = 0.0;

@@ -96,7 +96,6 @@ TEST(EffectsPlan, FX04_LampsThatShine) {
     EXPECT_EQ(effects_of(scene), Names{"direct_light"}) << "an emission of 0";
     scene.materials[lamp].glow.color = glm::dvec3(1.0);
     EXPECT_TRUE(effects_of(scene).contains("emission"));
-    // A texture with one bright texel.
     scene.materials[lamp].textures[TextureSlot::emission] = add_texture(scene, {0, 0, 0, 255});
     EXPECT_FALSE(effects_of(scene).contains("emission")) << "a black texture";
     scene.images.back().bytes(1, 1) = {255, 0, 0, 255};

@@ -42,7 +42,6 @@ SamplingPlan make_plan(Sampling rule, int most, int width, int height, float tol
     return plan;
 }
 
-/// Each sample sees a light with probability p.
 Distribution rarely_lit(double p, double light = 1.0) {
     return [=](RandomStream& random) { return random.next() < p ? light : 0.0; };
 }

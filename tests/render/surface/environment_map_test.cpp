@@ -143,7 +143,6 @@ TEST(EnvironmentMap, SamplesFollowTheirDensity) {
     }));
 }
 
-/// A floor of albedo 0.6 at the origin.
 Mean light_on_floor(const Scene& scene, int count, std::uint32_t seed = 0) {
     const Stage stage(scene);
     return estimate(stage, {make_point(glm::vec3(0.0f), up), make_lambert(0.6f), up}, count, by_paths(1, 1), seed);

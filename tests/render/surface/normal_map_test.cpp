@@ -45,7 +45,6 @@ Scene make_mapped_quad(Material material, const glm::u8vec4& texel) {
     return scene;
 }
 
-/// The surface that a ray from `view` meets at the origin.
 ViewedSurface look_at_origin(const Stage& stage, const glm::vec3& view) {
     Tracer tracer(stage.rays);
     const glm::vec3 origin = view * 2.0f + glm::vec3(0.11f, 0.07f, 0.0f) - glm::vec3(stage.shading.anchor);

@@ -16,7 +16,6 @@ namespace fs = std::filesystem;
 
 class VerifyCommand : public RenderCommand {
   protected:
-    /// @return the exit code
     int run(const std::vector<std::string>& more) {
         return RenderCommand::run({"--size", "8x6", "--fps", "8", "--frames", "20", "-o", file("a.exr")}, more);
     }
