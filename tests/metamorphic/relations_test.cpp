@@ -48,7 +48,7 @@ FrameOutput render(const Scene& scene, std::int64_t frame, std::uint32_t seed = 
     settings.cache.gather = 32;
     settings.cache.accuracy = 0.3;
     settings.perception.guide = Guide::none;
-    return Sequence(scene, settings).render(frame, {.frame = true, .maps = true, .progress = {}});
+    return Sequence(scene, settings).render(frame, {.maps = true, .progress = {}});
 }
 
 const FrameOutput& original(std::size_t i) {

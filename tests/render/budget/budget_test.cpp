@@ -9,9 +9,7 @@
 #include "render/frame/sequence.h"
 #include "render/pixels/picture_part.h"
 #include "tests/render/cli/answers.h"
-#include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
-#include "tests/support/read_bytes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -4,7 +4,6 @@
 
 #include "tests/support/shaded_lamp.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {

@@ -6,7 +6,6 @@
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/lobes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {

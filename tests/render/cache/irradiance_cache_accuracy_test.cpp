@@ -2,14 +2,11 @@
 // every step on the way there.
 // The work of a look-up in indices of very different sizes.
 
-#include <memory>
-
 #include "engine/load/load_scene.h"
 #include "render/cache/record_index.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/paths.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {

@@ -4,7 +4,6 @@
 #include "tests/support/first_hits.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {

@@ -1,7 +1,6 @@
 // The octree of records: its cells, and which of them a look-up enters. Lists of records for look-ups at one accuracy:
 // they find what a search of all records finds.
 
-#include <map>
 #include <numeric>
 
 #include "engine/base/sampling.h"

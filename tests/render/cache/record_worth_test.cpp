@@ -2,9 +2,6 @@
 
 #include "render/cache/record_worth.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "engine/load/load_scene.h"
 #include "render/cache/gather_at.h"
 #include "render/frame/sequence.h"

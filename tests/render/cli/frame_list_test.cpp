@@ -1,6 +1,5 @@
 // Frame lists and output names. No output replaces a file that the same command reads, or another output.
 
-#include <gmock/gmock.h>
 #include <climits>
 
 #include "engine/image/image_file.h"
@@ -9,8 +8,6 @@
 #include "render/settings/frame_list.h"
 #include "tests/render/cli/answers.h"
 #include "tests/support/files/gltf_draft.h"
-#include "tests/support/read_bytes.h"
-#include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -5,7 +5,6 @@
 #include "render/cli/explain/explain.h"
 #include "render/output/frame_files.h"
 #include "render/surface/node_paths.h"
-#include "tests/support/allocations.h"
 #include "tests/support/files/gltf_draft.h"
 #include "tests/support/files/load_cost.h"
 #include "tests/support/scratch_folder.h"
@@ -123,8 +122,6 @@ TEST(Growth, NumbersAndNamesThatLookLikeThemDiffer) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) all.push_back(paths[i]);
     EXPECT_EQ(all, (std::vector<std::string>{"/a#2", "/a", "/a#3", "/a#4", "/a#2#2"}));
 }
-
-namespace fs = std::filesystem;
 
 /// 30 MB of text whose values would take a gigabyte, and a buffer that is not there.
 std::string hostile_gltf() {

@@ -6,7 +6,6 @@
 #include "render/output/sheet.h"
 #include "tests/render/cli/answers.h"
 #include "tests/support/film_programs.h"
-#include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
 
 namespace aleph {

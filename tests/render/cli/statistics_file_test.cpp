@@ -15,8 +15,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 class StatisticsFileTest : public testing::Test {
   protected:
     StatisticsFileTest() { scene_.source.file = "a \"frames\": [] b.json"; }

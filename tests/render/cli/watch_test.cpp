@@ -1,7 +1,6 @@
 // --watch: renders again when a file of the scene changes, and outlives broken files.
 
 #include <arpa/inet.h>
-#include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 

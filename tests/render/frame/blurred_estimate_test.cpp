@@ -4,7 +4,6 @@
 #include "render/frame/blurred_estimate.h"
 #include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 

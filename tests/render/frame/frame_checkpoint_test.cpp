@@ -7,8 +7,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct StoppedHere : std::exception {};
 
 struct CheckpointCase {

@@ -6,7 +6,6 @@
 
 #include "tests/support/keyed_track.h"
 #include "tests/support/perception_scene.h"
-#include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -133,9 +132,8 @@ TEST(SequenceCameras, EachLooksFromItsFrameOn) {
     scene.film.exposure = 1.0;
     Sequence both(scene, settings), eye(scene, settings, "eye"), close(scene, settings, "close");
     for (const int frame : {-3, 0, 9, 10, 25}) {
-        const FrameOutput out = both.render(frame, {.frame = true, .maps = true, .progress = {}});
-        const FrameOutput expected =
-            (frame < 10 ? eye : close).render(frame, {.frame = true, .maps = true, .progress = {}});
+        const FrameOutput out = both.render(frame, {.maps = true, .progress = {}});
+        const FrameOutput expected = (frame < 10 ? eye : close).render(frame, {.maps = true, .progress = {}});
         EXPECT_TRUE(out.surface.depth.pixels == expected.surface.depth.pixels) << frame;
         const bool is_last_of_shot = frame == 9;
         EXPECT_EQ(std::ranges::count(out.motion.validity.pixels, MotionValidity::valid) == 0, is_last_of_shot);

@@ -5,7 +5,6 @@
 #include "render/light/bright_surfaces.h"
 #include "render/light/light_rays.h"
 #include "tests/support/penumbra.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/shaded_lamp.h"
 #include "tests/support/test.h"
 

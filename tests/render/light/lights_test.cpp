@@ -5,7 +5,6 @@
 #include "render/light/spherical_triangle.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {

@@ -26,7 +26,7 @@ struct Rendered {
         settings.light.light_samples = 2;
         settings.cache.light_step = 0;  // the quick estimate is gathered in the frame
         Sequence sequence(scene, settings);
-        output = sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
+        output = sequence.render(frame, {.maps = true, .progress = {}});
         exposure = sequence.exposure();
     }
     ChannelImage image() const { return make_frame_image(output, true, scene, settings, exposure); }

@@ -3,7 +3,6 @@
 
 #include "render/path/path.h"
 #include "tests/support/path_estimates.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

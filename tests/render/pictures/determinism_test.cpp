@@ -11,9 +11,7 @@
 #include "perception/sanitize.h"
 #include "perception/threshold.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/paths.h"
 #include "tests/support/test.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {

@@ -6,7 +6,6 @@
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {

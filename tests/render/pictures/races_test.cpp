@@ -4,7 +4,6 @@
 #include "tests/support/frame_bytes.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {

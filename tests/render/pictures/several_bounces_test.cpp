@@ -5,11 +5,8 @@
 #include "render/cache/gather_rays.h"
 #include "render/cache/light_transport.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {

@@ -3,9 +3,7 @@
 #include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/penumbra.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {

@@ -2,8 +2,6 @@
 
 #include "render/shade/texture_control.h"
 
-#include <limits>
-
 #include "render/pixels/sample_place.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"

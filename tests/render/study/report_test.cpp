@@ -4,7 +4,6 @@
 #include <Imath/half.h>
 #include <zlib.h>
 #include <bit>
-#include <nlohmann/json.hpp>
 
 #include "engine/gltf/files.h"
 #include "engine/image/image_file.h"

@@ -13,8 +13,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 class RunStudy : public testing::Test {
   protected:
     RunStudy() {

@@ -2,7 +2,6 @@
 
 #include "render/surface/environment_map.h"
 #include "tests/support/path_estimates.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -6,7 +6,6 @@
 #include "render/surface/surface_material.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/lobes.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

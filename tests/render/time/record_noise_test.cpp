@@ -26,7 +26,7 @@ std::vector<Image<double>> find_block_noise(const Scene& scene, RenderSettings s
     std::vector<Image<double>> noise;
     Image<double> mean(width / block, height / block);
     for (settings.seed = 1; settings.seed <= seeds; ++settings.seed) {
-        const FrameOutput out = Sequence(scene, settings).render(frame, {.frame = true, .maps = true, .progress = {}});
+        const FrameOutput out = Sequence(scene, settings).render(frame, {.maps = true, .progress = {}});
         Image<double>& blocks = noise.emplace_back(width / block, height / block);
         for (const auto [x, y] : all_pixels(width, height)) {
             const double shown = luminance(out.shaded.color(x, y)) * scene.film.viewing.display_white;
@@ -118,7 +118,7 @@ TEST(LightingKeyframes, NoiseOfAProbeRejectsNoLight) {
     EXPECT_LT(out.statistics.counts.records, 40u);
 }
 
-const FrameRequest everything{.frame = true, .maps = true, .progress = {}};
+const FrameRequest everything{.maps = true, .progress = {}};
 
 TEST(RecordMaps, RecordsOfKeyMomentsCountToo) {
     RenderSettings settings = shot_settings(10);

@@ -1,18 +1,13 @@
 // `aleph render --verify`, and shares with their intervals from counts in blocks.
 
-#include <nlohmann/json.hpp>
-
 #include "render/cli/verify.h"
 #include "render/verify/share_interval.h"
 #include "tests/render/cli/answers.h"
 #include "tests/render/expect_fields.h"
-#include "tests/support/read_bytes.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-namespace fs = std::filesystem;
 
 class VerifyCommand : public RenderCommand {
   protected:
