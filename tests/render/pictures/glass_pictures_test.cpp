@@ -11,15 +11,6 @@
 namespace aleph {
 namespace {
 
-int add_glass(Scene& scene, double ior, double thickness, double attenuation_distance = 0.0) {
-    scene.materials.push_back({.gloss = {.metallic = 0.0, .roughness = 0.0, .ior = ior},
-                               .glass = {.transmission = 1.0,
-                                         .thickness = thickness,
-                                         .attenuation_distance = attenuation_distance,
-                                         .attenuation_color = glm::dvec3(0.5)}});
-    return static_cast<int>(scene.materials.size()) - 1;
-}
-
 double reflectance(double cosine, double ratio) {
     const double t = std::sqrt(1.0 - (1.0 - cosine * cosine) / (ratio * ratio));
     const double s = (cosine - ratio * t) / (cosine + ratio * t), p = (ratio * cosine - t) / (ratio * cosine + t);

@@ -176,17 +176,6 @@ TEST(PixelSequence, SeedsMomentsUsesAndCoordinatesAreIndependent) {
     }
 }
 
-TEST(PixelSequence, IsAPureFunctionAndOneDimensionIsTheFirstOfTwo) {
-    for (const int index : {0, 3, PixelSequence::length - 1, PixelSequence::length}) {
-        const PixelSequence sequence(1, 2, -3, 4);
-        const glm::vec2 point = sequence.at_2d(SampleUse::lens, index);
-        EXPECT_EQ(point, PixelSequence(1, 2, -3, 4).at_2d(SampleUse::lens, index));
-        EXPECT_EQ(point.x, sequence.at_1d(SampleUse::lens, index));
-    }
-    const PixelSequence sequence(1, 2, 3, 4);
-    EXPECT_NE(sequence.at_1d(SampleUse::lens, 0), sequence.at_1d(SampleUse::lens, PixelSequence::length));
-}
-
 TEST(PixelSequence, PointsOfOneUseDoNotDependOnThoseBefore) {
     const PixelSequence sequence(7, 2, 31, 5);
     SequenceOfUse points = sequence.of(SampleUse::lens);

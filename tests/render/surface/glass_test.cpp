@@ -188,12 +188,7 @@ TEST(Glass, MC25_NestedMedia) {
 constexpr double half_way = 1.0;  // m, over which a tinted medium takes half of the light
 
 int add_medium(Scene& scene, double roughness, double ior, bool tinted) {
-    scene.materials.push_back({.gloss = {.metallic = 0.0, .roughness = roughness, .ior = ior},
-                               .glass = {.transmission = 1.0,
-                                         .thickness = 1.0,
-                                         .attenuation_distance = tinted ? half_way : 0.0,
-                                         .attenuation_color = glm::dvec3(0.5)}});
-    return static_cast<int>(scene.materials.size()) - 1;
+    return add_glass(scene, ior, 1.0, tinted ? half_way : 0.0, roughness);
 }
 
 RenderSettings few_samples(Integrator integrator, std::uint32_t seed) {
