@@ -12,7 +12,6 @@ namespace {
 constexpr int flash_frame = 5, block_side = 6;
 constexpr double frame_rate = 30.0;
 
-/// Random numbers of a room.
 struct Dice {
     std::mt19937 bits;
     double between(double low, double high) { return low + (high - low) * bits() / 4294967296.0; }
@@ -63,7 +62,6 @@ Scene make_door(Dice& dice) {
     return make_door_between(dice, dice.color());
 }
 
-/// A ball of metal and one of rough metal.
 Scene make_mirrors(Dice& dice) {
     Scene scene = make_furnished_room(dice);
     for (const double roughness : {0.0, dice.between(0.05, 0.5)}) {
@@ -94,8 +92,7 @@ Scene make_flash(Dice& dice) {
 
 /// Luminance as the display shows it, up to white.
 Image<double> render_flash(const Scene& scene, RenderSettings settings, int width, std::uint32_t seed) {
-    settings.picture.width = width;
-    settings.picture.height = 3 * width / 4;
+    set_size(settings, width, 3 * width / 4);
     settings.seed = seed;
     const Image<Rgb> picture = Sequence(scene, settings).render(flash_frame).shaded.color;
     Image<double> shown(picture.width, picture.height);

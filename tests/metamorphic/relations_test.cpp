@@ -48,7 +48,7 @@ FrameOutput render(const Scene& scene, std::int64_t frame, std::uint32_t seed = 
     settings.cache.gather = 32;
     settings.cache.accuracy = 0.3;
     settings.perception.guide = Guide::none;
-    return Sequence(scene, settings).render(frame, {.frame = true, .maps = true, .progress = {}});
+    return Sequence(scene, settings).render(frame, {.maps = true, .progress = {}});
 }
 
 const FrameOutput& original(std::size_t i) {
@@ -59,7 +59,6 @@ const FrameOutput& original(std::size_t i) {
     return outputs.emplace(i, render(authored.scene, authored.frame)).first->second;
 }
 
-/// The differences of a picture from the one expected.
 struct Difference {
     double depth = 0.0;   ///< largest, relative
     double motion = 0.0;  ///< largest, pixels
@@ -73,7 +72,6 @@ double total(const FrameOutput& output) {
     return sum;
 }
 
-/// Every pixel has to show the same.
 Difference compare(const FrameOutput& a, const FrameOutput& b, double lengths) {
     Difference most;
     const double sum_a = total(a), sum_b = total(b), count = static_cast<double>(a.hits.size());

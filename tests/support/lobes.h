@@ -66,6 +66,17 @@ inline SurfaceMaterial make_glass(float alpha, float ratio, bool volume) {
     return material;
 }
 
+/// Half of the light is lost over the attenuation distance, m; 0: none.
+inline int add_glass(Scene& scene, double ior, double thickness, double attenuation_distance = 0.0,
+                     double roughness = 0.0) {
+    scene.materials.push_back({.gloss = {.metallic = 0.0, .roughness = roughness, .ior = ior},
+                               .glass = {.transmission = 1.0,
+                                         .thickness = thickness,
+                                         .attenuation_distance = attenuation_distance,
+                                         .attenuation_color = glm::dvec3(0.5)}});
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
 inline SurfaceMaterial with_coat(SurfaceMaterial material, float alpha, float strength = 1.0f) {
     material.coat.strength = strength;
     material.coat.alpha = alpha;

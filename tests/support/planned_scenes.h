@@ -30,8 +30,7 @@ inline Scene make_lit_square() {
 /// 24x16 pixels, one sample; every frame by itself, without a model of vision.
 inline RenderSettings planned_settings() {
     RenderSettings settings = plain_settings(0.3, 64);
-    settings.picture.width = 24;
-    settings.picture.height = 16;
+    set_size(settings, 24, 16);
     return settings;
 }
 

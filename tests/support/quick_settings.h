@@ -4,6 +4,12 @@
 
 namespace aleph {
 
+/// The other settings of the picture stay.
+inline void set_size(RenderSettings& settings, int width, int height) {
+    settings.picture.width = width;
+    settings.picture.height = height;
+}
+
 /// All stages run, each for a short time.
 inline RenderSettings quick_settings(int width, int height) {
     RenderSettings settings{.picture = {.width = width, .height = height}};

@@ -9,9 +9,12 @@
 
 #include "engine/surface/shapes.h"
 #include "render/shade/frame.h"
+#include "tests/support/quick_settings.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
+
+inline constexpr glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 /// A surface without glossy reflection, whose albedo is exactly `albedo`.
 inline int add_lambert(Scene& scene, const glm::dvec3& albedo, const glm::dvec3& emission = glm::dvec3(0.0),
@@ -102,8 +105,8 @@ inline int add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& tar
     Camera camera{.fov = fov};
     scene.cameras.push_back(camera);
     const glm::dvec3 forward = glm::normalize(target - eye);
-    const glm::dvec3 up = std::abs(forward.y) > 0.99 ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(0.0, 1.0, 0.0);
-    const int node = add_node(scene, eye, glm::quatLookAt(forward, up), parent);
+    const glm::dvec3 above = std::abs(forward.y) > 0.99 ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const int node = add_node(scene, eye, glm::quatLookAt(forward, above), parent);
     scene.nodes.back().camera = static_cast<int>(scene.cameras.size()) - 1;
     return node;
 }

@@ -4,60 +4,58 @@
 
 #include "tests/support/shaded_lamp.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
+
+using Gather = std::function<float(int rays, std::uint32_t seed, bool aims)>;
+
+/// @param most  standard error over that without aimed rays
+void expect_less_noise(const Gather& gather, double most) {
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        Mean with, without;
+        for (std::uint32_t run = 0; run < trial.times(256u); ++run) {
+            with.add(gather(256, run + trial.seed, true));
+            without.add(gather(384, run + trial.seed + 5000, false));
+        }
+        trial.near(with, without);
+        EXPECT_LT(with.error(), most * without.error());
+    }));
+}
 
 /// On the floor, where the tube's inside is small; under its opening; on its inside, with a bright surface an edge
 /// away.
 TEST(AimedRays, KeepTheMeanAndLowerTheNoise) {
     ShadedLamp lamp;
-    struct Place {
-        glm::vec3 position, normal;
-        double most;  ///< standard error over that without aimed rays
+    const auto expect_at = [&](const glm::vec3& position, const glm::vec3& normal, double most) {
+        SCOPED_TRACE(position.x);
+        expect_less_noise([&](int rays, std::uint32_t seed,
+                              bool aims) { return lamp.gather(position, normal, rays, seed, aims).irradiance.x; },
+                          most);
     };
-    for (const Place& place :
-         {Place{{0.7f, 0.0f, 0.3f}, up, 0.25}, Place{{0.02f, ShadedLamp::height - 0.3f, 0.0f}, up, 0.5},
-          Place{{0.0f, ShadedLamp::height + 0.1f, -0.0999f}, {0.0f, 0.0f, 1.0f}, 1.25}}) {
-        SCOPED_TRACE(place.position.x);
-        EXPECT_TRUE(holds([&](Trial& trial) {
-            Mean with, without;
-            for (std::uint32_t run = 0; run < trial.times(256u); ++run) {
-                with.add(lamp.gather(place.position, place.normal, 256, run + trial.seed).irradiance.x);
-                without.add(
-                    lamp.gather(place.position, place.normal, 384, run + trial.seed + 5000, false).irradiance.x);
-            }
-            trial.near(with, without);
-            EXPECT_LT(with.error(), place.most * without.error());
-        }));
-    }
+    expect_at({0.7f, 0.0f, 0.3f}, up, 0.25);
+    expect_at({0.02f, ShadedLamp::height - 0.3f, 0.0f}, up, 0.5);
+    expect_at({0.0f, ShadedLamp::height + 0.1f, -0.0999f}, {0.0f, 0.0f, 1.0f}, 1.25);
 }
 
-/// A spot light on a wall.
 TEST(AimedRays, MeetASpotOfLight) {
     Scene scene;
-    add_small_room(scene, add_lambert(scene, glm::dvec3(0.5)), add_lambert(scene, glm::dvec3(0.5)), glm::dvec3(0.0),
-                   0.1);
+    const int grey = add_lambert(scene, glm::dvec3(0.5));
+    add_small_room(scene, grey, grey, glm::dvec3(0.0), 0.1);
     add_light(scene, Light::Kind::spot, glm::dvec3(10.0), {0.5, 0.5, 0.0});  // along -z
     scene.lights.back().inner_cone = scene.lights.back().outer_cone = Track<double>(0.15);
     Gathering gathering(std::move(scene));
     RayCounts counts;
     const BrightSurfaces surfaces = find_bright(gathering.stage, make_floor_places(-1.0f), counts);
     ASSERT_FALSE(surfaces.empty());
-    const auto gather = [&](int rays, std::uint32_t seed, const BrightSurfaces* bright) {
-        const GatherPattern pattern{choose_strata(rays), {seed, 0, 0, 0}};
-        return gathering.gather(make_point({-0.5f, -0.9999f, 0.2f}, up), pattern, {.bright = bright}).irradiance.x;
-    };
-    EXPECT_TRUE(holds([&](Trial& trial) {
-        Mean with, without;
-        for (std::uint32_t run = 0; run < trial.times(256u); ++run) {
-            with.add(gather(256, run + trial.seed, &surfaces));
-            without.add(gather(384, run + trial.seed + 5000, nullptr));
-        }
-        trial.near(with, without);
-        EXPECT_LT(with.error(), 0.25 * without.error());
-    }));
+    expect_less_noise(
+        [&](int rays, std::uint32_t seed, bool aims) {
+            const GatherPattern pattern{choose_strata(rays), {seed, 0, 0, 0}};
+            return gathering
+                .gather(make_point({-0.5f, -0.9999f, 0.2f}, up), pattern, {.bright = aims ? &surfaces : nullptr})
+                .irradiance.x;
+        },
+        0.25);
 }
 
 TEST(AimedRays, TellTheirError) {
@@ -110,11 +108,9 @@ Scene make_lit_spot() {
         }
     }
     const auto corner = [](int x, int y) { return static_cast<unsigned>(y * (tiles + 1) + x); };
-    for (int y = 0; y < tiles; ++y) {
-        for (int x = 0; x < tiles; ++x) {
-            wall.triangles.emplace_back(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1));
-            wall.triangles.emplace_back(corner(x, y), corner(x + 1, y + 1), corner(x, y + 1));
-        }
+    for (const auto [x, y] : all_pixels(tiles, tiles)) {
+        wall.triangles.emplace_back(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1));
+        wall.triangles.emplace_back(corner(x, y), corner(x + 1, y + 1), corner(x, y + 1));
     }
     add_mesh(scene, wall);
     add_lamp(scene, ShadedLamp::side, glm::dvec3(100.0), {0.0, 0.0, 0.1},

@@ -3,14 +3,12 @@
 #include "render/cache/bounce_places.h"
 #include "render/cache/further_bounces.h"
 #include "render/cache/gather_at.h"
-#include "tests/support/directions.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
-/// Knows the light of pixels of the left half.
 struct LeftHalfKnown : CarriedLight {
     int half = 0;
     std::optional<Rgb> find(const PixelSurface& surface, float, RayTask&, RecordUse*) const override {
@@ -70,18 +68,16 @@ TEST(BouncePlaces, SeenSurfacesAreOneInEachTile) {
     for (const PixelSurface& surface : surfaces) EXPECT_GE(surface.x, 156);
 }
 
-TEST(BouncePlaces, SmallPicturesHaveFewerTiles) {
+TEST(BouncePlaces, SmallPicturesHaveFewerTilesAndTilesEndAtThePicture) {
     EXPECT_EQ(Rooms(120, 80).seen().size(), 40u * 27u);  // one pixel in ten: 3 wide
     EXPECT_EQ(Rooms(60, 40).seen().size(), 20u * 14u);   // 300, rounded to 3 wide
-}
-
-TEST(BouncePlaces, TilesEndAtThePicture) {
-    Rooms wide(313, 208), high(312, 211);  // the last tiles are one pixel wide, and high
-    EXPECT_EQ(wide.seen().size(), 1820u);
-    for (const PixelSurface& surface : wide.seen()) EXPECT_LT(surface.x, 313);
-    EXPECT_EQ(high.seen().size(), 1820u);
-    for (const PixelSurface& surface : high.seen()) EXPECT_LT(surface.y, 211);
     EXPECT_EQ(Rooms(3, 2).seen().size(), 6u);
+    for (const glm::ivec2 size :
+         {glm::ivec2(313, 208), glm::ivec2(312, 211)}) {  // the last tiles are one pixel wide, and high
+        const std::vector<PixelSurface> seen = Rooms(size.x, size.y).seen();
+        EXPECT_EQ(seen.size(), 1820u);
+        for (const PixelSurface& surface : seen) EXPECT_TRUE(surface.x < size.x && surface.y < size.y);
+    }
 }
 
 TEST(BouncePlaces, RaysLieInTheStrataOfEachSurface) {

@@ -1,7 +1,6 @@
 // Direct light from a grid of cells: the cells, and gathers with it against gathers without.
 
 #include "render/cache/direct_grid.h"
-#include "tests/support/directions.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 
@@ -23,26 +22,10 @@ TEST(DirectGrid, CellsAreAsWideAsTheRaysFootprint) {
     }
 }
 
-TEST(DirectGrid, CellsBelongToOneInstanceAndOneSide) {
-    const glm::vec3 place(0.3f, 0.1f, -0.2f);
-    std::vector<std::uint64_t> keys;
-    for (const int instance : {0, 1, 2}) {
-        for (int axis = 0; axis < 3; ++axis) {
-            for (const float sign : {-1.0f, 1.0f}) {
-                glm::vec3 normal(0.3f);
-                normal[axis] = sign;
-                keys.push_back(DirectGrid().key_of(instance, place, glm::normalize(normal), 0.1f));
-            }
-        }
-    }
-    std::sort(keys.begin(), keys.end());
-    EXPECT_EQ(std::unique(keys.begin(), keys.end()), keys.end());
-}
-
 TEST(DirectGrid, EveryCellHasAKeyOfItsOwn) {
     const DirectGrid grid;
     std::set<std::uint64_t> keys;
-    for (const int instance : {0, 5}) {
+    for (const int instance : {1, 2}) {
         for (int facing = 0; facing < 6; ++facing) {
             glm::vec3 normal(0.1f);
             normal[facing / 2] = facing % 2 == 0 ? 0.9f : -0.9f;
@@ -89,7 +72,7 @@ TEST(DirectGrid, BlocksOfEightByEightLieInTheSurfacesPlane) {
     const auto key = [&](const glm::vec3& normal) { return grid.key_of(0, {1.5f, 2.5f, 3.5f}, normal, 1.0f); };
     EXPECT_EQ(key({0.6f, 0.6f, 0.1f}), key({1.0f, 0.0f, 0.0f}));
     EXPECT_EQ(key({0.6f, 0.1f, -0.6f}), key({1.0f, 0.0f, 0.0f}));
-    EXPECT_EQ(key({0.1f, 0.6f, 0.6f}), key({0.0f, 1.0f, 0.0f}));
+    EXPECT_EQ(key({0.1f, 0.6f, 0.6f}), key(up));
 }
 
 TEST(DirectGrid, CellsScaleWithTheUnit) {

@@ -46,7 +46,6 @@ struct Hemisphere {
     }
 };
 
-/// Some number in [0, 1) for every cell.
 double number_of(int cell, int dimension) {
     return RandomStream({5, 0, static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(dimension)}).at(0);
 }
@@ -102,26 +101,18 @@ TEST(GatherSummary, GradientsAreWardAndHeckberts) {
 }
 
 TEST(GatherSummary, DistancesBelowATenThousandthOfTheMedianAreLeftOut) {
-    Hemisphere hemisphere({3, 5}, 1.0f, 1.0f);
-    for (int i = 0; i < 15; ++i) hemisphere.set_distance(i / 5, i % 5, static_cast<float>(i + 1));
-    hemisphere.set_distance(0, 0, 7.9e-4f);  // the median is 8
-    hemisphere.set_distance(0, 1, 8.1e-4f);
-    hemisphere.set_distance(0, 2, 0.0f);
-    hemisphere.set_distance(1, 0, float_infinity);  // not of the median
-    hemisphere.set_distance(2, 4, float_infinity);
-    // Left are 0, 0.00079, 0.00081, 4, 5, 7, [8], 9, 10, 11, 12, 13, 14.
-    EXPECT_EQ(hemisphere.summarize().nearest_distance, 8.1e-4f);
-}
-
-TEST(GatherSummary, WhatIsLeftOutFollowsTheScale) {
     for (const float scale : {1e-5f, 1.0f, 1e3f}) {
-        Hemisphere hemisphere({3, 5}, 1.0f, 8.0f * scale);
-        hemisphere.set_distance(2, 1, 14.0f * scale);
-        hemisphere.set_distance(0, 0, 1e-4f * (8.0f * scale));  // just as far counts
+        Hemisphere hemisphere({3, 5}, 1.0f, scale);
+        for (int i = 0; i < 15; ++i) hemisphere.set_distance(i / 5, i % 5, static_cast<float>(i + 1) * scale);
+        hemisphere.set_distance(0, 0, 7.9e-4f * scale);  // the median is 8
         hemisphere.set_distance(0, 1, 8.1e-4f * scale);
-        EXPECT_EQ(hemisphere.summarize().nearest_distance, 1e-4f * (8.0f * scale));
-        hemisphere.set_distance(0, 0, 7.9e-4f * scale);
+        hemisphere.set_distance(0, 2, 0.0f);
+        hemisphere.set_distance(1, 0, float_infinity);  // not of the median
+        hemisphere.set_distance(2, 4, float_infinity);
+        // Left are 0, 0.00079, 0.00081, 4, 5, 7, [8], 9, 10, 11, 12, 13, 14.
         EXPECT_EQ(hemisphere.summarize().nearest_distance, 8.1e-4f * scale);
+        hemisphere.set_distance(0, 0, 1e-4f * (8.0f * scale));  // just as far counts
+        EXPECT_EQ(hemisphere.summarize().nearest_distance, 1e-4f * (8.0f * scale));
     }
 }
 

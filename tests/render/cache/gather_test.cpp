@@ -2,11 +2,9 @@
 // against differences of closed forms.
 
 #include "render/cache/gather.h"
-#include "tests/support/directions.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/penumbra.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -207,11 +205,6 @@ void expect_gradient(const std::function<double(const IrradianceSample&)>& predi
     }));
 }
 
-TEST(Gather, PatchIrradiance) {
-    Gathering gathering(Patch::make_scene());
-    expect_irradiance(gathering, glm::vec3(0.0f), up, Patch::irradiance(glm::dvec3(0.0), {0.0, 1.0, 0.0}), 0.03);
-}
-
 TEST(Gather, TranslationGradientAgainstDifferences) {
     expect_gradient([](const IrradianceSample& s) { return s.gradients.translation[0].x; },
                     [](double d) {
@@ -234,21 +227,6 @@ TEST(Gather, RotationGradientAgainstDifferences) {
             return static_cast<double>(glm::dot(axis, s.gradients.rotation[0]));
         },
         [&](double angle) { return Patch::irradiance(glm::dvec3(0.0), turned(angle)); }, 0.02);
-}
-
-TEST(Gather, RecordsExtrapolateTowardsTheTruth) {
-    Gathering gathering(Patch::make_scene());
-    Mean moved, kept;
-    const glm::vec3 place(0.12f, 0.0f, 0.05f), normal = glm::normalize(glm::vec3(0.1f, 1.0f, 0.0f));
-    const double truth = Patch::irradiance(glm::dvec3(place), glm::dvec3(normal));
-    for (std::uint32_t seed = 0; seed < 16; ++seed) {
-        const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 4096, seed);
-        // At this radius, the limit on gradients (|gradient| R <= E) does not change this steep one.
-        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, 1.0f, sample, {1e-3f, 0.5f}).value();
-        moved.add(std::abs(extrapolate(record, place, normal).x - truth));
-        kept.add(std::abs(record.irradiance.x - truth));
-    }
-    EXPECT_LT(moved.mean(), 0.35 * kept.mean());
 }
 
 }  // namespace

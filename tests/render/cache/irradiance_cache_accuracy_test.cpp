@@ -2,20 +2,16 @@
 // every step on the way there.
 // The work of a look-up in indices of very different sizes.
 
-#include <memory>
-
 #include "engine/load/load_scene.h"
 #include "render/cache/record_index.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/paths.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
 
 constexpr int small_width = 16, small_height = 12;
-/// Pictures of pixel centres, of so many seeds.
 PictureMeans render_runs(const Stage& stage, RenderSettings settings, std::uint32_t runs) {
     PictureMeans means;
     for (std::uint32_t run = 0; run < runs; ++run) {
@@ -101,7 +97,6 @@ Scene load_without_gloss(const std::string& name) {
     return scene;
 }
 
-/// A frame with the truth about its indirect light.
 struct JudgedFrame {
     JudgedFrame(const Scene& scene, double seconds) : stage(scene, 48, 36, seconds), truth(gather_truth(stage)) {}
 

@@ -4,12 +4,10 @@
 #include "tests/support/first_hits.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
 
-/// An open corner of three walls, lit, seen from inside.
 Scene make_corner() {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.8));
@@ -62,8 +60,7 @@ TEST(IrradianceCache, PlasticTakesInAsMuchGrazingLightAsPathsSay) {
 TEST(IrradianceCache, ARandomPathCountsByWhatEntersToo) {
     Gathering floor(make_plastic_floor());
     const LightingContext lighting = floor.stage.lighting();
-    const SurfacePoint point =
-        make_point(glm::vec3(0.5f, 0.0f, 0.0f) - glm::vec3(floor.stage.shading.anchor), {0.0f, 1.0f, 0.0f});
+    const SurfacePoint point = make_point(glm::vec3(0.5f, 0.0f, 0.0f) - glm::vec3(floor.stage.shading.anchor), up);
     SurfaceMaterial plastic;
     plastic.gloss.f0_max = 0.04f;
     plastic.gloss.f90_max = 1.0f;
@@ -97,7 +94,7 @@ Scene make_open_tiles() {
 TEST(IrradianceCache, IC06_ARecordInTheOpenDoesNotCoverTheNextObject) {
     const Stage stage(make_open_tiles(), 80, 40);
     Gathering tiles(make_open_tiles());
-    const glm::vec3 up(0.0f, 1.0f, 0.0f), anchor(stage.shading.anchor);
+    const glm::vec3 anchor(stage.shading.anchor);
     const glm::vec3 first = glm::vec3(-0.4f, 0.0f, 0.0f) - anchor, second = glm::vec3(10.3f, 0.0f, 0.0f) - anchor;
     const auto gather = [&](const glm::vec3& p) { return tiles.at(p, up, 1024); };
     const float largest = scene_radius(stage.shading);
@@ -143,7 +140,6 @@ TEST(IrradianceCache, IC10_WindingDoesNotMatterToATwoSidedSurface) {
     EXPECT_LT(difference, 0.01 * sum);
 }
 
-/// A closed room with a block in it and a lamp on the ceiling.
 Scene make_room() {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);

@@ -1,7 +1,6 @@
 // Irradiance records and their index: queries at a record, small angles, corners, walls, opposite normals, large
 // caches.
 
-#include "tests/support/directions.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/test.h"
 
@@ -145,7 +144,7 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
     broken.nearest_distance = 1.0f;
     broken.gradients.translation.fill(glm::vec3(float_infinity, 0.0f, 0.0f));
     broken.gradients.rotation.fill(glm::vec3(float_nan, 0.0f, 0.0f));
-    const IrradianceRecord record = make_record(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1.0f, broken, any_radius).value();
+    const IrradianceRecord record = make_record(glm::vec3(0.0f), up, 1.0f, broken, any_radius).value();
     EXPECT_EQ(extrapolate(record, glm::vec3(0.1f), {1.0f, 0.0f, 0.0f}), Rgb(1.0f));
 }
 

@@ -3,7 +3,6 @@
 
 #include "perception/vision/tvi.h"
 #include "tests/support/indirect_pictures.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

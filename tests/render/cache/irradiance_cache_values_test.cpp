@@ -1,6 +1,5 @@
 // Caches of two or three records, with weights, radii and averages by hand.
 
-#include "tests/support/directions.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -242,6 +241,42 @@ TEST(IrradianceCacheValues, BeyondTheClearanceARayDecides) {
         EXPECT_TRUE(cache.covers(query));
         EXPECT_EQ(task.counts.shadow, 2u);
     }
+}
+
+IrradianceRecord make_flat_record(const glm::vec3& position, float irradiance, float noise) {
+    return {.position = position,
+            .radius = 1.0f,
+            .normal = up,
+            .irradiance = Rgb(irradiance),
+            .noise = {.error = noise},
+            .accuracy = 0.2f};
+}
+
+TEST(RecordCorrection, AveragesLowerNoiseAndKeepEdges) {
+    constexpr float noise = 0.03f, edge = 0.4f;
+    std::mt19937 engine(5);
+    std::normal_distribution<float> deviate(0.0f, noise);
+    IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
+    for (int z = 0; z < 12; ++z) {
+        for (int x = 0; x < 24; ++x) {
+            const float light = x < 12 ? 1.0f : edge;
+            const glm::vec3 place(0.05f * static_cast<float>(x - 12) + 0.025f, 0.0f, 0.05f * static_cast<float>(z - 6));
+            cache.insert(make_flat_record(place, light * (1.0f + deviate(engine)), noise));
+        }
+    }
+    const auto squared_error = [&] {
+        double sum = 0.0;
+        for (const IrradianceRecord& record : cache.records()) {
+            const double light = record.position.x < 0.0f ? 1.0 : edge;
+            sum += std::pow(record.irradiance.x / light - 1.0, 2.0);
+        }
+        return sum / static_cast<double>(cache.records().size());
+    };
+    const double before = squared_error();
+    EXPECT_NEAR(before, noise * noise, 0.3 * noise * noise);
+    cache.finish();
+    EXPECT_EQ(cache.records().size(), 288u);
+    EXPECT_LT(squared_error(), 0.3 * before);
 }
 
 }  // namespace

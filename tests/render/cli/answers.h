@@ -8,7 +8,6 @@
 
 namespace aleph {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 using Words = std::vector<std::string>;

@@ -1,7 +1,6 @@
 // Options, progress and exit codes, without starting the program.
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include "render/cli/commands.h"
 #include "render/cli/scene_options.h"

@@ -11,7 +11,6 @@
 namespace aleph {
 namespace {
 
-/// Runs the program. @return what it prints on standard error, and its exit code
 Ended run_aleph(const Words& words) {
     const ScratchFolder folder;
     return StartedProgram(words, folder / "log").wait();

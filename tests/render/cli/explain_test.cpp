@@ -6,6 +6,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/explain/explain.h"
 #include "tests/render/expect_fields.h"
+#include "tests/support/quick_settings.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
 
@@ -36,8 +37,7 @@ Scene make_scene() {
 
 ordered_json explain(const Scene& scene) {
     RenderSettings settings;
-    settings.picture.width = 16;
-    settings.picture.height = 12;
+    set_size(settings, 16, 12);
     return explain_scene(scene, settings, "", choose_planned_frames(scene));
 }
 

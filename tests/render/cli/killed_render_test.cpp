@@ -16,7 +16,6 @@ class KilledRender : public ProgramTest {
         fs::create_directory(folder_ / "whole");
     }
 
-    /// A render of small frames.
     Words words(const std::string& frames, const fs::path& output, const Words& more = {}) const {
         const Words words{"render", folder_ / "scene.json", "--frames", frames, "-o", output, "--size", "32x24"};
         return joined(joined(words, {"--gather", "16", "--spp", "1", "-q"}), more);

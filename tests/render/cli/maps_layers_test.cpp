@@ -1,7 +1,9 @@
-// `aleph maps --images`: pictures of other programs, with layers, motion and depth of their own.
+// `aleph maps --images`: pictures of other programs, with layers, motion and depth of their own; the files that a
+// pattern names; and what is refused.
 
 #include "engine/image/image_file.h"
 #include "render/images/image_sequence.h"
+#include "render/settings/frame_pattern.h"
 #include "tests/render/cli/maps_images.h"
 
 namespace aleph {
@@ -11,7 +13,6 @@ void add_flat(ChannelImage& file, const std::string& name, float value) {
     file.channels.push_back({name, Image<float>(width, height, value)});
 }
 
-/// The picture in a layer of its own.
 ChannelImage in_layer(const std::string& layer, int frame) {
     ChannelImage file = make_color_image(picture(frame));
     for (Channel& channel : file.channels) channel.name = layer + '.' + channel.name;
@@ -21,11 +22,12 @@ ChannelImage in_layer(const std::string& layer, int frame) {
 /// A frame as Blender writes it: something that moves 3 pixels to the right and 2 up, before a far background.
 ChannelImage blender_frame(int frame) {
     ChannelImage file = in_layer("ViewLayer.Combined", frame);
-    add_flat(file, "ViewLayer.Vector.X", -1.0f);
-    add_flat(file, "ViewLayer.Vector.Y", 7.0f);
-    add_flat(file, "ViewLayer.Vector.Z", -3.0f);
-    add_flat(file, "ViewLayer.Vector.W", -2.0f);
-    add_flat(file, "ViewLayer.Depth.Z", 5.0f);
+    for (const auto& [name, value] : {std::pair("Vector.X", -1.0f),
+                                      {"Vector.Y", 7.0f},
+                                      {"Vector.Z", -3.0f},
+                                      {"Vector.W", -2.0f},
+                                      {"Depth.Z", 5.0f}})
+        add_flat(file, std::string("ViewLayer.") + name, value);
     return file;
 }
 
@@ -33,7 +35,6 @@ Image<float>& channel(ChannelImage& file, const std::string& name) {
     return const_cast<Image<float>&>(*file.find(name));
 }
 
-/// Writes frames 1 and 2, and runs maps on them.
 template <class Make>
 Ran maps_of(const Frames& frames, const Make& make, const Words& options = {}) {
     for (const int frame : {1, 2}) write_exr(frames.file(frame), make(frame));
@@ -71,12 +72,13 @@ TEST(MapsLayers, OurOwnMotionComesBackAsItWas) {
     const Frames frames(1, 0);
     const auto own = [](int frame) {
         ChannelImage file = make_color_image(picture(frame));
-        add_flat(file, "forward.u", 1.25f);
-        add_flat(file, "forward.v", -0.5f);
-        add_flat(file, "motion.valid", 1.0f);
-        add_flat(file, "backward.u", -1.5f);
-        add_flat(file, "backward.v", 0.25f);
-        add_flat(file, "backward.valid", -4.0f);
+        for (const auto& [name, value] : {std::pair("forward.u", 1.25f),
+                                          {"forward.v", -0.5f},
+                                          {"motion.valid", 1.0f},
+                                          {"backward.u", -1.5f},
+                                          {"backward.v", 0.25f},
+                                          {"backward.valid", -4.0f}})
+            add_flat(file, name, value);
         channel(file, "motion.valid")(3, 4) = -4.0f;
         add_flat(file, "Z", 2.0f);
         return file;
@@ -142,6 +144,107 @@ TEST(MapsLayers, AFrameWithoutMotionAmongFramesWithIt) {
     const Frames frames(1, 0);
     const auto make = [](int frame) { return frame == 1 ? blender_frame(1) : in_layer("ViewLayer.Combined", 2); };
     expect_answer(maps_of(frames, make), 2, "f.0002.exr: this frame has no motion");
+}
+
+void expect_refusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
+    const Ran ran = run_maps(arguments);
+    EXPECT_EQ(ran.code, 2) << ran.errors;
+    EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
+    for (const std::string& part : parts) EXPECT_THAT(ran.errors, HasSubstr(part));
+}
+
+TEST(MapsImages, GapsAreRefusedByName) {
+    const Frames frames(1, 4);
+    fs::remove(frames.file(3));
+    const std::string out = frames.out();
+    expect_refusal({"--images", frames.pattern(), "-o", out},
+                   {"frame 3 is missing", "f.0002.exr", "f.0004.exr", "--cuts 4"});
+    expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "1-3"}, {"frame 3 is"});
+    expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "9"}, {"frame 9 is not there", "from 1 to 4"});
+    EXPECT_FALSE(fs::exists(out));
+    for (const char* stretch : {"1", "1-2", "4"}) EXPECT_EQ(frames.run({"--frames", stretch}).code, 0) << stretch;
+    EXPECT_EQ(frames.run({"--cuts", "4"}).code, 0);
+}
+
+TEST(MapsImages, SizesMustAgree) {
+    const Frames frames(1, 2);
+    frames.write(3, make_pattern(20, 10, [](int, int) { return 0.5; }));
+    expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0003.exr", "20x10", "f.0001.exr", "72x56"});
+}
+
+TEST(MapsImages, RefusesWhatItCannotMean) {
+    const Frames frames(1, 2);
+    const std::string pattern = frames.pattern(), folder = frames.folder.path().string();
+    expect_refusal({}, {"--images"});
+    expect_refusal({"--images", pattern, "scene.json"}, {"--images", "quotes"});
+    expect_refusal({"--images", frames.file(1).string(), frames.file(2).string()}, {"quotes"});
+    expect_refusal({"--images", folder}, {"folder", "name.####.exr"});
+    expect_refusal({"--images", folder + "/g.####.exr"}, {"no file fits"});
+    expect_refusal({"--images", folder + "/f.##.exr"}, {"f.0001.exr would"});
+    expect_refusal({"--images", folder + "/none.exr"}, {"no such file"});
+    expect_refusal({"--images", "/no/such/f.####.exr"}, {"no such folder"});
+    expect_refusal({"--images", folder + "/f.%x.exr"}, {"after '%'"});
+    for (const char* source : {"model", "raster"})
+        expect_refusal({"--images", pattern, "--motion", source}, {"motion", source, "needs a scene"});
+    expect_refusal({"--images", pattern, "--size", "64x48"}, {"size", "needs a scene"});
+    expect_refusal({"--images", pattern, "--camera", "main"}, {"--camera"});
+    expect_refusal({"--images", pattern, "--exposure", "0"}, {"--exposure"});
+    expect_refusal({"--images", pattern, "--cuts", "x"}, {"--cuts"});
+    expect_refusal({"--images", pattern, "--fps", "0"}, {"--fps"});
+    expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"possible are .exr and .png"});
+    expect_refusal({"--images", pattern, "-o", pattern}, {"--output", "is read by this command"});
+    expect_refusal({"scene.json", "--cuts", "3"}, {"--cuts"});
+}
+
+TEST(MapsImages, UnreadablePicturesAreNamed) {
+    const Frames frames(1, 2);
+    std::ofstream(frames.file(2)) << "not a picture";
+    expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0002.exr"});
+    ChannelImage depth;
+    depth.channels.push_back({"Z", Image<float>(width, height)});
+    write_exr(frames.file(2), depth);
+    expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0002.exr", "channels R, G and B"});
+}
+
+TEST(MapsImages, FindsFilesByPattern) {
+    const ScratchFolder folder;
+    for (const char* name : {"f.0001.exr", "f.0010.exr", "f.-003.exr", "f.12345.exr", "f.00011.exr", "f.1.exr",
+                             "f.0002.exr.part", "g.0001.exr", "f.x.exr", "f..exr"}) {
+        std::ofstream(folder / name) << "x";
+    }
+    std::vector<std::int64_t> numbers;
+    for (const auto& [number, path] : find_frame_files((folder / "f.####.exr").string())) {
+        numbers.push_back(number);
+        EXPECT_TRUE(fs::exists(path));
+    }
+    EXPECT_EQ(numbers, (std::vector<std::int64_t>{-3, 1, 10, 12345}));
+    EXPECT_EQ(find_frame_files((folder / "f.%d.exr").string()).size(), 2u);  // 1 and 12345
+}
+
+TEST(MapsImages, TheOtherFrameOfAFrame) {
+    FrameFiles files;
+    for (const int frame : {1, 2, 3, 10, 11}) files[frame] = "f";
+    const std::vector<std::int64_t> cuts = {10};
+    EXPECT_EQ(find_other_frame(files, cuts, 1), OtherFrame::next);
+    EXPECT_EQ(find_other_frame(files, cuts, 3), OtherFrame::none);
+    EXPECT_EQ(find_other_frame(files, cuts, 11), OtherFrame::previous);
+    EXPECT_EQ(find_other_frame(files, {}, 3), OtherFrame::previous) << "before a gap";
+    EXPECT_EQ(find_other_frame(files, {}, 10), OtherFrame::next) << "behind a gap";
+    EXPECT_EQ(find_other_frame({{1, "f"}, {5, "f"}}, {}, 1), OtherFrame::none);
+    EXPECT_EQ(find_other_frame(files, {2, 3}, 2), OtherFrame::none);
+    EXPECT_THROW(find_other_frame(files, cuts, 4), InputError);
+    EXPECT_THROW(find_other_frame({}, cuts, 4), InputError);
+    EXPECT_EQ(find_other_frame({{5, "f"}}, {}, 5), OtherFrame::none);
+}
+
+TEST(MapsImages, AGapIsRefusedWhereFramesOfBothSidesAreAsked) {
+    FrameFiles files;
+    for (const int frame : {1, 2, 3, 10, 11}) files[frame] = "f";
+    EXPECT_NO_THROW(refuse_gaps(files, {}, {1, 2, 3}));
+    EXPECT_NO_THROW(refuse_gaps(files, {10}, {1, 2, 3, 10, 11}));
+    EXPECT_THAT(find_refusal([&] { refuse_gaps(files, {}, {1, 2, 3, 10, 11}); }).message,
+                HasSubstr("frames 4 to 9 are missing"));
+    EXPECT_THROW(refuse_gaps(files, {}, {4}), InputError);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // --watch: renders again when a file of the scene changes, and outlives broken files.
 
 #include <arpa/inet.h>
-#include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
@@ -85,7 +84,6 @@ constexpr const char* watching = "; Ctrl-C ends\n";
 
 class Watch : public ProgramTest {
   protected:
-    /// Starts a watched render of a scene with a lamp and a painted wall.
     StartedProgram start(const Words& more) const {
         put_lamp("lamp.gltf", "[1, 1, 1]");
         put_paint(Rgb(0.8f));
@@ -105,7 +103,6 @@ class Watch : public ProgramTest {
                               include + R"("]},
             {"shape": {"type": "quad", "size": [9, 9]}, "material": {"base_color_texture": "paint"}}]})");
     }
-    /// A glTF file with a lamp.
     void put_lamp(const std::string& name, const std::string& color) const {
         put(name, R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"], "extensions":
             {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 4, "color": )" +
@@ -114,7 +111,6 @@ class Watch : public ProgramTest {
             "nodes": [{"translation": [0, 1, 2], "extensions": {"KHR_lights_punctual": {"light": 0}}}]})");
     }
     void put_paint(const Rgb& color) const { write_png(folder_ / "paint.png", Image<Rgb>(4, 4, color)); }
-    /// Mean of the picture's channels.
     Rgb color() const {
         const ChannelImage image = read_image(folder_ / "out.png");
         Rgb sum(0.0f);

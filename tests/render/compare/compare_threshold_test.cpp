@@ -33,21 +33,9 @@ double two_sided(double limit) {
     return std::erfc(limit / std::numbers::sqrt2);
 }
 
-TEST(RatioHistogram, CountsAndPercentiles) {
-    RatioHistogram histogram;
-    EXPECT_EQ(histogram.percentile(0.99), 0.0);
-    for (int i = 1; i <= 1000; ++i) histogram.add(i, 100.0);
-    EXPECT_EQ(histogram.count(), 1000u);
-    EXPECT_EQ(histogram.beyond(), 900u);
-    EXPECT_DOUBLE_EQ(histogram.worst(), 10.0);
-    for (const double share : {0.001, 0.1, 0.5, 0.99, 1.0}) {
-        const double exact = 10.0 * share;
-        EXPECT_NEAR(histogram.percentile(share), exact, 0.00501 * exact) << share;
-    }
-}
-
 TEST(RatioHistogram, NoDifferenceIsZeroWhateverTheThreshold) {
     RatioHistogram histogram;
+    EXPECT_EQ(histogram.percentile(0.99), 0.0);
     histogram.add(0.0, 0.0);
     histogram.add(0.0, 1e-30);
     EXPECT_EQ(histogram.beyond(), 0u);

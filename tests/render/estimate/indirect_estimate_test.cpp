@@ -20,7 +20,6 @@ Image<Rgb> estimate(const Stage& stage, bool indirect, RayCounts& counts) {
     return compute_estimate(stage.lighting(), stage.view, centers, {.indirect = nodes ? &*nodes : nullptr}, counts);
 }
 
-/// Luminance that indirect light adds to the estimate.
 Image<float> indirect_part(const Stage& stage) {
     RayCounts counts;
     const Image<Rgb> with = estimate(stage, true, counts), without = estimate(stage, false, counts);
@@ -31,7 +30,6 @@ Image<float> indirect_part(const Stage& stage) {
     return part;
 }
 
-/// A room of 4 m with a lamp in it.
 Scene make_room() {
     Scene scene;
     const int grey = add_lambert(scene, glm::dvec3(0.6), glm::dvec3(0.0), true);

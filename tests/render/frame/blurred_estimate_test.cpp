@@ -1,9 +1,9 @@
 // Maps of a frame whose shutter or lens is open: motion at the shutter's centre, an estimate blurred as the picture is.
+// Outlines of fast things before a wall at rest: samples there show both, so the wall's threshold holds.
 
 #include "render/frame/frame_estimate.h"
 #include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -76,7 +76,6 @@ TEST(BlurredEstimate, AMovingSquareCoversItsShareOfTheTime) {
         sum_expected += expected;
     }
     EXPECT_NEAR(sum, sum_expected, 0.01 * sum_expected);
-    // Above and below the square nothing moves.
     for (int x = 0; x < width; ++x) EXPECT_NEAR(out.estimate(x, 2).x, 0.1f, 1e-6f);
 }
 
@@ -113,6 +112,74 @@ TEST(BlurredEstimate, ALensBlursByTheCircleOfConfusion) {
     EXPECT_NEAR(sum, 0.7 * 0.25 * pixels_per_metre * pixels_per_metre, 0.5);
     // A disc of radius r has the second keyframe r^2 / 2, a square of side s s^2 / 6.
     EXPECT_NEAR(squares / sum, 0.5 + 0.25 / 6.0, 0.05);
+}
+
+constexpr int outline_width = 36, outline_height = 24;
+constexpr double outline_pixel = 0.125;  // m
+
+/// Bars of a few pixels that shine, and a plate 1.5 m wide before them that moves by 12 pixels a frame.
+Scene make_wall(bool plate) {
+    Scene scene;
+    const int bright = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.30)),
+              dark = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.22)),
+              moving = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.38));
+    for (int i = 0; i < 24; ++i) {
+        add_mesh(scene, make_quad(0.3, 8.0, i % 2 == 0 ? bright : dark), {0.3 * i - 3.45, 0.0, 0.0});
+    }
+    if (plate) {
+        const int node = add_mesh(scene, make_quad(1.5, 2.2, moving));
+        scene.nodes[node].transform.translation =
+            keyed<glm::dvec3>({0.0, 10.0 / 30.0}, {{-1.2, 0.1, 1.0}, {13.8, 0.1, 1.0}});
+    }
+    add_flat_view(scene, 0.5 * outline_height * outline_pixel);
+    return scene;
+}
+
+RenderSettings outline_settings(PixelFilter filter) {
+    RenderSettings settings;
+    set_size(settings, outline_width, outline_height);
+    settings.picture.filter = filter;
+    settings.cache.light_step = 0;
+    settings.light.bounces = 0;
+    return settings;
+}
+
+struct MovingOutline : testing::TestWithParam<PixelFilter> {};
+INSTANTIATE_TEST_SUITE_P(Filters, MovingOutline, testing::Values(PixelFilter::box, PixelFilter::blackman_harris));
+
+TEST_P(MovingOutline, MC27_IsWithinTheThresholdOfTheWall) {
+    constexpr std::int64_t frame = 1;
+    RenderSettings settings = outline_settings(GetParam());
+    settings.sampling.spp = 256;
+    settings.perception.guide = Guide::none;
+    const Image<Rgb> reference = Sequence(make_wall(true), settings).render(frame).shaded.color;
+    int beyond = 0, outline = 0;
+    float least = 1e30f, most = 0.0f;
+    for (std::uint32_t seed = 0; seed < 2; ++seed) {
+        settings = outline_settings(GetParam());
+        follow_error(settings, 1.0);
+        settings.seed = seed;
+        const FrameOutput wall =
+            Sequence(make_wall(false), settings).render(frame, {.frame = false, .maps = true, .progress = {}});
+        const FrameOutput out = Sequence(make_wall(true), settings).render(frame);
+        for (int y = 1; y < outline_height - 1; ++y) {
+            for (int x = 1; x < outline_width - 1; ++x) {
+                const auto moves = [&](int i, int j) { return out.hits(i, j).instance == 24; };
+                const int near = moves(x - 1, y) + moves(x + 1, y) + moves(x, y - 1) + moves(x, y + 1) + moves(x, y);
+                if (near == 0 || near == 5) continue;
+                ++outline;
+                const float error = std::abs(luminance(out.shaded.color(x, y)) - luminance(reference(x, y))) *
+                                    static_cast<float>(make_wall(true).film.viewing.display_white);
+                if (error > wall.limits.threshold(x, y)) ++beyond;
+                const float ratio = out.limits.threshold(x, y) / wall.limits.threshold(x, y);
+                least = std::min(least, ratio);
+                most = std::max(most, ratio);
+            }
+        }
+    }
+    ASSERT_GT(outline, 130);
+    EXPECT_GT(most, 2.0f * least);  // the plate's own threshold is far looser
+    EXPECT_LE(beyond, outline / 200) << outline;
 }
 
 }  // namespace

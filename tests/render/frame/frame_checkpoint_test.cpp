@@ -7,8 +7,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct StoppedHere : std::exception {};
 
 struct CheckpointCase {
@@ -108,8 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(PartialPicture, ShowsAllPixelsSoFar) {
     RenderSettings settings = small_settings();
-    settings.picture.width = 40;
-    settings.picture.height = 30;
+    set_size(settings, 40, 30);
     settings.sampling.spp = 16;
     Sequence sequence(pool_scene(), settings);
     FrameRequest request;

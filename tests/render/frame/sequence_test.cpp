@@ -6,7 +6,6 @@
 
 #include "tests/support/keyed_track.h"
 #include "tests/support/perception_scene.h"
-#include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -27,7 +26,6 @@ Scene make_moving_scene() {
     return scene;
 }
 
-/// Renders the pictures of two frames of a sequence.
 std::vector<Image<Rgb>> render_two(Sequence& sequence) {
     std::vector<Image<Rgb>> pictures;
     for (const int frame : {0, 15}) pictures.push_back(sequence.render(frame).shaded.color);
@@ -43,7 +41,6 @@ TEST(Sequence, SeesWithAProgramsOwnModelOfVision) {
     EXPECT_EQ(frame.limits.alpha, Image<float>(40, 30, static_cast<float>(settings.cache.accuracy)));
 }
 
-/// Share of the pixels that two frames have in common.
 double share_equal(const Image<Rgb>& a, const Image<Rgb>& b) {
     const auto equal =
         std::inner_product(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), 0, std::plus<>(), std::equal_to<>());
@@ -135,9 +132,8 @@ TEST(SequenceCameras, EachLooksFromItsFrameOn) {
     scene.film.exposure = 1.0;
     Sequence both(scene, settings), eye(scene, settings, "eye"), close(scene, settings, "close");
     for (const int frame : {-3, 0, 9, 10, 25}) {
-        const FrameOutput out = both.render(frame, {.frame = true, .maps = true, .progress = {}});
-        const FrameOutput expected =
-            (frame < 10 ? eye : close).render(frame, {.frame = true, .maps = true, .progress = {}});
+        const FrameOutput out = both.render(frame, {.maps = true, .progress = {}});
+        const FrameOutput expected = (frame < 10 ? eye : close).render(frame, {.maps = true, .progress = {}});
         EXPECT_TRUE(out.surface.depth.pixels == expected.surface.depth.pixels) << frame;
         const bool is_last_of_shot = frame == 9;
         EXPECT_EQ(std::ranges::count(out.motion.validity.pixels, MotionValidity::valid) == 0, is_last_of_shot);
@@ -171,7 +167,6 @@ TEST(SequenceCameras, KeysAscendAndNameCameras) {
 
 const auto maps_only = FrameRequest{.frame = false, .maps = true, .progress = {}};
 
-/// Returns whether no surface has motion.
 bool is_without_motion(const MotionField& motion) {
     return std::ranges::none_of(motion.validity.pixels, [](MotionValidity v) { return v == MotionValidity::valid; });
 }

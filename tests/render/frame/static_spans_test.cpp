@@ -3,7 +3,6 @@
 #include "render/frame/static_spans.h"
 #include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -12,7 +11,6 @@ namespace {
 
 constexpr int frames = 15;
 
-/// A key in every frame.
 template <class T, class ValueAt>
 Track<T> make_keys(const Scene& scene, const ValueAt& value_at) {
     Track<T> track;
@@ -212,7 +210,7 @@ TEST(StaticFrame, IsNotACopyWithOtherContents) {
     const RenderSettings settings = quick_settings(24, 16);
     Sequence sequence(make_seen_scene(), settings), other(make_seen_scene(), settings);
     sequence.render(5);
-    const FrameRequest maps{.frame = true, .maps = true, .progress = {}};
+    const FrameRequest maps{.maps = true, .progress = {}};
     const FrameOutput with_maps = sequence.render(6, maps);
     EXPECT_FALSE(with_maps.surface.depth.empty());
     EXPECT_GT(with_maps.statistics.traced.all, 0u);

@@ -1,7 +1,10 @@
-// Bright surfaces against closed forms.
+// Light rays, and the bright surfaces that they find, against closed forms.
+
+#include <numeric>
 
 #include "render/light/bright_surfaces.h"
-
+#include "render/light/light_rays.h"
+#include "tests/support/penumbra.h"
 #include "tests/support/shaded_lamp.h"
 #include "tests/support/test.h"
 
@@ -26,13 +29,6 @@ TEST(BrightSurfaces, AreTheInsideOfAShade) {
     EXPECT_NEAR(reflected, 0.8 * 4.0 * 0.200044 * 100.0 * pi * ShadedLamp::side * ShadedLamp::side, 0.01 * reflected);
 }
 
-/// Share of what leaves a point of a plane in all directions that meets a rectangle parallel to it at distance 1, of
-/// which a corner faces the point (Howell 2010, B-3).
-double find_factor(double width, double depth) {
-    const double a = std::sqrt(1.0 + width * width), b = std::sqrt(1.0 + depth * depth);
-    return (width / a * std::atan(depth / a) + depth / b * std::atan(width / b)) / (2.0 * std::numbers::pi);
-}
-
 /// A lamp close above a wide floor of two triangles.
 TEST(BrightSurfaces, ArePartsOfLargeTriangles) {
     constexpr double above = 0.25, radiance = 50.0, albedo = 0.5;  // m, cd/m2
@@ -54,8 +50,8 @@ TEST(BrightSurfaces, ArePartsOfLargeTriangles) {
         double factor = 0.0;
         for (const double x : {-1.0, 1.0}) {
             for (const double z : {-1.0, 1.0}) {
-                factor += find_factor((0.5 * ShadedLamp::side + x * place.x) / above,
-                                      (0.5 * ShadedLamp::side + z * place.z) / above);
+                factor +=
+                    corner_factor(0.5 * ShadedLamp::side + x * place.x, 0.5 * ShadedLamp::side + z * place.z, above);
             }
         }
         return albedo * radiance * factor;
@@ -91,7 +87,7 @@ TEST(BrightSurfaces, AreMetFromTheirBrightSideOnly) {
     EXPECT_NE(find(inside, {1.0f, 0.0f, 0.0f}), no_index);
     EXPECT_EQ(find(inside + glm::vec3(2.0f, 0.0f, 0.0f), {-1.0f, 0.0f, 0.0f}), no_index);
     EXPECT_EQ(find(inside, {0.0f, -1.0f, 0.0f}), no_index);  // the floor
-    EXPECT_EQ(find(inside + glm::vec3(2.0f, 0.0f, 0.0f), {0.0f, 1.0f, 0.0f}), no_index);
+    EXPECT_EQ(find(inside + glm::vec3(2.0f, 0.0f, 0.0f), up), no_index);
 }
 
 TEST(BrightSurfaces, AreNoneWhereNothingStandsOut) {
@@ -134,6 +130,121 @@ TEST(BrightSurfaces, ArePlacesInSunlightThatFaceTheRoom) {
     }
     EXPECT_LT(area, 1.5 * 2.0 * reach);  // some are lit in part
     EXPECT_NEAR(reflected, 0.5 * 10.0 * std::sin(0.6) * 2.0 * reach, 0.1 * reflected);
+}
+
+constexpr double wall_albedo = 0.4;
+
+/// The inside of a cube with edges of 2 m about the origin.
+void add_box(Scene& scene) {
+    const Mesh wall = make_quad(2.0, 2.0, add_lambert(scene, glm::dvec3(wall_albedo)));
+    for (int i = 0; i < 4; ++i) {
+        const double angle = i * std::numbers::pi / 2;
+        add_mesh(scene, wall, {-std::sin(angle), 0.0, -std::cos(angle)}, turn_about_y(angle));
+    }
+    add_mesh(scene, wall, {0.0, -1.0, 0.0}, z_to_up);
+    add_mesh(scene, wall, {0.0, 1.0, 0.0}, z_to_down);
+}
+
+/// Light that each instance reflects on the side that its normal points to, lm.
+std::vector<double> add_light_rays(Scene scene, const LightTarget& target = {{}, 2.0f}, std::size_t rays = 40000) {
+    const Stage stage(std::move(scene));
+    RayCounts counts;
+    std::vector<double> sums(stage.shading.instances.size());
+    const std::vector<LitPlace> places = cast_light_rays(stage.lighting(), target, rays, counts);
+    EXPECT_EQ(places.size(), rays);
+    EXPECT_GE(counts.gather, rays);
+    for (const LitPlace& place : places) {
+        if (place.instance != no_index && !place.behind) sums[place.instance] += place.reflected;
+    }
+    return sums;
+}
+
+Scene make_square() {
+    Scene scene;
+    add_mesh(scene, make_quad(2.0, 2.0, add_lambert(scene, glm::dvec3(wall_albedo))), {0.3, 0.0, 0.0}, z_to_up);
+    return scene;
+}
+
+TEST(LightRays, OfAPointLightAreAsManyInAllDirections) {
+    Scene scene;
+    add_box(scene);
+    add_light(scene, Light::Kind::point, glm::dvec3(3.0), {0.0, 0.0, 0.0});
+    const std::vector<double> walls = add_light_rays(std::move(scene));
+    ASSERT_EQ(walls.size(), 6u);
+    for (const double wall : walls) EXPECT_NEAR(wall, wall_albedo * 3.0 * 4.0 * std::numbers::pi / 6.0, 0.02 * wall);
+}
+
+/// Its light falls with the square of the cosine between its cones: a third of the solid angle between them counts.
+TEST(LightRays, OfASpotHaveItsLight) {
+    for (const double inner : {0.2, 0.5}) {
+        SCOPED_TRACE(inner);
+        constexpr double outer = 0.5;
+        Scene scene;
+        add_box(scene);
+        add_light(scene, Light::Kind::spot, glm::dvec3(3.0), {0.2, 0.0, -0.1});
+        scene.lights.back().inner_cone = Track<double>(inner);
+        scene.lights.back().outer_cone = Track<double>(outer);
+        const std::vector<double> walls = add_light_rays(std::move(scene));
+        const double full = 1.0 - std::cos(inner), fading = std::cos(inner) - std::cos(outer);
+        const double expected = wall_albedo * 3.0 * 2.0 * std::numbers::pi * (full + fading / 3.0);
+        EXPECT_NEAR(walls.front(), expected, 0.01 * expected);  // it shines along -z
+        EXPECT_EQ(std::accumulate(walls.begin() + 1, walls.end(), 0.0), 0.0);
+    }
+}
+
+/// Halves of the rays go by power and to each lamp alike: neither changes what they bring.
+TEST(LightRays, OfSeveralLightsBringTheLightOfEach) {
+    Scene scene;
+    add_box(scene);
+    add_lamp(scene, 0.1, glm::dvec3(500.0), {0.0, 0.5, 0.0});
+    add_light(scene, Light::Kind::point, glm::dvec3(0.05), {0.0, 0.0, 0.0});
+    add_light(scene, Light::Kind::point, glm::dvec3(0.5), {0.0, 0.1, 0.0});
+    add_light(scene, Light::Kind::directional, glm::dvec3(5.0), {});  // shut out
+    const std::vector<double> walls = add_light_rays(std::move(scene));
+    const double expected = wall_albedo * (500.0 * 0.01 * std::numbers::pi + 0.55 * 4.0 * std::numbers::pi);
+    // The lamp itself is black, and stops a little of the points' light.
+    EXPECT_NEAR(std::accumulate(walls.begin(), walls.end(), 0.0), expected, 0.01 * expected);
+}
+
+TEST(LightRays, BringNothingBeyondARange) {
+    Scene scene;
+    add_box(scene);
+    add_light(scene, Light::Kind::point, glm::dvec3(3.0), {0.0, 0.0, 0.0});
+    scene.lights.back().range = Track<double>(0.9);
+    for (const double wall : add_light_rays(std::move(scene))) EXPECT_EQ(wall, 0.0);
+}
+
+TEST(LightRays, OfTheSunCrossTheTarget) {
+    for (const double angle : {0.4, 1.3}) {
+        for (const LightTarget target : {LightTarget{{}, 2.0f}, LightTarget{{0.5f, 0.5f, 0.0f}, 3.0f}}) {
+            Scene scene = make_square();
+            add_light(scene, Light::Kind::directional, glm::dvec3(3.0), {},
+                      glm::angleAxis(-angle, glm::dvec3(1.0, 0.0, 0.0)));
+            const double expected = wall_albedo * 3.0 * 4.0 * std::sin(angle);
+            EXPECT_NEAR(add_light_rays(std::move(scene), target).front(), expected, 0.03 * expected);
+        }
+    }
+}
+
+TEST(LightRays, OfTheSkyComeFromAllAround) {
+    for (const bool picture : {false, true}) {
+        Scene scene = make_square();
+        if (picture) add_surroundings(scene, Image<Rgb>(8, 4, Rgb(1.0f)));
+        scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(3.0));
+        const double expected = wall_albedo * std::numbers::pi * 3.0 * 4.0;
+        EXPECT_NEAR(add_light_rays(std::move(scene)).front(), expected, 0.03 * expected);
+    }
+}
+
+/// A sheet reflects 4 % of light that meets it along its normal.
+TEST(LightRays, PassSheetsOfGlass) {
+    Scene scene = make_square();
+    Material glass{.gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}};
+    scene.materials.push_back(glass);
+    add_mesh(scene, make_quad(8.0, 8.0, static_cast<int>(scene.materials.size()) - 1), {0.0, 1.0, 0.0}, z_to_up);
+    add_light(scene, Light::Kind::directional, glm::dvec3(3.0), {}, z_to_up);  // along -z of its node
+    const double expected = wall_albedo * 3.0 * 4.0 * 0.96;
+    EXPECT_NEAR(add_light_rays(std::move(scene)).front(), expected, 0.01 * expected);
 }
 
 }  // namespace

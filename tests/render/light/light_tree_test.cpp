@@ -119,7 +119,7 @@ TEST(LightTree, TheBoundOfATexturedLampIsThatOfItsBrightestTexel) {
         add_lamp(scene, 0.5, glm::dvec3(1.0), {0.0, 2.0, 0.0});
         scene.materials[0].textures[TextureSlot::emission] = {.image = 0, .nearest = true};
         const Stage stage(std::move(scene));
-        const Receiver receiver{{0.3f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}};
+        const Receiver receiver{{0.3f, 0.0f, 0.1f}, up};
         const double brought = find_illuminances(stage, receiver).front();
         const LightReaches reaches = reach_of(stage.lights.tree.groups.front(), receiver);
         EXPECT_GT(brought, 0.0);

@@ -3,10 +3,8 @@
 #include "render/light/lights.h"
 #include "engine/base/sampling.h"
 #include "render/light/seen_light.h"
-#include "tests/support/directions.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -150,7 +148,7 @@ TEST(Lights, SphericalTriangleIsUniformInSolidAngle) {
         }
         for (int c = 0; c < 3; ++c) trial.near(mean[c], truth[c] / total);
     }));
-    EXPECT_EQ(solid_angle({1.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}), 0.0f);
+    EXPECT_EQ(solid_angle({1.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, up), 0.0f);
 }
 
 TEST(Lights, TexturedLampHasTheTexturesMeanPower) {

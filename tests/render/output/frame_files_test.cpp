@@ -6,6 +6,7 @@
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
 #include "tests/support/paths.h"
+#include "tests/support/quick_settings.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
 
@@ -19,14 +20,13 @@ struct Rendered {
     double exposure = 0.0;
 
     explicit Rendered(std::int64_t frame) {
-        settings.picture.width = 48;
-        settings.picture.height = 36;
+        set_size(settings, 48, 36);
         settings.sampling.spp = 1;
         settings.cache.gather = 16;
         settings.light.light_samples = 2;
         settings.cache.light_step = 0;  // the quick estimate is gathered in the frame
         Sequence sequence(scene, settings);
-        output = sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
+        output = sequence.render(frame, {.maps = true, .progress = {}});
         exposure = sequence.exposure();
     }
     ChannelImage image() const { return make_frame_image(output, true, scene, settings, exposure); }

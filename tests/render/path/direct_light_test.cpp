@@ -1,12 +1,9 @@
 // Direct light against closed forms: point, directional, area and environment light; multiple importance sampling.
 
 #include "render/path/direct_light.h"
-#include "tests/support/directions.h"
 #include "tests/support/lobes.h"
 #include "tests/support/penumbra.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -99,7 +96,6 @@ Scene make_square_lamp(const glm::dquat& turn, bool double_sided, double size = 
     return scene;
 }
 
-/// The form factor of a square, by its four corners.
 double square_factor(double size, double height) {
     return 4.0 * corner_factor(0.5 * size, 0.5 * size, height);
 }

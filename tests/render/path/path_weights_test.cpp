@@ -1,6 +1,5 @@
 // Paths weigh light sampling against lobe sampling: the mean must be that of either alone.
 
-#include "tests/support/directions.h"
 #include "tests/support/lobes.h"
 #include "tests/support/path_estimates.h"
 #include "tests/support/test.h"
@@ -158,7 +157,7 @@ TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
     sheet.gloss.alpha = 0.0f;
     const glm::vec3 view = glm::normalize(glm::vec3(-0.4f, 0.9f, 0.2f));
     for (const SurfaceMaterial& material : {make_metal(0.0f), sheet}) {
-        const ViewedSurface surface{make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1e-4f), material, view};
+        const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, view};
         EXPECT_TRUE(holds([&](Trial& trial) {
             const Mean paths = estimate(stage, surface, trial.times(5000), by_paths(2, 3), 1 + trial.seed);
             trial.near(paths, estimate(stage, surface, trial.times(10'000), by_lobes(3), 2 + trial.seed), 1e-6);
@@ -188,8 +187,7 @@ TEST(PathWeights, LightPassesAThinSheet) {
     textured.images.push_back({.floats = Image<glm::vec4>(1, 1)});
     textured.materials[1].textures[TextureSlot::thickness].image = 0;
     EXPECT_TRUE(Stage(textured).shading.has_thin_glass) << "texels may be 0";
-    const ViewedSurface floor{
-        make_point({0.2f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}, 1e-4f), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}};
+    const ViewedSurface floor{make_point({0.2f, 0.0f, 0.1f}, up, 1e-4f), make_lambert(0.6f), up};
     for (const Stage* stage : {&clear, &rough}) {
         EXPECT_TRUE(holds([&](Trial& trial) {
             trial.near(estimate(*stage, floor, trial.times(20'000), by_paths(4, 4), 1 + trial.seed),
@@ -209,8 +207,7 @@ TEST(PathWeights, LightPassesAThinSheet) {
 /// The light sample of the last surface leaves a part of its weight to the ray, which looks through the sheet too.
 TEST(PathWeights, TheLastSurfaceSeesALargeLampThroughASheet) {
     const Stage stage(make_sheet_scene(0.0, 8.0));
-    const ViewedSurface floor{
-        make_point({0.2f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}, 1e-4f), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}};
+    const ViewedSurface floor{make_point({0.2f, 0.0f, 0.1f}, up, 1e-4f), make_lambert(0.6f), up};
     EXPECT_TRUE(holds([&](Trial& trial) {
         trial.near(estimate(stage, floor, trial.times(40'000), by_paths(3, 1), 1 + trial.seed),
                    estimate(stage, floor, trial.times(40'000), by_paths(3, 2), 2 + trial.seed));

@@ -1,7 +1,10 @@
 // A moving truck and a lit box, our own models (tests/assets/gltf/author_models.py) and, where they are there, those
 // that other programs wrote: they move and render.
+// Motion of a scene's frames from their quick estimates (--motion census, image, flow), and from rasterized maps.
 
 #include "engine/load/load_scene.h"
+#include "motion/picture_motion.h"
+#include "motion/raster.h"
 #include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
@@ -36,23 +39,21 @@ INSTANTIATE_TEST_SUITE_P(All, BoxRender, testing::Values("lamp_box.glb", "Cornel
 TEST_P(TruckRender, RollsItsWheelsAndNothingElse) {
     const Scene scene = load_scene(file_);
     Sequence sequence(scene, small_settings());
-    const FrameOutput output = sequence.render(3, {.frame = true, .maps = true, .progress = {}});
+    const FrameOutput output = sequence.render(3, {.maps = true, .progress = {}});
     const ScenePose frame = pose(scene, scene.film.frame_rate.seconds_of(3));
     int wheel_pixels = 0, body_pixels = 0;
     double fastest = 0.0;
-    for (int y = 0; y < output.view.height; ++y) {
-        for (int x = 0; x < output.view.width; ++x) {
-            const Hit& hit = output.hits(x, y);
-            if (hit.instance == no_index) continue;
-            const int node = frame.instances[hit.instance].node;
-            const double moved = glm::length(output.motion.displacement(x, y));
-            if (is_animated(scene.nodes[node].transform.rotation)) {
-                ++wheel_pixels;
-                fastest = std::max(fastest, moved);
-            } else {
-                ++body_pixels;
-                EXPECT_EQ(moved, 0.0) << x << ", " << y;
-            }
+    for (const auto [x, y] : all_pixels(output.view)) {
+        const Hit& hit = output.hits(x, y);
+        if (hit.instance == no_index) continue;
+        const int node = frame.instances[hit.instance].node;
+        const double moved = glm::length(output.motion.displacement(x, y));
+        if (is_animated(scene.nodes[node].transform.rotation)) {
+            ++wheel_pixels;
+            fastest = std::max(fastest, moved);
+        } else {
+            ++body_pixels;
+            EXPECT_EQ(moved, 0.0) << x << ", " << y;
         }
     }
     EXPECT_GT(wheel_pixels, 20);
@@ -96,14 +97,12 @@ TEST_P(BoxRender, BleedsColour) {
     // The light that the bounce adds has the walls' colours: reddish on one side of the picture, greenish on the other.
     Rgb left(0.0f), right(0.0f);
     double more = 0.0, less = 0.0;  // reflections are sampled, so single pixels may get darker
-    for (int y = 0; y < 72; ++y) {
-        for (int x = 0; x < 96; ++x) {
-            const Rgb added = full.shaded.color(x, y) - direct.shaded.color(x, y);
-            (luminance(added) >= 0.0f ? more : less) += luminance(added);
-            const auto& hit = full.hits(x, y);
-            if (hit.instance == no_index) continue;
-            (x < 48 ? left : right) += added;
-        }
+    for (const auto [x, y] : all_pixels(96, 72)) {
+        const Rgb added = full.shaded.color(x, y) - direct.shaded.color(x, y);
+        (luminance(added) >= 0.0f ? more : less) += luminance(added);
+        const auto& hit = full.hits(x, y);
+        if (hit.instance == no_index) continue;
+        (x < 48 ? left : right) += added;
     }
     EXPECT_LT(-less, 0.05 * more);
     const float left_tint = (left.x - left.y) / luminance(left), right_tint = (right.x - right.y) / luminance(right);
@@ -112,6 +111,113 @@ TEST_P(BoxRender, BleedsColour) {
     // Neither the scene nor the camera moves.
     const FrameOutput maps = Sequence(scene, settings).render(0, {.frame = false, .maps = true, .progress = {}});
     for (const glm::dvec2& d : maps.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
+}
+
+TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
+    const Scene scene = load_scene(source_folder() / "scenes/pool/scene.json");
+    RenderSettings settings{.picture = {.width = 80, .height = 60}};
+    settings.guide.motion = MotionSource::census;
+    const FrameRequest request{.frame = false, .maps = true, .progress = {}};
+    Sequence sequence(scene, settings);
+    const FrameOutput now = sequence.render(20, request), next = sequence.render(21, request);
+    const MotionField truth = compute_image_motion(now.estimate, next.estimate);
+    EXPECT_EQ(now.motion.displacement, truth.displacement);
+    EXPECT_EQ(now.motion.validity, truth.validity);
+    EXPECT_EQ(now.statistics.counts.rays.total(), now.statistics.traced.all);
+    // The last frame is compared with the previous one.
+    const FrameRange range = sequence.range();
+    const FrameOutput last = sequence.render(range.last, request), before = sequence.render(range.last - 1, request);
+    MotionField back = compute_image_motion(last.estimate, before.estimate);
+    turn_round(back);
+    EXPECT_EQ(last.motion.displacement, back.displacement);
+    // Geometry's maps are there; nothing is marked hidden.
+    EXPECT_FALSE(now.surface.depth.empty());
+    settings.guide.motion = MotionSource::model;
+    EXPECT_NE(Sequence(scene, settings).render(20, request).motion.displacement, truth.displacement);
+}
+
+TEST(SceneMotionFromImages, NoneAcrossACut) {
+    Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
+    scene.film.cuts = {5};
+    RenderSettings settings{.picture = {.width = 40, .height = 30}};
+    settings.guide.motion = MotionSource::census;
+    const FrameOutput output = Sequence(scene, settings).render(4, {.frame = false, .maps = true, .progress = {}});
+    for (const glm::dvec2& d : output.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
+    EXPECT_EQ(output.motion.validity.pixels.front(), MotionValidity::no_counterpart);
+    EXPECT_EQ(output.statistics.counts.rays.total(), output.statistics.traced.all);
+}
+
+/// Errors of the valid pixels on what moves, beside the error of no motion at all.
+struct MoverErrors {
+    double valid = 0.0;   ///< share of the pixels
+    double median = 0.0;  ///< of the valid ones, pixels
+    double none = 0.0;    ///< median of the motion
+};
+
+MoverErrors find_mover_errors(const MotionField& field, const MotionField& truth) {
+    std::vector<double> errors, lengths;
+    for (std::size_t i = 0; i < field.displacement.size(); ++i) {
+        const double length = glm::length(truth.displacement.pixels[i]);
+        if (truth.validity.pixels[i] != MotionValidity::valid || length < 1.0) continue;
+        lengths.push_back(length);
+        if (field.validity.pixels[i] == MotionValidity::valid)
+            errors.push_back(glm::length(field.displacement.pixels[i] - truth.displacement.pixels[i]));
+    }
+    const auto median = [](std::vector<double>& values) {
+        std::ranges::sort(values);
+        return values.empty() ? infinity : values[values.size() / 2];
+    };
+    return {static_cast<double>(errors.size()) / static_cast<double>(lengths.size()), median(errors), median(lengths)};
+}
+
+TEST(SceneMotionFromImages, WhatIsValidOnTheBoomerangIsNearTheTruth) {
+    const Scene scene = load_scene(source_folder() / "scenes/boomerang/scene.json");
+    Sequence sequence(scene, RenderSettings());
+    const FrameRequest request{.frame = false, .maps = true, .progress = {}};
+    const FrameOutput now = sequence.render(24, request), next = sequence.render(25, request);
+    const auto find_errors = [&](PictureSearch search) {
+        const auto prepare = [&](const FrameOutput& frame) { return prepare_picture(frame.estimate, search); };
+        return find_mover_errors(compute_picture_motion(prepare(now), prepare(next), search), now.motion);
+    };
+    const MoverErrors printed = find_errors(PictureSearch::census), checked = find_errors(PictureSearch::checked);
+    EXPECT_EQ(printed.valid, 1.0);
+    EXPECT_GT(printed.median, printed.none) << "worse than no motion";
+    EXPECT_LT(checked.median, 0.3 * printed.median);
+    EXPECT_GT(checked.valid, 0.1);
+    EXPECT_LT(checked.valid, 0.3);
+    if (!has_flow()) return;
+    const MoverErrors flow = find_errors(PictureSearch::flow);
+    EXPECT_GT(flow.valid, 0.85);
+    EXPECT_LT(flow.median, 0.1 * flow.none);
+}
+
+TEST(SceneMotionFromMaps, IsRasterizedBothWaysAndMarksWhatIsHidden) {
+    const Scene scene = load_scene(source_folder() / "scenes/pool/scene.json");
+    RenderSettings settings{.picture = {.width = 80, .height = 60}};
+    const FrameRequest request{.frame = false, .maps = true, .progress = {}};
+    const FrameOutput exact = Sequence(scene, settings).render(20, request);
+    settings.guide.motion = MotionSource::raster;
+    Sequence sequence(scene, settings);
+    const FrameOutput output = sequence.render(20, request);
+    const int camera = CameraNames(scene).find("");
+    const auto pose_frame = [&](int frame) {
+        return make_posed_view(scene, scene.film.frame_rate.seconds_of(frame), camera, 80, 60);
+    };
+    const PosePlan plan = make_pose_plan(scene);
+    ModelMotion model(scene, plan);
+    const PosedView now = pose_frame(20), next = pose_frame(21), before = pose_frame(19);
+    const Image<Hit> items = rasterize(scene, now);
+    EXPECT_EQ(output.motion.displacement, compute_raster_motion(model, scene, now, next, items).displacement);
+    MotionField back = compute_raster_motion(model, scene, now, before, items, OtherFrame::previous);
+    turn_round(back);
+    EXPECT_EQ(output.backward.displacement, back.displacement);
+    EXPECT_NE(output.motion.displacement, exact.motion.displacement);
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < output.motion.validity.size(); ++i)
+        same += output.motion.validity.pixels[i] == exact.motion.validity.pixels[i];
+    EXPECT_GT(same, output.motion.validity.size() * 98 / 100);
+    EXPECT_EQ(std::ranges::count(exact.motion.validity.pixels, MotionValidity::hidden) > 0,
+              std::ranges::count(output.motion.validity.pixels, MotionValidity::hidden) > 0);
 }
 
 }  // namespace

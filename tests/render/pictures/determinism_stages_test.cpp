@@ -7,9 +7,7 @@
 #include "tests/support/first_hits.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/german_locale.h"
-#include "tests/support/paths.h"
 #include "tests/support/test.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {

@@ -11,9 +11,7 @@
 #include "perception/sanitize.h"
 #include "perception/threshold.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/paths.h"
 #include "tests/support/test.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {
@@ -60,8 +58,7 @@ TEST(Determinism, DT01_UnguidedAndDenseFilesToo) {
         RenderSettings settings = small_settings();
         settings.perception.guide = Guide::none;
         settings.cache.accuracy = accuracy;
-        settings.picture.width = 80;
-        settings.picture.height = 60;
+        set_size(settings, 80, 60);
         settings.cache.gather = 16;
         EXPECT_TRUE(frame_bytes(1, scene, settings, {40}) == frame_bytes(4, scene, settings, {40}))
             << "accuracy " << accuracy;
@@ -71,8 +68,7 @@ TEST(Determinism, DT01_UnguidedAndDenseFilesToo) {
 /// Samples of a pixel that the cache did not cover are finished by one thread, whose sums are then in one order.
 TEST(Determinism, DT01_ManySamplesOfAPixelWaitForRecords) {
     RenderSettings settings = small_settings();
-    settings.picture.width = 40;
-    settings.picture.height = 30;
+    set_size(settings, 40, 30);
     settings.sampling.spp = 32;
     settings.cache.accuracy = 0.05;
     settings.perception.grid = SaliencyGrid::center;  // other tests: full
@@ -87,8 +83,7 @@ TEST(Determinism, DT01_DT04_EveryRuleOfStopping) {
         follow_error(settings, 1.0);
         settings.sampling.rule = rule;
         settings.sampling.spp = 32;
-        settings.picture.width = 40;
-        settings.picture.height = 30;
+        set_size(settings, 40, 30);
         const std::string one = frame_bytes(1, scene, settings, {21}).back();
         EXPECT_TRUE(frame_bytes(3, scene, settings, {21}).back() == one) << static_cast<int>(rule);
         EXPECT_TRUE(frame_bytes(2, scene, settings, {20, 21}).back() == one) << static_cast<int>(rule);

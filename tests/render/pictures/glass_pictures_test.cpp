@@ -1,20 +1,15 @@
 // Glass with a known appearance: slabs, balls and sheets, from outside and inside, one in the other.
+// Small pictures of authored scenes with every kind of surface, for the sanitizer too.
 
+#include "engine/load/load_scene.h"
+#include "render/frame/sequence.h"
 #include "render/path/path.h"
 #include "tests/support/lobes.h"
+#include "tests/support/paths.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-int add_glass(Scene& scene, double ior, double thickness, double attenuation_distance = 0.0) {
-    scene.materials.push_back({.gloss = {.metallic = 0.0, .roughness = 0.0, .ior = ior},
-                               .glass = {.transmission = 1.0,
-                                         .thickness = thickness,
-                                         .attenuation_distance = attenuation_distance,
-                                         .attenuation_color = glm::dvec3(0.5)}});
-    return static_cast<int>(scene.materials.size()) - 1;
-}
 
 double reflectance(double cosine, double ratio) {
     const double t = std::sqrt(1.0 - (1.0 - cosine * cosine) / (ratio * ratio));
@@ -188,7 +183,6 @@ TEST(GlassPictures, MC25_BallInABlockInAFurnace) {
     }
 }
 
-/// The picture of a frame, from both integrators, with and without loss.
 TEST(GlassPictures, MC25_FrameOfASlab) {
     Scene scene;
     add_mesh(scene, make_box({60.0, 60.0, 0.5}, add_glass(scene, 1.5, 0.5, 0.8)));
@@ -209,6 +203,37 @@ TEST(GlassPictures, MC25_FrameOfASlab) {
             EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
         })) << (integrator == Integrator::path ? "path" : "cache");
     }
+}
+
+/// Renders a frame with its maps; every pixel is finite, and there is light.
+void expect_picture(const std::string& name, std::int64_t frame, const RenderSettings& settings) {
+    const Scene scene = load_scene(source_folder() / "scenes" / name);
+    Sequence sequence(scene, settings);
+    const FrameOutput output = sequence.render(frame, {.maps = true, .progress = {}});
+    float brightest = 0.0f;
+    for (const Rgb& pixel : output.shaded.color.pixels) {
+        ASSERT_TRUE(std::isfinite(luminance(pixel))) << name;
+        brightest = std::max(brightest, luminance(pixel));
+    }
+    EXPECT_GT(brightest, 0.0f) << name;
+}
+
+TEST(SmallPictures, WithTheCache) {
+    RenderSettings settings = quick_settings(40, 30);
+    settings.sampling.spp = 2;
+    settings.cache.gather = 16;
+    expect_picture("pool/scene.json", 12, settings);
+    apply_settings(settings, {{"vision", "castle"}}, "test");
+    expect_picture("cornell/scene.json", 10, settings);
+}
+
+TEST(SmallPictures, OfPathsWithEveryMaterial) {
+    RenderSettings settings = quick_settings(24, 16);
+    settings.light.integrator = Integrator::path;
+    settings.sampling.spp = 4;
+    settings.light.bounces = 2;
+    for (const char* name : {"metal_ball", "mirror", "glass_ball", "brick_wall", "curtain", "layers"})
+        expect_picture(std::string("materials/") + name + ".json", 20, settings);
 }
 
 }  // namespace

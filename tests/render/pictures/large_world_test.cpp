@@ -4,14 +4,13 @@
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
 #include "tests/support/files/gltf_bad_input.h"
-#include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
-constexpr int width = 64, height = 48;
+constexpr int world_width = 64, world_height = 48;
 
 /// Everything, with the camera, under one node.
 Scene make_room_at(const glm::dvec3& place) {
@@ -37,32 +36,31 @@ struct Compared {
 };
 
 Compared compare_with_origin(const glm::dvec3& place) {
-    const Stage near(make_room_at(glm::dvec3(0.0)), width, height), far(make_room_at(place), width, height);
+    const Stage near(make_room_at(glm::dvec3(0.0)), world_width, world_height);
+    const Stage far(make_room_at(place), world_width, world_height);
     const RenderSettings settings = plain_settings(0.2, 2048);  // records may differ by noise only
     const Image<Rgb> a = shade(near, settings).color, b = shade(far, settings).color;
     const SampleHits near_hits = cast_centers(near.rays, near.view, nullptr);
     const SampleHits far_hits = cast_centers(far.rays, far.view, nullptr);
     Compared result;
     double sum = 0.0, difference = 0.0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            sum += a(x, y).x;
-            difference += a(x, y).x - b(x, y).x;
-            if (std::abs(a(x, y).x - b(x, y).x) > 0.01f * a(x, y).x) ++result.other_colors;
-            const Hit &p = near_hits.hits(x, y), &q = far_hits.hits(x, y);
-            EXPECT_NE(p.instance, no_index);
-            if (p.instance != q.instance || p.primitive != q.primitive) {
-                ++result.other_hits;
-                continue;
-            }
-            const auto pixel_of = [&](const Stage& stage, const SampleHits& hits) {
-                const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
-                return project_camera_point(stage.view,
-                                            to_camera(stage.view, glm::dvec3(s.point.position) + stage.shading.anchor));
-            };
-            const glm::dvec2 moved = pixel_of(near, near_hits) - pixel_of(far, far_hits);
-            result.largest_px = std::max(result.largest_px, glm::length(moved));
+    for (const auto [x, y] : all_pixels(world_width, world_height)) {
+        sum += a(x, y).x;
+        difference += a(x, y).x - b(x, y).x;
+        if (std::abs(a(x, y).x - b(x, y).x) > 0.01f * a(x, y).x) ++result.other_colors;
+        const Hit &p = near_hits.hits(x, y), &q = far_hits.hits(x, y);
+        EXPECT_NE(p.instance, no_index);
+        if (p.instance != q.instance || p.primitive != q.primitive) {
+            ++result.other_hits;
+            continue;
         }
+        const auto pixel_of = [&](const Stage& stage, const SampleHits& hits) {
+            const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
+            return project_camera_point(stage.view,
+                                        to_camera(stage.view, glm::dvec3(s.point.position) + stage.shading.anchor));
+        };
+        const glm::dvec2 moved = pixel_of(near, near_hits) - pixel_of(far, far_hits);
+        result.largest_px = std::max(result.largest_px, glm::length(moved));
     }
     result.mean_difference = std::abs(difference) / sum;
     return result;
@@ -70,9 +68,9 @@ Compared compare_with_origin(const glm::dvec3& place) {
 
 void expect_the_same(const glm::dvec3& place) {
     const Compared found = compare_with_origin(place);
-    EXPECT_LE(found.other_hits, width * height / 100);
+    EXPECT_LE(found.other_hits, world_width * world_height / 100);
     EXPECT_LT(found.largest_px, 1e-3);
-    EXPECT_LE(found.other_colors, width * height / 100);
+    EXPECT_LE(found.other_colors, world_width * world_height / 100);
     EXPECT_LT(found.mean_difference, 1e-3);
 }
 

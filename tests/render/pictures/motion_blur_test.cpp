@@ -6,7 +6,6 @@
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -17,8 +16,7 @@ constexpr double pixels_per_metre = 4.0;  // the picture is 6 m by 4 m, parallel
 
 RenderSettings blur_settings(std::uint32_t seed) {
     RenderSettings settings = path_settings(0, spp, seed);
-    settings.picture.width = width;
-    settings.picture.height = height;
+    set_size(settings, width, height);
     settings.picture.filter = PixelFilter::box;
     return settings;
 }

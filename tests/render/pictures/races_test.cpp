@@ -4,15 +4,13 @@
 #include "tests/support/frame_bytes.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {
 
 RenderSettings tiny_settings() {
     RenderSettings settings = small_settings();
-    settings.picture.width = 64;
-    settings.picture.height = 48;
+    set_size(settings, 64, 48);
     settings.cache.gather = 16;
     return settings;
 }
@@ -28,8 +26,7 @@ TEST(Races, DT01_DT08_KeyMomentsAndAnOpenShutter) {
     Scene scene = make_shot_with_mover();
     scene.cameras[0].shutter = {-0.5, 0.5};
     RenderSettings settings = tiny_settings();
-    settings.picture.width = 32;
-    settings.picture.height = 24;
+    set_size(settings, 32, 24);
     settings.cache.light_step = 5;
     settings.light.bounces = 2;
     for (const Integrator integrator : {Integrator::cache, Integrator::path}) {
@@ -54,7 +51,6 @@ TEST(Races, DT08_SequencesSideBySide) {
     EXPECT_TRUE(together[1] == alone[1]);
 }
 
-/// A different picture for every index.
 ChannelImage make_picture(std::size_t index) {
     ChannelImage image;
     for (const char* name : {"R", "G", "B"}) {

@@ -99,7 +99,7 @@ TEST(SelfHits, RC04_FarFromTheOriginOfTheFlatTreeTooSecondRaysDoNotMeetTheirOwnS
     const int white = add_lambert(scene, glm::dvec3(0.5));
     const glm::dvec3 others(24.3, -22.9, 25.1), turn(1.0, 2.0, 3.0);
     add_mesh(scene, make_faceted_sphere(0.1, 48, white), {0.0, 0.0, 0.0}, glm::angleAxis(0.7, glm::normalize(turn)));
-    for (const double up : {0.0, 1.0}) add_mesh(scene, make_quad(1.0, 1.0, white), others + glm::dvec3(0.0, up, 0.0));
+    for (const double y : {0.0, 1.0}) add_mesh(scene, make_quad(1.0, 1.0, white), others + glm::dvec3(0.0, y, 0.0));
     add_camera(scene, {0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
     const Stage stage(std::move(scene), 8, 8);
     ASSERT_TRUE(stage.rays.is_flat(0));
@@ -153,12 +153,10 @@ TEST(SelfHits, RC05_OffsetsAreSmallForSmallObjects) {
     const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
     float largest = 0.0f;
     int met[2] = {};
-    for (int y = 0; y < 48; ++y) {
-        for (int x = 0; x < 64; ++x) {
-            if (hits.hits(x, y).instance == no_index) continue;
-            ++met[hits.hits(x, y).instance];
-            largest = std::max(largest, make_pixel_surface(stage.shading, stage.view, hits, x, y).point.offset);
-        }
+    for (const auto [x, y] : all_pixels(64, 48)) {
+        if (hits.hits(x, y).instance == no_index) continue;
+        ++met[hits.hits(x, y).instance];
+        largest = std::max(largest, make_pixel_surface(stage.shading, stage.view, hits, x, y).point.offset);
     }
     EXPECT_GT(met[0], 100);
     EXPECT_GT(met[1], 100);
@@ -212,7 +210,6 @@ TEST(SelfHits, RC06_RaysFromTheFloorUnderTheBoxDoNotEnterIt) {
     Directions random;
     Tracer tracer(stage.rays);
     for (int i = 0; i < 20000; ++i) {
-        // Between floor and box, along the floor.
         Ray ray{glm::vec3(random.number() - 0.5f, 0.5e-3f, random.number() - 0.5f), glm::vec3(0.0f, -1.0f, 0.0f)};
         ray.origin -= glm::vec3(stage.shading.anchor);
         const Hit hit = tracer.intersect(ray);

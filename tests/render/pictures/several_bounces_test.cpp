@@ -4,11 +4,8 @@
 #include "render/cache/further_bounces.h"
 #include "render/cache/gather.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {
@@ -147,7 +144,7 @@ TEST(SeveralBounces, IC23_ALampBehindGlassIsNotFoundAgain) {
     const Stage stage(std::move(scene));
     RayTask task(stage.rays);
     RandomStream random({1, 2, 3, 4});
-    const SurfacePoint floor = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
+    const SurfacePoint floor = make_point(glm::vec3(0.0f), up);
     for (int i = 0; i < 200; ++i) {
         ASSERT_EQ(sample_multi_bounce_irradiance(stage.lighting(), task, floor, nullptr, {.bounces = 2}, 8, random),
                   Rgb(0.0f));
@@ -199,8 +196,7 @@ TEST(SeveralBounces, RecordsTakeMoreRaysForALargePicture) {
     const Stage stage(make_lit_sphere(), 96, 72);
     const auto count_rays = [&](int width, int height) {
         RenderSettings settings = cache_settings(2, 0.3, 64);
-        settings.picture.width = width;
-        settings.picture.height = height;
+        set_size(settings, width, height);
         const FrameCounts counts = shade(stage, settings).counts;
         EXPECT_GT(counts.multi_bounce_records, 20u);
         return counts.multi_bounce_rays;
@@ -218,8 +214,7 @@ TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {
         settings.sampling.spp = 2;
         settings.cache.gather = 16;
         settings.cache.accuracy = 0.5;
-        settings.picture.width = 32;
-        settings.picture.height = 24;
+        set_size(settings, 32, 24);
         Sequence sequence(scene, settings);
         for (const int frame : {1, 2}) frame_bytes(sequence, scene, settings, frame);
         const std::string expected = frame_bytes(sequence, scene, settings, 3);

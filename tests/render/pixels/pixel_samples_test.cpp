@@ -1,11 +1,11 @@
-// The samples of a pixel: their mean and its error, and irradiance that they share.
+// The samples of a pixel: their mean and its error, irradiance that they share, and the filter that places them.
 
 #include "render/pixels/pixel_samples.h"
 #include "engine/base/sampling.h"
 #include "perception/noise_threshold.h"
+#include "render/pixels/pixel_surfaces.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -78,6 +78,141 @@ TEST(PixelSamples, InvalidSamplesAreLeftOut) {
     EXPECT_NEAR(sum.mean().x, 7.0f / 3.0f, 1e-6f);
     EXPECT_EQ(sum.error().samples, 3);
     EXPECT_NEAR(sum.error().total, 1.0 * 2.0 / 9.0 * 4.0, 1e-5);  // means 1 and 3 of one and two samples
+}
+
+TEST(PathValues, MC01_TheVarianceOfAPixelKeepsItsDigits) {
+    for (const float mean : {1.0f, 1e2f, 1e3f, 1e4f}) {
+        for (std::uint32_t seed = 0; seed < 20; ++seed) {
+            std::mt19937 engine(seed);
+            std::normal_distribution<float> around(mean, 0.1f);
+            std::vector<float> values(512);
+            PixelSamples sum;
+            long double total = 0.0L, squares = 0.0L;
+            for (float& value : values) {
+                const SampleLight sample = grey_sample(around(engine));
+                value = luminance(sample.total());  // rounded to float, so that 0.1 has few digits beside 1e4
+                total += value;
+                sum.add(sample);
+            }
+            for (const float value : values) squares += (value - total / 512) * (value - total / 512);
+            const auto expected = static_cast<double>(squares / 511 / 512);
+            ASSERT_NEAR(sum.variance(), expected, 1e-6 * expected) << mean;
+        }
+    }
+    PixelSamples equal;
+    for (int i = 0; i < 1000; ++i) equal.add(grey_sample(1e4f / 3.0f));
+    EXPECT_EQ(equal.variance(), 0.0);
+}
+
+TEST(PathValues, MC13_AHundredMillionSamplesKeepTheirMean) {
+    PixelSamples sum;
+    constexpr int count = 100'000'000;
+    SampleLight sample = grey_sample(0.7f);
+    for (int i = 0; i < count; ++i) {
+        sample.place.instance = i % 2 == 0 ? 0 : no_index;
+        sum.add(sample);
+    }
+    EXPECT_NEAR(sum.mean().x, 0.7f, 1e-6 * 0.7);
+    EXPECT_LT(sum.variance(), 1e-20);
+    EXPECT_GE(sum.variance(), 0.0);
+    EXPECT_EQ(sum.coverage(), 0.5f);
+}
+
+TEST(PathValues, MC13_SmallSamplesAreNotLostBesideASpark) {
+    PixelSamples sum;
+    constexpr int count = 1'000'000;
+    sum.add(grey_sample(1e8f));
+    for (int i = 0; i < count; ++i) sum.add(grey_sample(0.7f));
+    const double expected = (1e8 + static_cast<double>(0.7f) * count) / (count + 1.0);
+    EXPECT_NEAR(sum.mean().x, expected, 1e-6 * expected);
+}
+
+/// The four-term Blackman-Harris window (Harris 1978) over 3 pixels, not normalized.
+double window(double x) {
+    if (std::abs(x) >= 1.5) return 0.0;
+    const double turn = 2.0 * std::numbers::pi * x / 3.0;  // 0 in the middle
+    return 0.35875 + 0.48829 * std::cos(turn) + 0.14128 * std::cos(2.0 * turn) + 0.01168 * std::cos(3.0 * turn);
+}
+
+/// Share of the filter left of x, by the midpoint rule.
+double share_left_of(double x) {
+    constexpr int steps = 60'000;
+    double left = 0.0, all = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const double at = -1.5 + 3.0 * (i + 0.5) / steps;
+        all += window(at);
+        if (at < x) left += window(at);
+    }
+    return left / all;
+}
+
+TEST(PixelFilterTest, PlacesAreDistributedLikeTheWindow) {
+    double last = -1.5;
+    for (int i = 1; i < 100; ++i) {
+        const double u = i / 100.0, place = place_in_filter(PixelFilter::blackman_harris, u);
+        EXPECT_NEAR(share_left_of(place), u, 1e-4) << u;
+        EXPECT_NEAR(place, -place_in_filter(PixelFilter::blackman_harris, 1.0 - u), 1e-9);
+        EXPECT_GT(place, last);
+        last = place;
+    }
+    EXPECT_EQ(place_in_filter(PixelFilter::blackman_harris, 0.0), -1.5);
+    EXPECT_EQ(place_in_filter(PixelFilter::blackman_harris, 1.0), 1.5);
+}
+
+/// A flat, parallel view of 16 x 12 pixels of 1 m, whose rows and columns begin at the origin.
+Scene make_flat_view(double left, double right, double bottom, double top) {
+    Scene scene;
+    add_mesh(scene, make_quad(right - left, top - bottom, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0))),
+             {0.5 * (left + right), 0.5 * (bottom + top), 0.0});
+    add_camera(scene, {8.0, 6.0, 5.0}, {8.0, 6.0, 0.0});
+    scene.cameras[0].orthographic = true;
+    scene.cameras[0].half_height = 6.0;
+    return scene;
+}
+
+Image<Rgb> render_flat(Scene scene, PixelFilter filter) {
+    const Stage stage(std::move(scene), 16, 12);
+    RenderSettings settings = path_settings(0, 4096);
+    settings.picture.filter = filter;
+    return shade(stage, settings).color;
+}
+
+TEST(PixelFilterTest, AStepIsTheIntegralOfTheFilter) {
+    for (const double edge : {8.0, 8.3}) {
+        const Image<Rgb> picture = render_flat(make_flat_view(-10.0, edge, -10.0, 30.0), PixelFilter::blackman_harris);
+        const Image<Rgb> boxes = render_flat(make_flat_view(-10.0, edge, -10.0, 30.0), PixelFilter::box);
+        for (int x = 0; x < 16; ++x) {
+            EXPECT_NEAR(picture(x, 5).x, share_left_of(edge - (x + 0.5)), 2e-3) << edge << ' ' << x;
+            EXPECT_NEAR(boxes(x, 5).x, std::clamp(edge - x, 0.0, 1.0), 2e-3) << edge << ' ' << x;
+        }
+    }
+}
+
+TEST(PixelFilterTest, APointIsTheFilter) {
+    constexpr double half = 0.05;
+    const Image<Rgb> picture =
+        render_flat(make_flat_view(7.8 - half, 7.8 + half, 5.3 - half, 5.3 + half), PixelFilter::blackman_harris);
+    const auto share = [](double place, int pixel) {
+        return share_left_of(place + half - (pixel + 0.5)) - share_left_of(place - half - (pixel + 0.5));
+    };
+    double sum = 0.0;
+    for (const auto [x, y] : all_pixels(16, 12)) {
+        sum += picture(x, y).x;
+        // About n of 4096 samples are met: n is right within its square root.
+        const double expected = share(7.8, x) * share(5.3, 11 - y);
+        EXPECT_NEAR(picture(x, y).x, expected, 4.5 * std::sqrt(expected / 4096.0) + 1e-3) << x << ' ' << y;
+    }
+    EXPECT_NEAR(sum, 4.0 * half * half, 0.002);
+}
+
+TEST(PixelFilterTest, TheBorderIsNoDarker) {
+    for (const Rgb& pixel : render_flat(make_flat_view(-10.0, 30.0, -10.0, 30.0), PixelFilter::blackman_harris).pixels)
+        EXPECT_EQ(pixel.x, 1.0f);
+    // Light just outside of the picture counts, in the outermost row of pixels alone.
+    const Image<Rgb> outside = render_flat(make_flat_view(-10.0, 0.0, -10.0, 30.0), PixelFilter::blackman_harris);
+    EXPECT_NEAR(outside(0, 6).x, share_left_of(-0.5), 2e-3);
+    EXPECT_GT(outside(0, 6).x, 0.05f);
+    EXPECT_EQ(outside(1, 6).x, 0.0f);
 }
 
 }  // namespace

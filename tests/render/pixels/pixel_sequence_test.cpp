@@ -142,7 +142,6 @@ TEST(PixelSequence, PointsAreUniformOverSeeds) {
     }
 }
 
-/// Correlation of the numbers of many pixels and samples.
 double correlation(const std::function<float(int x, int y, int i)>& a,
                    const std::function<float(int x, int y, int i)>& b) {
     double sum = 0.0;
@@ -174,17 +173,6 @@ TEST(PixelSequence, SeedsMomentsUsesAndCoordinatesAreIndependent) {
     for (const double squares : {seeds, moments, uses, coordinates}) {
         EXPECT_LT(std::sqrt(squares / pairs), 2.0 / 64.0);
     }
-}
-
-TEST(PixelSequence, IsAPureFunctionAndOneDimensionIsTheFirstOfTwo) {
-    for (const int index : {0, 3, PixelSequence::length - 1, PixelSequence::length}) {
-        const PixelSequence sequence(1, 2, -3, 4);
-        const glm::vec2 point = sequence.at_2d(SampleUse::lens, index);
-        EXPECT_EQ(point, PixelSequence(1, 2, -3, 4).at_2d(SampleUse::lens, index));
-        EXPECT_EQ(point.x, sequence.at_1d(SampleUse::lens, index));
-    }
-    const PixelSequence sequence(1, 2, 3, 4);
-    EXPECT_NE(sequence.at_1d(SampleUse::lens, 0), sequence.at_1d(SampleUse::lens, PixelSequence::length));
 }
 
 TEST(PixelSequence, PointsOfOneUseDoNotDependOnThoseBefore) {

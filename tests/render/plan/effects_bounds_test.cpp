@@ -84,7 +84,6 @@ TEST(EffectsBounds, FX14_TheSumOfLightsThatAreLeftOutFits) {
     EXPECT_LT(some, 1000u);
     expect_within_bound(compare_forced(make_far_lights(1000, 1e-2), settings, Effect::direct_light),
                         Decision::simplify);
-    // One near lamp of the same power.
     Scene near = make_lit_square();
     add_light(near, Light::Kind::point, glm::dvec3(1.0), {0.0, 0.0, 1.0});
     EXPECT_EQ(left_out(near), 0u);

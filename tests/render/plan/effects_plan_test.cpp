@@ -3,7 +3,6 @@
 #include "render/plan/effects_plan.h"
 #include "engine/surface/limit_surface.h"
 #include "tests/support/deforming_scenes.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/planned_scenes.h"
 #include "tests/support/subdivision_cages.h"
 #include "tests/support/test.h"
@@ -20,7 +19,7 @@ Names effects_of(const Scene& scene, const RenderSettings& settings = planned_se
 TEST(EffectsPlan, FX01_FX09_MotionIsComputedWhereSomethingMoves) {
     RenderSettings settings = planned_settings();
     settings.perception.guide = Guide::saliency;
-    const FrameRequest maps{.frame = true, .maps = true, .progress = {}};
+    const FrameRequest maps{.maps = true, .progress = {}};
     Scene scene = make_lit_square();
     scene.nodes[1].transform.translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1)});
     EXPECT_EQ(effects_of(scene, settings), Names{"direct_light"}) << "keys that are all equal";
@@ -96,7 +95,6 @@ TEST(EffectsPlan, FX04_LampsThatShine) {
     EXPECT_EQ(effects_of(scene), Names{"direct_light"}) << "an emission of 0";
     scene.materials[lamp].glow.color = glm::dvec3(1.0);
     EXPECT_TRUE(effects_of(scene).contains("emission"));
-    // A texture with one bright texel.
     scene.materials[lamp].textures[TextureSlot::emission] = add_texture(scene, {0, 0, 0, 255});
     EXPECT_FALSE(effects_of(scene).contains("emission")) << "a black texture";
     scene.images.back().bytes(1, 1) = {255, 0, 0, 255};

@@ -163,15 +163,6 @@ TEST(SceneSettings, TheSchemaAndTheCommandLineTakeTheSameValues) {
     EXPECT_GT(refused, 300);
 }
 
-TEST(SceneSettings, KeysThatNothingReadsAreRefused) {
-    for (const char* key : {"radius", "time_limit", "shade_radius"}) {
-        const Json file{{"aleph", 1}, {"settings", {{key, 1}}}};
-        EXPECT_THROW(read_scene_text(file.dump(), "a.json"), InputError) << key;
-        RenderSettings settings;
-        EXPECT_THROW(apply_settings(settings, {{key, 1.0}}, "--set"), InputError) << key;
-    }
-}
-
 TEST(SceneSettings, WhatTheRendererWritesComesBackThroughAFile) {
     RenderSettings settings;
     settings.picture.width = 123;

@@ -3,16 +3,13 @@
 #include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/penumbra.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
 
 constexpr double frame_rate = 30.0;
 
-/// Settings of a picture of direct light and emission.
 RenderSettings make_settings(int width, int height) {
     RenderSettings settings{.picture = {.width = width, .height = height, .filter = PixelFilter::box}};
     settings.cache.light_step = 0;
@@ -97,7 +94,6 @@ TEST_P(SamplingRules, MC17_WithoutLightEveryPixelIsBlackAndStops) {
 constexpr int floor_width = 48, floor_height = 8;
 constexpr double floor_pixel = 0.025;  // m
 
-/// The floor under the edge, seen from above.
 Scene make_penumbra() {
     Scene scene = Penumbra::make_scene();
     scene.film.exposure = 1.0;

@@ -2,8 +2,6 @@
 
 #include "render/shade/texture_control.h"
 
-#include <limits>
-
 #include "render/pixels/pixel_surfaces.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"

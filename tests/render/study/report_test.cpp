@@ -4,7 +4,6 @@
 #include <Imath/half.h>
 #include <zlib.h>
 #include <bit>
-#include <nlohmann/json.hpp>
 
 #include "engine/gltf/files.h"
 #include "engine/image/image_file.h"
@@ -70,14 +69,12 @@ TEST(ReportLayers, KeepToTheirSize) {
     EXPECT_EQ(layers.left_out(), 1u);
 }
 
-/// Parses the data that the page's script would read.
 Json data_of(const std::string& page) {
     const std::string start = "<script id=\"study\" type=\"application/json\">";
     const std::size_t begin = page.find(start) + start.size();
     return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
-/// A study of one frame of noise with two variants, and its JSON.
 class ReportPage : public testing::Test {
   protected:
     ReportPage() {

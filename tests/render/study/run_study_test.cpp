@@ -13,9 +13,6 @@
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A small study in a folder of its own.
 class RunStudy : public testing::Test {
   protected:
     RunStudy() {
@@ -34,7 +31,6 @@ class RunStudy : public testing::Test {
     Study study;
 };
 
-/// All numbers but those of time.
 std::vector<std::map<std::string, double>> numbers_of(const StudyResults& results) {
     std::vector<std::map<std::string, double>> numbers;
     for (const VariantResult& variant : results.variants) {

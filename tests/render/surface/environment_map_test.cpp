@@ -2,7 +2,6 @@
 
 #include "render/surface/environment_map.h"
 #include "tests/support/path_estimates.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -143,11 +142,9 @@ TEST(EnvironmentMap, SamplesFollowTheirDensity) {
     }));
 }
 
-/// A floor of albedo 0.6 at the origin.
 Mean light_on_floor(const Scene& scene, int count, std::uint32_t seed = 0) {
     const Stage stage(scene);
-    return estimate(stage, {make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}},
-                    count, by_paths(1, 1), seed);
+    return estimate(stage, {make_point(glm::vec3(0.0f), up), make_lambert(0.6f), up}, count, by_paths(1, 1), seed);
 }
 
 TEST(EnvironmentMap, MC24_ATexelWithNearlyAllLightIsADirectionalLight) {
@@ -193,7 +190,7 @@ TEST(EnvironmentMap, MC24_ATurnedPictureIsATurnedScene) {
         const glm::vec3 there(turn * glm::dvec3(d));
         ASSERT_NEAR(environment_radiance(a.shading, d).x, environment_radiance(b.shading, there).x, 1e-4f);
         const glm::vec2 u = random.next_2d();
-        const Receiver receiver{glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}};
+        const Receiver receiver{glm::vec3(0.0f), up};
         const LightSample one = sample_light(a.shading, a.lights, 0, receiver, u);
         const LightSample other = sample_light(b.shading, b.lights, 0, receiver, u);
         ASSERT_LT(glm::length(glm::vec3(turn * glm::dvec3(one.direction)) - other.direction), 1e-5f);

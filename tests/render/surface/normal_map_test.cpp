@@ -45,7 +45,6 @@ Scene make_mapped_quad(Material material, const glm::u8vec4& texel) {
     return scene;
 }
 
-/// The surface that a ray from `view` meets at the origin.
 ViewedSurface look_at_origin(const Stage& stage, const glm::vec3& view) {
     Tracer tracer(stage.rays);
     const glm::vec3 origin = view * 2.0f + glm::vec3(0.11f, 0.07f, 0.0f) - glm::vec3(stage.shading.anchor);
@@ -121,12 +120,12 @@ TEST(NormalMap, MC26_NoLightFromBehindAndNoGain) {
 TEST(NormalMap, MC26_KeepVisibleKeepsViewerAndMirrorDirectionAbove) {
     std::mt19937 engine(3);
     std::uniform_real_distribution<float> height(-1.0f, 1.0f), facing(0.005f, 1.0f), azimuth(0.0f, 6.28f);
-    const glm::vec3 up(0.0f, 0.0f, 1.0f);
+    const glm::vec3 outwards(0.0f, 0.0f, 1.0f);
     int kept = 0, bent = 0;
     for (int i = 0; i < 20'000; ++i) {
         const glm::vec3 normal = direction_of(height(engine), azimuth(engine));
         const glm::vec3 view = direction_of(facing(engine), azimuth(engine));
-        const glm::vec3 n = keep_visible(normal, up, up, view);
+        const glm::vec3 n = keep_visible(normal, outwards, outwards, view);
         ASSERT_NEAR(glm::length(n), 1.0f, 1e-5f);
         ASSERT_GT(glm::dot(n, view), 0.0f);
         ASSERT_GT((2.0f * glm::dot(n, view) * n - view).z, 0.0f);
@@ -136,7 +135,7 @@ TEST(NormalMap, MC26_KeepVisibleKeepsViewerAndMirrorDirectionAbove) {
             ++kept;
         } else if (n != normal) {
             ++bent;
-            ASSERT_NEAR(glm::dot(glm::cross(normal, up), n), 0.0f, 1e-5f) << "between the two";
+            ASSERT_NEAR(glm::dot(glm::cross(normal, outwards), n), 0.0f, 1e-5f) << "between the two";
         }
     }
     EXPECT_GT(kept, 2000);

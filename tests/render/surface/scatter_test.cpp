@@ -15,7 +15,6 @@ struct NamedMaterial {
     SurfaceMaterial material;
 };
 
-/// Every lobe of a material of glTF that has them all.
 SurfaceMaterial make_mixture(bool volume, bool front, double roughness) {
     Material material{
         .gloss = {.metallic = 0.3, .roughness = roughness},
@@ -152,7 +151,6 @@ constexpr std::array<const char*, keyframe_count> keyframe_names{"all", "passed"
 /// A uniform light, which can be sampled as well.
 constexpr auto pdf_light = static_cast<float>(0.25 / pi);
 
-/// By the midpoint rule over all directions that are reached.
 Moments integrate_scattered(const LitSurface& lit) {
     constexpr int heights = 400, azimuths = 240;
     const LobeShares shares = share_lobes(lit, LobeSet::all);

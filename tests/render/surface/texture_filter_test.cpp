@@ -208,14 +208,6 @@ TEST(TextureFilter, TheReferencesTransformMovesTheFootprint) {
     }
 }
 
-TEST(TextureFilter, AlphaIsFilteredLikeColourAndNeverDecoded) {
-    SceneImage image{.bytes = Image<glm::u8vec4>(2, 2, glm::u8vec4(255, 255, 255, 0))};
-    image.bytes(0, 0).w = image.bytes(1, 1).w = 255;
-    const TextureSet set = make_set(image);
-    EXPECT_EQ(sample_texture(set, make_use(Wrap::repeat), {0.2f, 0.4f}, {{1.5f, 0.0f}, {0.0f, 1.5f}}),
-              glm::vec4(1.0f, 1.0f, 1.0f, 0.5f));
-}
-
 TEST(TextureFilter, TexelsThatAreNoNumbersDoNotSpread) {
     SceneImage image{.floats = Image<glm::vec4>(4, 4, glm::vec4(1.0f))};
     image.floats(1, 2) = glm::vec4(float_nan, float_infinity, 1.0f, 1.0f);

@@ -148,7 +148,7 @@ TEST(Footprint, FacingPlaneIsAPixelAcross) {
 }
 
 TEST(Footprint, ConesGrowWithDistanceAndSlant) {
-    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
+    SurfacePoint point = make_point(glm::vec3(0.0f), up);
     point.edges[0] = {0.0f, 0.0f, 2.0f};
     point.edges[1] = {2.0f, 0.0f, 0.0f};
     point.uv_edges[0][0] = {0.0f, 1.0f};
@@ -168,7 +168,7 @@ TEST(Footprint, ConesGrowWithDistanceAndSlant) {
 }
 
 TEST(Footprint, WithoutCoordinatesThereIsNone) {
-    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
+    SurfacePoint point = make_point(glm::vec3(0.0f), up);
     point.edges[0] = {0.0f, 0.0f, 2.0f};
     point.edges[1] = {2.0f, 0.0f, 0.0f};
     const RayFootprint pixel{{0.1f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.1f}, 0.0f};
@@ -178,7 +178,7 @@ TEST(Footprint, WithoutCoordinatesThereIsNone) {
         EXPECT_EQ(found.dy, glm::vec2(0.0f));
     }
     // A zero footprint stays zero, even if the triangle has no extent.
-    const UvFootprint none = make_uv_footprint(make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}), {}, 0);
+    const UvFootprint none = make_uv_footprint(make_point(glm::vec3(0.0f), up), {}, 0);
     EXPECT_EQ(none.dx, glm::vec2(0.0f));
 }
 

@@ -17,7 +17,6 @@ Scene make_ramp(int width, int height = 1) {
     return scene;
 }
 
-/// Look-up at a point, in a set with this texture only.
 glm::vec4 sample(const Scene& scene, const TextureRef& reference, const glm::vec2& uv,
                  TextureSpace space = TextureSpace::linear) {
     TextureSet set;

@@ -19,8 +19,7 @@ namespace {
 
 RenderSettings file_settings() {
     RenderSettings settings = shot_settings(10);
-    settings.picture.width = 24;
-    settings.picture.height = 18;
+    set_size(settings, 24, 18);
     settings.cache.gather = 16;
     return settings;
 }

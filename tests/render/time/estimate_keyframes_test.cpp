@@ -13,8 +13,7 @@ const FrameRequest only_maps{.frame = false, .maps = true, .progress = {}};
 
 RenderSettings estimate_settings(int light_step) {
     RenderSettings settings = shot_settings(light_step);
-    settings.picture.width = 96;
-    settings.picture.height = 72;
+    set_size(settings, 96, 72);
     return settings;
 }
 
@@ -110,7 +109,7 @@ TEST(EstimateKeyframes, MapsAreThoseOfThePicture) {
         Sequence pictures(scene, settings);
         for (const int frame : {5, 6, 8}) {
             const FrameOutput maps = Sequence(scene, settings).render(frame, only_maps);
-            const FrameOutput both = pictures.render(frame, {.frame = true, .maps = true, .progress = {}});
+            const FrameOutput both = pictures.render(frame, {.maps = true, .progress = {}});
             EXPECT_TRUE(maps.estimate.pixels == both.estimate.pixels) << step << " " << frame;
             EXPECT_TRUE(maps.limits.alpha.pixels == both.limits.alpha.pixels) << step << " " << frame;
         }

@@ -3,7 +3,6 @@
 #include "tests/support/frame_bytes.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
-#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {
@@ -101,7 +100,7 @@ TEST(LightingKeyframes, IC20_WhatIsAtRestDoesNotFlicker) {
     Image<Rgb> before;
     Image<float> threshold;
     for (int frame = 0; frame < 30; ++frame) {
-        const FrameOutput out = sequence.render(frame, {.frame = true, .maps = frame == 0, .progress = {}});
+        const FrameOutput out = sequence.render(frame, {.maps = frame == 0, .progress = {}});
         if (frame == 0) threshold = out.limits.threshold;
         const Image<Rgb>& now = out.shaded.color;
         for (int y = 0; frame > 0 && y < now.height; ++y) {

@@ -1,8 +1,10 @@
 // Noise of records: what of it lasts is held to what goes unseen, it is new in each frame elsewhere, and it does not
-// decide whether a frame reads lighting keyframes.
+// decide whether a frame reads lighting keyframes. Channels about the records that light comes from.
 
 #include "render/cache/gather_at.h"
+#include "render/cache/irradiance_cache.h"
 #include "tests/support/indirect_pictures.h"
+#include "tests/support/perception_scene.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
 
@@ -24,13 +26,11 @@ std::vector<Image<double>> find_block_noise(const Scene& scene, RenderSettings s
     std::vector<Image<double>> noise;
     Image<double> mean(width / block, height / block);
     for (settings.seed = 1; settings.seed <= seeds; ++settings.seed) {
-        const FrameOutput out = Sequence(scene, settings).render(frame, {.frame = true, .maps = true, .progress = {}});
+        const FrameOutput out = Sequence(scene, settings).render(frame, {.maps = true, .progress = {}});
         Image<double>& blocks = noise.emplace_back(width / block, height / block);
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                const double shown = luminance(out.shaded.color(x, y)) * scene.film.viewing.display_white;
-                blocks(x / block, y / block) += shown / out.limits.threshold_noise(x, y) / (block * block);
-            }
+        for (const auto [x, y] : all_pixels(width, height)) {
+            const double shown = luminance(out.shaded.color(x, y)) * scene.film.viewing.display_white;
+            blocks(x / block, y / block) += shown / out.limits.threshold_noise(x, y) / (block * block);
         }
         for (std::size_t i = 0; i < mean.size(); ++i) mean.pixels[i] += blocks.pixels[i] / seeds;
     }
@@ -116,6 +116,32 @@ TEST(LightingKeyframes, NoiseOfAProbeRejectsNoLight) {
     settings.cache.gather = 1024;
     const FrameOutput out = Sequence(make_spot_on_wall(make_shot_with_mover()), settings).render(5);
     EXPECT_LT(out.statistics.counts.records, 40u);
+}
+
+const FrameRequest everything{.maps = true, .progress = {}};
+
+TEST(RecordMaps, RecordsOfKeyMomentsCountToo) {
+    RenderSettings settings = shot_settings(10);
+    settings.sampling.spp = 2;
+    Sequence sequence(make_shot_with_mover(), settings);
+    const ShadedFrame moment = sequence.render(0, everything).shaded, between = sequence.render(3, everything).shaded;
+    EXPECT_GT(mean_of(moment.cache_count), 1.0);
+    EXPECT_NEAR(mean_of(between.cache_count) / mean_of(moment.cache_count), 2.0, 0.3) << "of two moments";
+    EXPECT_NEAR(mean_of(between.cache_radius) / mean_of(moment.cache_radius), 1.0, 0.05);
+    for (std::size_t i = 0; i < moment.cache_count.size(); ++i) {
+        const bool is_used = moment.cache_count.pixels[i] > 0.0f;
+        EXPECT_EQ(moment.cache_radius.pixels[i] > 0.0f, is_used);
+        EXPECT_LT(moment.cache_radius.pixels[i], 6.0f) << "m, of a room of 6";
+    }
+}
+
+TEST(RecordMaps, OnlyOnRequestAndOnlyOfTheCache) {
+    RenderSettings settings = shot_settings(0);
+    settings.cache.gather = 16;
+    EXPECT_TRUE(Sequence(make_shot(), settings).render(0).shaded.cache_count.empty());
+    EXPECT_FALSE(Sequence(make_shot(), settings).render(0, everything).shaded.cache_radius.empty());
+    settings.light.integrator = Integrator::path;
+    EXPECT_TRUE(Sequence(make_shot(), settings).render(0, everything).shaded.cache_count.empty());
 }
 
 }  // namespace
