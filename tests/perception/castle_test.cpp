@@ -151,14 +151,6 @@ TEST(Castle, ElevationsOfTheThreeModels) {
     }
 }
 
-TEST(Laird, StartsAtPointThreeAndPeaksBelowDaly) {
-    const auto elevation = [](double rho, double v) { return row_elevation(laird_vision(), {rho, v}); };
-    EXPECT_EQ(elevation(16, 0.15), elevation(16, 0.3));
-    double highest = 0.0;  // CSF_max is f of what is too fine to be seen
-    for (double v = 0.3; v < 20.0; v += 1e-3) highest = std::max(highest, elevation(1e4, v));
-    EXPECT_NEAR(highest, 117.0, 0.05);
-}
-
 TEST(Castle, PeakAtRestIsWhereAScanFindsIt) {
     for (const double luminance : {0.001, 0.05, 1.0, 30.0, 100.0, 700.0, 1e4}) {
         double best = 0.0;
