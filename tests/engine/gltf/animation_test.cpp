@@ -1,7 +1,6 @@
 // glTF reader: keys and rotations.
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -71,24 +70,6 @@ TEST_F(GltfAnimation, KF06_QuantisedQuaternionsBecomeUnit) {
     lowest.json["animations"][0]["samplers"][0]["output"] =
         lowest.add_accessor<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 0}, "VEC4", 4, true);
     EXPECT_EQ(load(lowest).nodes[0].transform.rotation.values[1], glm::dquat(0, -1, 0, 0));  // counts as -1
-}
-
-/// Keys 2 s apart with tangents of 1 per second: half-way the value is the mean plus 2 * (1 - -1) / 8.
-TEST_F(GltfAnimation, KF07_CubicTangentsCountTimesTheInterval) {
-    GltfDraft draft = triangle_draft();
-    draft.animate(0, "translation", {1.0f, 3.0f}, {0, 0, 0, 0, 0, 0, 1, 1, 0, -1, 0, 0, 4, 0, 0, 0, 0, 0},
-                  "CUBICSPLINE");
-    const Scene scene = load(draft);
-    const auto& move = scene.nodes[0].transform.translation;
-    EXPECT_EQ(move.interpolation, Interpolation::cubic);
-    EXPECT_EQ(evaluate(move, 2.0), glm::dvec3(2.0 + 0.5, 0.25, 0));
-    const double s = 0.1,
-                 x = 2 * (s * s * s - 2 * s * s + s) + 4 * (3 * s * s - 2 * s * s * s) - 2 * (s * s * s - s * s);
-    EXPECT_NEAR(evaluate(move, 1.2).x, x, 1e-9);
-    EXPECT_EQ(evaluate(move, 1.0), glm::dvec3(0.0));  // KF-12, KF-13: on keys and outside
-    EXPECT_EQ(evaluate(move, 0.0), glm::dvec3(0.0));
-    EXPECT_EQ(evaluate(move, 3.0), glm::dvec3(4, 0, 0));
-    EXPECT_EQ(evaluate(move, 9.0), glm::dvec3(4, 0, 0));
 }
 
 TEST_F(GltfAnimation, KF09_CubicWithOneKeyIsItsMiddleValue) {

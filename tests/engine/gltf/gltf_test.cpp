@@ -1,7 +1,6 @@
 // glTF reader: scene graph, cameras, lights, files. Every expected value is worked out by hand.
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,7 +1,6 @@
 // glTF reader: volumes, clear coats, sheen, anisotropy, normal maps, and extensions that are not supported.
 #include "engine/image/image_file.h"
 #include "tests/engine/gltf/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -2,7 +2,6 @@
 #include "engine/gltf/validate/pointer.h"
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

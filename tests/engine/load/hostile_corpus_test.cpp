@@ -11,7 +11,6 @@
 #include "tests/support/files/gltf_bad_input.h"
 #include "tests/support/files/gltf_deform_draft.h"
 #include "tests/support/files/load_cost.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

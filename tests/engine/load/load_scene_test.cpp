@@ -6,7 +6,6 @@
 #include "engine/pose/pose.h"
 #include "tests/engine/load/fixture.h"
 #include "tests/support/paths.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

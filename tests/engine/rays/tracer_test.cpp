@@ -6,7 +6,6 @@
 #include "tests/support/first_hits.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
