@@ -14,6 +14,7 @@
 #include <memory>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 
 #include "engine/base/flush_denormals.h"
 #include "engine/base/parallel.h"
@@ -216,16 +217,18 @@ void run(const Scene& scene, const PosedView& posed) {
 }  // namespace
 }  // namespace aleph
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     using namespace aleph;
-    return run_benchmark(argc, "bench_rays SCENE [FRAME [WIDTHxHEIGHT]]", [&] {
-        const ThreadLimit one(1);
-        const FlushDenormals flush;
-        const Scene scene = load_scene(argv[1]);
-        const std::int64_t frame = argc > 2 ? std::stoll(argv[2]) : frame_range(scene).first;
-        int width = 640, height = 480;
-        if (argc > 3) std::sscanf(argv[3], "%dx%d", &width, &height);
-        run(scene, make_posed_view(scene, scene.film.frame_rate.seconds_of(frame), CameraNames(scene).find(""), width,
-                                   height));
-    });
+    if (argc < 2) throw std::runtime_error("usage: bench_rays SCENE [FRAME [WIDTHxHEIGHT]]");
+    const ThreadLimit one(1);
+    const FlushDenormals flush;
+    const Scene scene = load_scene(argv[1]);
+    const std::int64_t frame = argc > 2 ? std::stoll(argv[2]) : frame_range(scene).first;
+    int width = 640, height = 480;
+    if (argc > 3) std::sscanf(argv[3], "%dx%d", &width, &height);
+    const double seconds = scene.film.frame_rate.seconds_of(frame);
+    run(scene, make_posed_view(scene, seconds, CameraNames(scene).find(""), width, height));
+} catch (const std::exception& e) {
+    fmt::print(stderr, "{}\n", e.what());
+    return 1;
 }

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <ctime>
-#include <exception>
 #include <functional>
 #include <limits>
 
@@ -36,22 +32,5 @@ class Best {
   private:
     clockid_t clock_;
 };
-
-/// Runs a benchmark that needs a scene.
-/// @param usage  the program's name and its arguments
-/// @return the program's exit code
-inline int run_benchmark(int argc, const char* usage, const std::function<void()>& run) {
-    if (argc < 2) {
-        fmt::print(stderr, "usage: {}\n", usage);
-        return 2;
-    }
-    try {
-        run();
-        return 0;
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "{}\n", e.what());
-        return 1;
-    }
-}
 
 }  // namespace aleph

@@ -86,8 +86,6 @@ TEST(HardReadme, EveryRowLeadsToTestsThatNameItsId) {
     }
 }
 
-namespace fs = std::filesystem;
-
 bool is_text(const fs::path& path) {
     static const std::set<std::string> extensions = {".h",  ".cpp", ".md",   ".txt", ".cmake",
                                                      ".in", ".sh",  ".json", ".js"};
@@ -106,11 +104,9 @@ void for_each_file(const std::string& folder, const Visit& visit) {
 
 /// Names of the Markdown files that a text refers to, without their folders.
 std::set<std::string> find_cited_pages(const std::string& text) {
-    static const std::regex page(R"re([A-Za-z0-9_-]+\.md\b)re");
-    std::set<std::string> names;
-    for (auto it = std::sregex_iterator(text.begin(), text.end(), page); it != std::sregex_iterator(); ++it)
-        names.insert(it->str());
-    return names;
+    static const std::regex page(R"re(([A-Za-z0-9_-]+\.md)\b)re");
+    const std::vector<std::string> found = find_all(text, page);
+    return {found.begin(), found.end()};
 }
 
 TEST(House, PagesThatAreCitedExist) {

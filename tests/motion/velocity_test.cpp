@@ -31,17 +31,6 @@ TEST(Velocity, ZeroWhereMotionIsNotKnown) {
     }
 }
 
-TEST(Velocity, KeepsTheFieldsShape) {
-    MotionField field = make_motion_field(5, 3, MotionValidity::valid);
-    field.path_length(4, 1) = 31.0;
-    const Image<float> velocity = compute_image_velocity(field, {}, {});
-    ASSERT_EQ(velocity.width, 5);
-    ASSERT_EQ(velocity.height, 3);
-    for (int y = 0; y < 3; ++y) {
-        for (int x = 0; x < 5; ++x) EXPECT_EQ(velocity(x, y), x == 4 && y == 1 ? 30.0f : 0.0f);
-    }
-}
-
 TEST(Velocity, RP21_RatesThatAreNotPositiveAndFiniteAreRefused) {
     for (const double bad : {0.0, -0.0, -1.0, infinity, -infinity, not_a_number}) {
         EXPECT_EQ(find_refusal([&] { velocity_of(1.0, {.pixels_per_degree = bad}); }).place, "pixels per degree")

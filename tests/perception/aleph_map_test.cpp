@@ -77,14 +77,6 @@ TEST(Perception, SaliencyIsMoreLenientThanFullTrackingAndThatThanNoMotion) {
     EXPECT_EQ(aleph_with(Guide::none), 1.0);
 }
 
-TEST(Perception, MeasuredBandsAreStricter) {
-    const SyntheticFrame frame = make_synthetic_frame(320, 240);
-    const auto aleph_with = [&](Bands bands) {
-        return mean_of(compute_perception(frame.estimate, frame.velocity, {}, {}, {.bands = bands}).aleph);
-    };
-    EXPECT_LT(aleph_with(Bands::measured), aleph_with(Bands::printed));
-}
-
 TEST(Perception, OutputsAreThoseAskedFor) {
     const SyntheticFrame frame = make_synthetic_frame(64, 48);
     const PerceptionMaps bare = compute_perception(frame.estimate, frame.velocity, {}, {}, {});

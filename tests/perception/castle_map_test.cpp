@@ -76,21 +76,6 @@ TEST(DisplayHold, NothingBlursAtRestOrWithoutPersistence) {
     }
 }
 
-TEST(CastleMap, IsTheSumOfTheBandsElevations) {
-    // A flat picture has only the coarsest band.
-    const Image<Rgb> flat(40, 30, Rgb(0.5f));
-    for (const float speed : {0.0f, 12.0f, 60.0f}) {
-        const Image<float> velocity(40, 30, speed);
-        const PerceptionSettings settings{.guide = Guide::full, .vision = &castle_vision()};
-        const PerceptionMaps maps = compute_perception(flat, velocity, {}, {}, settings);
-        const double s = tracking_efficiency;
-        const double expected = castle_elevation(0.25, written_retinal_velocity(speed, s),
-                                                 written_tracked_velocity(speed, s), 50.0, 1.0, {});
-        EXPECT_NEAR(maps.aleph(20, 15) / expected, 1.0, 2e-3) << speed;
-        EXPECT_NEAR(maps.adaptation(20, 15), 50.0, 1e-3);
-    }
-}
-
 TEST(CastleMap, SettingsReachTheMap) {
     const SyntheticFrame frame = make_synthetic_frame(160, 120);
     const auto aleph_with = [&](const VisionModel* vision, double persistence) {

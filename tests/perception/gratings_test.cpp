@@ -4,7 +4,6 @@
 #include "perception/vision/band_frequencies.h"
 #include "perception/vision/retinal_velocity.h"
 #include "tests/perception/grating.h"
-#include "tests/support/perception_reference.h"
 #include "tests/support/test.h"
 #include "tests/support/vision_formulas.h"
 
@@ -84,22 +83,6 @@ GratingErrors run_gratings(const Light& light, const Frequencies& range, const P
                             errors);
     }
     return errors;
-}
-
-TEST(Gratings, ClosedFormOfTheBandsAgreesWithASlowPyramid) {
-    for (const int half_cycles : {17, 132, 529, 1024}) {
-        const Grating grating{.half_cycles = half_cycles};
-        DoubleImage picture(Grating::width, 1);
-        for (int x = 0; x < Grating::width; ++x) picture(x, 0) = std::cos(grating.angular() * x);
-        const auto pyramid = reference_pyramid(picture, band_count + 1);
-        for (int level = 0; level <= band_count; ++level) {
-            const DoubleImage full = reference_full_size(pyramid, level);
-            for (int x = 0; x < Grating::width; ++x) {
-                ASSERT_NEAR(expanded_level(level, grating.angular(), x), full(x, 0), 1e-12)
-                    << half_cycles << " half cycles, level " << level << ", pixel " << x;
-            }
-        }
-    }
 }
 
 /// Calls check(errors, range) for every light, range of frequencies, guide and set of bands.

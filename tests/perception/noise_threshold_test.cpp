@@ -101,18 +101,6 @@ TEST(VisibleBands, AmplitudesAreBlurredAsOftenAsABandSays) {
     }
 }
 
-TEST(NoiseThreshold, NoiseThatLastsIsSeenBetterAtRest) {
-    const NoiseVisibility fresh({}, thirty, NoiseOverTime::fresh), lasts({}, thirty, NoiseOverTime::lasts);
-    EXPECT_LT(1.2f * lasts.threshold(50.0f, 0.15f, 0.0f), fresh.threshold(50.0f, 0.15f, 0.0f));
-}
-
-TEST(NoiseThreshold, SmallerPixelsHideMore) {
-    ViewingConditions fine;
-    fine.pixels_per_degree = 90.0;
-    const NoiseVisibility coarse({}, thirty, NoiseOverTime::fresh), small(fine, thirty, NoiseOverTime::fresh);
-    EXPECT_GT(small.threshold(50.0f, 0.15f, 0.0f), 1.5f * coarse.threshold(50.0f, 0.15f, 0.0f));
-}
-
 TEST(NoiseThreshold, EveryInputHasAPositiveResult) {
     const NoiseVisibility noise({}, thirty, NoiseOverTime::fresh);
     for (const float luminance : {float_nan, -1.0f, 0.0f, 1e-6f, 1.0f, 1e6f, float_infinity}) {

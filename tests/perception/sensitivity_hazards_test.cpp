@@ -28,6 +28,13 @@ Image<float> constant_image(int width, int height, double value) {
     return Image<float>(width, height, static_cast<float>(value));
 }
 
+TEST(RetinalVelocity, Eq55_KnownValues) {
+    EXPECT_NEAR(hazard_velocity(10.0f, 0.82f), 10 - (8.2 + 0.15), 1e-6);
+    EXPECT_NEAR(hazard_velocity(10.0f, 0.0f), 9.85, 1e-6);
+    EXPECT_EQ(hazard_velocity(200.0f, 1.0f), 120.0f);  // the eye follows at most 80 deg/s
+    EXPECT_EQ(hazard_velocity(79.85f, 1.0f), 0.15f);   // as printed: -.15
+}
+
 TEST(SensitivityHard, CS01_RestAndEverythingBelowTheDriftIsTheDrift) {
     for (const double v : {0.0, -0.0, denormal, 1e-38, 0.1, 0.15}) {
         for (const double rho : {4.0, 16.0, 1e4})
@@ -81,10 +88,12 @@ TEST(SensitivityHard, CS05_ZeroAndOddFrequencies) {
 }
 
 TEST(SensitivityHard, CS06_FrequenciesScaleWithPixelDensity) {
+    const double at_31[] = {15.5, 3.27, 1.57, 0.79, 0.36, 0.18, 0.12};  // measured
     for (const double ppd : {15.0, 31.0, 60.0}) {
-        const auto printed = band_frequencies(Bands::printed, ppd);
+        const auto printed = band_frequencies(Bands::printed, ppd), measured = band_frequencies(Bands::measured, ppd);
         for (int i = 0; i < band_count; ++i) {
             EXPECT_DOUBLE_EQ(printed[i], 16 * std::pow(2.0, -i) * ppd / 31);
+            EXPECT_DOUBLE_EQ(measured[i], at_31[i] * ppd / 31);
         }
     }
 }

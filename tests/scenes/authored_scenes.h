@@ -38,13 +38,6 @@ inline SeenMotion compute_motion(const Scene& scene, int frame, int width, int h
     return {scene, scene.film.frame_rate.seconds_of(frame), scene.film.frame_rate.seconds_of(frame + 1), width, height};
 }
 
-inline std::uintmax_t folder_size(const std::filesystem::path& folder) {
-    std::uintmax_t bytes = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-        if (entry.is_regular_file()) bytes += entry.file_size();
-    return bytes;
-}
-
 /// Every file that make_scenes writes equals the one in scenes/, and the folders hold no other scene files and
 /// textures.
 /// @param files  number of files that the program writes

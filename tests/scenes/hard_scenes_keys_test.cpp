@@ -1,19 +1,10 @@
 // The scenes of scenes/hard about keys and transforms look and move as scenes/hard/README.md expects.
 
 #include "tests/scenes/hard_scenes.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
-TEST(HardScenes, KF12_KF13_KeysHold) {
-    HardScene hard("held_keys");
-    EXPECT_EQ(hard.world("thing", 0), hard.world("thing", 2));
-    EXPECT_EQ(hard.world("thing", 100), hard.world("thing", 4));
-    EXPECT_NEAR(hard.world("thing", 3)[3].x, 0.5, 1e-12);
-    EXPECT_EQ(longest_motion(hard.render(0)), 0.0);
-    EXPECT_GT(longest_motion(hard.render(2)), 1.0);
-}
 TEST(HardScenes, KF17_MirroredScaleKeepsItsLight) {
     HardScene hard("mirrored");
     Scene straight = hard.scene;

@@ -4,7 +4,6 @@
 #include "tests/scenes/hard_scenes.h"
 #include "engine/load/warnings.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -2,7 +2,6 @@
 #include "engine/alembic/archive.h"
 #include "tests/support/files/alembic_truth.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -112,27 +111,6 @@ TEST_P(AlembicTruth, TimesOfSamples) {
         const json& times = samplings[i]["first_sample_times"];
         for (std::size_t k = 0; k < times.size(); ++k) EXPECT_EQ(sample_time(sampling, k), times[k]) << i << " " << k;
     }
-}
-
-/// The sample at or before every query time, for every schema.
-TEST_P(AlembicTruth, LookUpByTime) {
-    const AlembicArchive archive = open(GetParam());
-    int looked_up = 0;
-    for (const json& entry : truth["objects"]) {
-        for (const char* schema : {"xform", "camera"}) {
-            if (!entry.contains(schema)) continue;
-            const json& at = entry[schema];
-            const std::size_t count = at["num_samples"];
-            if (count < 2 || !at.contains("time_sampling") || at["time_sampling"].is_null()) continue;
-            const TimeSampling& sampling = archive.time_samplings()[at["time_sampling"].get<std::size_t>()];
-            for (const json& query : at["at"]) {
-                const double seconds = query["time"];
-                EXPECT_EQ(alembic_floor(sampling, count, seconds), query["floor"]) << entry["path"] << seconds;
-                ++looked_up;
-            }
-        }
-    }
-    EXPECT_GE(looked_up, GetParam().starts_with("xform") ? 30 : 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, AlembicTruth, testing::ValuesIn(all_archives()),

@@ -2,7 +2,6 @@
 // transforms are not.
 
 #include "tests/engine/alembic/verdict.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

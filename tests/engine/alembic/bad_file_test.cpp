@@ -3,7 +3,6 @@
 #include "tests/support/files/alembic_truth.h"
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -2,7 +2,6 @@
 // spaced acyclic times, stacks of translations and curves; and those archives where they are there.
 #include "engine/pose/pose.h"
 #include "tests/engine/alembic/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -4,7 +4,6 @@
 #include "engine/pose/pose.h"
 #include "engine/scene/points.h"
 #include "tests/engine/alembic/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

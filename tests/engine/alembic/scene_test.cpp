@@ -6,7 +6,6 @@
 #include "engine/scene/operations.h"
 #include "engine/scene/points.h"
 #include "tests/engine/alembic/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -27,22 +27,6 @@ double largest_difference(const Image<float>& a, const DoubleImage& b) {
     return largest;
 }
 
-TEST(Pyramid, Reflect101) {
-    const int expected[] = {2, 1, 0, 1, 2, 3, 2, 1, 0, 1};  // indices -2 .. 7 of 4 pixels
-    for (int i = -2; i < 8; ++i) EXPECT_EQ(reflect_101(i, 4), expected[i + 2]) << i;
-    for (int i = -5; i <= 5; ++i) {
-        EXPECT_EQ(reflect_101(i, 1), 0);
-        EXPECT_EQ(reflect_101(i, 2), std::abs(i) % 2);
-    }
-}
-
-TEST(Pyramid, SizesHalveRoundingUpAndStayAtOne) {
-    const std::vector<LevelSize> sizes = pyramid_sizes(511, 3, 10);
-    const int widths[] = {511, 256, 128, 64, 32, 16, 8, 4, 2, 1};
-    const int heights[] = {3, 2, 1, 1, 1, 1, 1, 1, 1, 1};
-    for (std::size_t i = 0; i < sizes.size(); ++i) EXPECT_EQ(sizes[i], (LevelSize{widths[i], heights[i]}));
-}
-
 class EverySize : public testing::TestWithParam<LevelSize> {};
 
 TEST_P(EverySize, StepsAgreeWithTheDefinition) {

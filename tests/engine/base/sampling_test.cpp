@@ -1,7 +1,6 @@
 // Random numbers and sampling functions against known values.
 
 #include "engine/base/sampling.h"
-#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

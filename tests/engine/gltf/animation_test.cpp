@@ -1,7 +1,6 @@
 // glTF reader: keys and rotations.
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -45,16 +44,6 @@ TEST_F(GltfAnimation, StepsOnAFrameHoldAtTheFrame) {
     }
 }
 
-TEST_F(GltfAnimation, RotationKeysTurnByTheShorterArc) {
-    GltfDraft draft = triangle_draft();
-    const float h = std::sqrt(0.5f);
-    draft.animate(0, "rotation", {0.0f, 2.0f}, {0, 0, 0, 1, 0, 0, h, h});  // 0 to 90 degrees about z
-    const ScenePose frame = pose(load(draft), 0.5);                        // 22.5 degrees
-    const double angle = std::numbers::pi / 8.0;
-    EXPECT_NEAR(frame.world[0][0].x, std::cos(angle), 1e-7);  // the keys are floats
-    EXPECT_NEAR(frame.world[0][0].y, std::sin(angle), 1e-7);
-}
-
 /// 90 degrees about (1, 2, 2) / 3, rounded to integers: lengths are off by up to 7e-3, which needs no warning.
 TEST_F(GltfAnimation, KF06_QuantisedQuaternionsBecomeUnit) {
     const double h = std::sqrt(0.5);
@@ -76,24 +65,11 @@ TEST_F(GltfAnimation, KF06_QuantisedQuaternionsBecomeUnit) {
     };
     check(std::int16_t{}, 3e-5);
     check(std::int8_t{}, 8e-3);
-}
-
-/// Keys 2 s apart with tangents of 1 per second: half-way the value is the mean plus 2 * (1 - -1) / 8.
-TEST_F(GltfAnimation, KF07_CubicTangentsCountTimesTheInterval) {
-    GltfDraft draft = triangle_draft();
-    draft.animate(0, "translation", {1.0f, 3.0f}, {0, 0, 0, 0, 0, 0, 1, 1, 0, -1, 0, 0, 4, 0, 0, 0, 0, 0},
-                  "CUBICSPLINE");
-    const Scene scene = load(draft);
-    const auto& move = scene.nodes[0].transform.translation;
-    EXPECT_EQ(move.interpolation, Interpolation::cubic);
-    EXPECT_EQ(evaluate(move, 2.0), glm::dvec3(2.0 + 0.5, 0.25, 0));
-    const double s = 0.1,
-                 x = 2 * (s * s * s - 2 * s * s + s) + 4 * (3 * s * s - 2 * s * s * s) - 2 * (s * s * s - s * s);
-    EXPECT_NEAR(evaluate(move, 1.2).x, x, 1e-9);
-    EXPECT_EQ(evaluate(move, 1.0), glm::dvec3(0.0));  // KF-12, KF-13: on keys and outside
-    EXPECT_EQ(evaluate(move, 0.0), glm::dvec3(0.0));
-    EXPECT_EQ(evaluate(move, 3.0), glm::dvec3(4, 0, 0));
-    EXPECT_EQ(evaluate(move, 9.0), glm::dvec3(4, 0, 0));
+    GltfDraft lowest = triangle_draft();
+    lowest.animate(0, "rotation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, 0, 1});
+    lowest.json["animations"][0]["samplers"][0]["output"] =
+        lowest.add_accessor<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 0}, "VEC4", 4, true);
+    EXPECT_EQ(load(lowest).nodes[0].transform.rotation.values[1], glm::dquat(0, -1, 0, 0));  // counts as -1
 }
 
 TEST_F(GltfAnimation, KF09_CubicWithOneKeyIsItsMiddleValue) {
@@ -114,16 +90,6 @@ TEST_F(GltfAnimation, CubicRotationTangentsFollowTheirKey) {
     EXPECT_EQ(values[4], glm::dquat(0, 0, 1, 0));
 }
 
-TEST_F(GltfAnimation, NormalizedIntegerRotationKeys) {
-    GltfDraft draft = triangle_draft();
-    draft.animate(0, "rotation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, 0, 1});
-    const int keys = draft.add_accessor<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 0}, "VEC4", 4, true);
-    draft.json["animations"][0]["samplers"][0]["output"] = keys;
-    const Scene scene = load(draft);
-    EXPECT_EQ(scene.nodes[0].transform.rotation.values[0], glm::dquat(1, 0, 0, 0));
-    EXPECT_EQ(scene.nodes[0].transform.rotation.values[1], glm::dquat(0, -1, 0, 0));  // -32768 counts as -1
-}
-
 TEST_F(GltfAnimation, FloatsBecomeDoublesExactly) {
     GltfDraft draft = triangle_draft();
     const float time = 0.1f, value = 1e-20f / 3.0f;
@@ -131,17 +97,6 @@ TEST_F(GltfAnimation, FloatsBecomeDoublesExactly) {
     const Scene scene = load(draft);
     EXPECT_EQ(scene.nodes[0].transform.translation.sampling.times.back(), static_cast<double>(time));
     EXPECT_EQ(scene.nodes[0].transform.translation.values[1], glm::dvec3(value, -value, 16777216.0));
-}
-
-TEST_F(GltfAnimation, AllAnimationsPlayTogether) {
-    GltfDraft draft = triangle_draft();
-    draft.json["nodes"].push_back({{"mesh", 0}});
-    draft.json["scenes"][0]["nodes"] = {0, 1};
-    draft.animate(0, "translation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0});
-    draft.animate(1, "translation", {0.0f, 1.0f}, {0, 0, 0, 0, 1, 0});
-    const ScenePose frame = pose(load(draft), 1.0);
-    EXPECT_EQ(frame.world[0][3], glm::dvec4(1, 0, 0, 1));
-    EXPECT_EQ(frame.world[1][3], glm::dvec4(0, 1, 0, 1));
 }
 
 TEST_F(GltfAnimation, S12_11_ChannelWithoutNodeIsIgnoredWithAWarning) {

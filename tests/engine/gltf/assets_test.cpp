@@ -39,17 +39,5 @@ TEST(GltfForeignFiles, AreAllListed) {
     EXPECT_EQ(found, listed);
 }
 
-TEST(GltfModels, RoomHasLambertSurfacesLampAndCamera) {
-    const Scene scene = load_model(source_folder() / "scenes/room/room.glb");
-    EXPECT_EQ(scene.nodes.size(), 60u);
-    EXPECT_EQ(scene.meshes.size(), 83u);  // 58 in the file, some of several primitives
-    ASSERT_EQ(scene.materials.size(), 24u);
-    EXPECT_EQ(scene.materials[0].gloss.specular, Track<double>(0.0));
-    EXPECT_EQ(scene.cameras.size(), 1u);
-    EXPECT_TRUE(std::ranges::any_of(
-        scene.materials, [](const Material& material) { return material.glow.color.values[0] != glm::dvec3(0.0); }));
-    for (const Mesh& mesh : scene.meshes) EXPECT_TRUE(mesh.normals.empty());
-}
-
 }  // namespace
 }  // namespace aleph

@@ -2,7 +2,6 @@
 
 #include "tests/engine/gltf/bad_change.h"
 #include "tests/support/files/gltf_bad_input.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

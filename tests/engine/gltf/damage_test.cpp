@@ -2,7 +2,6 @@
 
 #include "tests/support/files/gltf_bad_input.h"
 #include "tests/support/files/gltf_deform_draft.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

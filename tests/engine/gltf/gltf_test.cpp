@@ -1,7 +1,6 @@
 // glTF reader: scene graph, cameras, lights, files. Every expected value is worked out by hand.
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -271,18 +270,6 @@ TEST_F(Gltf, IncludeHangsBelowItsNodeBehindTheScenesOwn) {
     EXPECT_EQ(scene.nodes[4].include, 7);
     EXPECT_EQ(scene.nodes[5].parent, 4);
     EXPECT_EQ(scene.meshes[4].material, 5);
-}
-
-TEST_F(Gltf, S13_10_RefusedFileLeavesTheSceneAsItWas) {
-    GltfDraft draft = triangle_draft();
-    draft.animate(0, "translation", {1.0f, 0.5f}, {0, 0, 0, 1, 0, 0});  // found only after nodes and meshes were read
-    write_text(folder_ / "scene.gltf", draft.to_text());
-    Scene scene;
-    scene.nodes.resize(2);
-    scene.source.warnings = {"one"};
-    const Scene before = scene;
-    EXPECT_THROW(append_gltf(folder_ / "scene.gltf", scene, 1, 0), InputError);
-    EXPECT_EQ(scene, before);
 }
 
 TEST_F(Gltf, UnknownOptionalExtensionIsAWarning) {

@@ -1,6 +1,5 @@
 // glTF reader: how vertices become triangles, and where their values come from.
 #include "tests/engine/gltf/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -2,7 +2,6 @@
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/model_files.h"
 #include "tests/engine/gltf/raw_gltf.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -166,20 +165,6 @@ TEST(GltfPosesOnPaper, KF07_StepLinearCubic) {
     EXPECT_DOUBLE_EQ(y(6), 0.0);
     EXPECT_DOUBLE_EQ(y(7), 0.5);
     EXPECT_DOUBLE_EQ(y(8), 0.5 + 0.5 * 4.0 / 8.0);
-}
-
-/// At 0 s the parent is as its inverse matrix expects, so that it does not count.
-TEST(GltfPosesOnPaper, AnInverseMatrixTakesTheParentOut) {
-    const Scene scene = load_model(own_model("inverse_parent.glb"));
-    const auto at = [&](const std::string& name, double seconds) {
-        const auto node = std::ranges::find(scene.nodes, name, &Node::name) - scene.nodes.begin();
-        return glm::dvec3(pose(scene, seconds).world.at(static_cast<std::size_t>(node))[3]);
-    };
-    EXPECT_EQ(at("parent", 0.0), glm::dvec3(1, 2, 3));
-    EXPECT_EQ(at("child", 0.0), glm::dvec3(0, 1, 0));
-    EXPECT_EQ(at("leaf", 0.0), glm::dvec3(0, 2, 0));
-    EXPECT_EQ(at("parent", 2.0), glm::dvec3(4, 2, 3));
-    EXPECT_GT(glm::distance(at("child", 2.0), glm::dvec3(0, 1, 0)), 1.0);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // glTF reader: meshes, materials, textures.
 #include "engine/image/image_file.h"
 #include "tests/engine/gltf/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

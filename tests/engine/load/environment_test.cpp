@@ -3,7 +3,6 @@
 #include "engine/image/image_file.h"
 #include "engine/load/load_scene.h"
 #include "tests/engine/load/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -3,7 +3,6 @@
 #include "engine/pose/pose.h"
 #include "tests/engine/load/fixture.h"
 #include "tests/support/files/alembic_draft.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

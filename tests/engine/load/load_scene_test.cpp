@@ -6,7 +6,6 @@
 #include "engine/pose/pose.h"
 #include "tests/engine/load/fixture.h"
 #include "tests/support/paths.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -181,33 +180,6 @@ TEST_F(LoadScene, SaveIsAllOrNothing) {
     EXPECT_THROW(save_scene(scene, folder_ / "no/such/folder/s.json"), OutputError);
     EXPECT_THROW(save_scene(scene, folder_ / "s.abc"), InputError);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2);  // lib and s.json: nothing left over
-}
-
-TEST_F(LoadScene, ManyIncludesOfOneFileLoadAndSave) {
-    write("lib/triangle.gltf", moving_triangle);
-    std::string nodes;
-    for (int i = 0; i < 50; ++i) nodes += std::string(i ? "," : "") + "{\"include\": \"lib/triangle.gltf\"}";
-    const Scene scene = load_scene(write_scene("\"nodes\": [" + nodes + "], \"environment\": [1, 1, 1]"));
-    EXPECT_EQ(scene.nodes.size(), 100u);
-    save_scene(scene, folder_ / "again.json");
-    EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
-}
-
-TEST_F(LoadScene, ModelsLoadAsScenesAndAsIncludes) {
-    const fs::path own = own_assets_folder() / "gltf";
-    for (const fs::path& name : {own / "truck.glb", own / "lamp_box.glb", own / "morph_cube.glb", own / "skin.glb",
-                                 source_folder() / "scenes/room/room.glb"}) {
-        const Scene scene = load_scene(name);
-        EXPECT_NO_THROW(CameraNames(scene).find("")) << name;
-        fs::copy_file(name, folder_ / "lib/asset.glb", fs::copy_options::overwrite_existing);
-        const Scene included =
-            load_scene(write_scene(R"("nodes": [{"name": "place", "scale": 2, "include": "lib/asset.glb"}])"));
-        EXPECT_EQ(included.meshes.size(), scene.meshes.size()) << name;
-        save_scene(included, folder_ / "again.json");
-        Scene again = load_scene(folder_ / "again.json");
-        again.source.warnings = included.source.warnings;
-        EXPECT_TRUE(without_file(again) == without_file(included)) << name;
-    }
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "engine/load/scene_format.h"
 #include "engine/base/files.h"
 #include "tests/engine/load/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

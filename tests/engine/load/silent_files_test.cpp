@@ -4,7 +4,6 @@
 
 #include "engine/load/load_scene.h"
 #include "tests/support/files/gltf_bad_input.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -4,7 +4,6 @@
 #include "engine/load/warnings.h"
 #include "engine/pose/pose.h"
 #include "tests/engine/load/fixture.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -79,16 +79,6 @@ TEST(CageLevel, FlatAndStraightFacesStayWhole) {
     EXPECT_EQ(level_of(scene), 1);
 }
 
-TEST(CageLevel, AsksForMoreAsTheCameraNears) {
-    int last = 99;
-    for (const double distance : {1.0, 8.0, 60.0, 500.0}) {
-        const int level = level_of(make_sheet(distance));
-        EXPECT_LT(level, last) << distance;
-        last = level;
-    }
-    EXPECT_LE(last, 1);
-}
-
 TEST(CageLevel, NearestFrameOfTheShotDecidesForAll) {
     Scene scene = make_sheet(0.0);
     scene.film.range = FrameRange{0, 100};

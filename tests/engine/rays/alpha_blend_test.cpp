@@ -5,7 +5,6 @@
 #include "engine/rays/ray_scene.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
-#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

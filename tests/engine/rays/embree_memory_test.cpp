@@ -6,7 +6,6 @@
 #include "engine/rays/state.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -55,14 +54,6 @@ TEST(EmbreeMemory, EveryRefusedAllocationIsReported) {
         ASSERT_LT(bytes, 1 << 26);
     }
     EXPECT_GT(refused, 10);
-}
-
-TEST(EmbreeMemory, AnUpdateThatIsRefusedIsReported) {
-    const Scene scene = make_scene();
-    Budget budget = 1 << 26;
-    RayScene rays = make_rays(scene, budget);
-    budget = 0;
-    EXPECT_THROW(rays.update(pose(scene, 0.0), glm::dvec3(0.0)), std::bad_alloc);
 }
 
 TEST(EmbreeMemory, OtherErrorsAreReportedWithEmbreesText) {

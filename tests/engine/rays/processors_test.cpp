@@ -3,7 +3,6 @@
 #include "engine/rays/state.h"
 #include "engine/surface/shapes.h"
 #include "tests/engine/rays/ray_patterns.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

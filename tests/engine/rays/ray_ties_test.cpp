@@ -4,7 +4,6 @@
 #include "engine/rays/ray_scene.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -18,15 +18,6 @@ TEST(Track, AConstantHoldsForEver) {
     EXPECT_FALSE(is_animated(track));
 }
 
-TEST(Track, StepTakesTheKeyAtOrBefore) {
-    const Track<double> track = keyed<double>({1.0, 2.0, 3.0}, {5.0, 6.0, 7.0}, Interpolation::step);
-    EXPECT_EQ(evaluate(track, 0.0), 5.0);
-    EXPECT_EQ(evaluate(track, 1.999), 5.0);
-    EXPECT_EQ(evaluate(track, 2.0), 6.0);
-    EXPECT_EQ(evaluate(track, 2.999), 6.0);
-    EXPECT_EQ(evaluate(track, 9.0), 7.0);
-}
-
 TEST(Track, MatricesTurnAndStretchApart) {
     const glm::dvec3 y(0.0, 1.0, 0.0);
     const auto make = [&](double degrees, double stretch, double x) {
@@ -165,13 +156,6 @@ TEST(TimeSampling, NearestPrefersTheEarlierInATie) {
     EXPECT_EQ(nearest_sample(times, 3, 1.0), 1u);
     EXPECT_EQ(nearest_sample(times, 3, -9.0), 0u);
     EXPECT_EQ(nearest_sample(times, 3, 9.0), 2u);
-}
-
-TEST(TimeSampling, AcceptsWhatIsSound) {
-    EXPECT_EQ(refusal(uniform(-4.0, 1.0 / 30.0), 1000), "");
-    EXPECT_EQ(refusal(acyclic({-1.0, 0.0, 2.0}), 3), "");
-    EXPECT_EQ(refusal(acyclic({0.0, 1.0, 2.0}), 2), "");
-    EXPECT_EQ(refusal(cyclic(2.0, {0.0, 1.9}), 100), "");
 }
 
 TEST(TimeSampling, RefusesWhatIsNot) {

@@ -5,7 +5,6 @@
 #include "engine/pose/pose.h"
 #include "engine/scene/transforms.h"
 #include "tests/engine/scene/matrices.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

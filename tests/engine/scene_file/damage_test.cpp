@@ -7,7 +7,6 @@
 #include "engine/json/text.h"
 #include "engine/scene_file/scene_text.h"
 #include "tests/support/files/load_cost.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -50,30 +50,6 @@ TEST(SceneJsonSurfaces, EveryTextureHasItsOwnKey) {
     EXPECT_EQ(again(scene), scene);
 }
 
-TEST(SceneJsonSurfaces, EveryNumberCanBeKeyed) {
-    const std::string from_0_to_1 = "{\"keys\": [[0, 0], [30, 1]]}";  // one second
-    for (const char* key :
-         {"thickness", "attenuation_distance", "clearcoat", "clearcoat_roughness", "sheen_roughness", "anisotropy"}) {
-        const Scene scene = read(", \"materials\": {\"m\": {\"" + std::string(key) + "\": " + from_0_to_1 + "}}");
-        for (const auto& field : material_numbers) {
-            if (std::string(field.key) == key) {
-                EXPECT_EQ(evaluate(field.in(scene.materials[0]), 0.25), 0.25) << key;
-            }
-        }
-        EXPECT_EQ(frame_range(scene), (FrameRange{0, 30})) << key;
-        EXPECT_TRUE(is_world_animated(scene)) << key;
-        EXPECT_EQ(again(scene), scene) << key;
-    }
-    const Scene scene = read(R"(, "materials": {"m": {"anisotropy_rotation": {"keys": [[0, 0], [30, 90]]},
-        "attenuation_color": {"keys": [[0, [0, 0, 0]], [30, [1, 0.5, 0]]]},
-        "sheen_color": {"values": [[0, 0, 0], [0, 1, 0]], "period": 30}}})");
-    const MaterialValues half = pose(scene, 0.5).materials[0];
-    EXPECT_FLOAT_EQ(half.layers.anisotropy_rotation, static_cast<float>(to_radians(45.0)));
-    EXPECT_EQ(half.glass.attenuation_color, Rgb(0.5f, 0.25f, 0.0f));
-    EXPECT_EQ(half.layers.sheen_color, Rgb(0.0f, 0.5f, 0.0f));
-    EXPECT_EQ(again(scene), scene);
-}
-
 TEST(SceneJsonEnvironment, APictureAloneHasTheFactorOne) {
     const SceneText text = read_scene_text(
         R"({"aleph": 1, "materials": {"m": {"base_color_texture": "a.png"}}, "environment_image": "sky.exr"})",

@@ -1,7 +1,6 @@
 // Subdivision surfaces as meshes: levels, holes and parts, places between the vertices (RP-16, RP-17).
 #include "tests/engine/surface/cage_checks.h"
 #include "tests/support/subdivision_reference.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,7 +1,6 @@
 // Subdivision surfaces against closed forms: B-splines, limit masks, explicit subdivision.
 #include "tests/engine/surface/cage_checks.h"
 #include "tests/support/subdivision_reference.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -59,20 +58,6 @@ TestCage make_bspline_cage() {
     return result;
 }
 
-TEST(LimitSurface, RegularFaceIsABicubicBSpline) {
-    const TestCage test = make_bspline_cage();
-    const LimitSurface surface(test.cage, test.points.size(), 0);
-    ASSERT_EQ(surface.triangles(0).size(), 2u);  // without boundary rule the outer faces have no surface
-    const auto control = surface.make_control_points(test.points);
-    for (int i = 0; i <= 20; ++i) {
-        for (int j = 0; j <= 20; ++j) {
-            const double s = i / 20.0, t = j / 20.0;
-            const glm::dvec3 expected = tensor(test.points, bspline(s), bspline(t));
-            EXPECT_LT(glm::length(limit_at(surface, control, 0, s, t) - expected), 1e-14);
-        }
-    }
-}
-
 TEST(LimitSurface, RegularFaceHasTheSplinesNormals) {
     const TestCage test = make_bspline_cage();
     const LimitSurface surface(test.cage, test.points.size(), 3);
@@ -93,21 +78,6 @@ TEST(LimitSurface, RegularFaceHasTheSplinesNormals) {
         }
     }
     EXPECT_EQ(checked, 81);
-}
-
-TEST(LimitSurface, CornerOfACubeEndsWhereTheMaskSays) {
-    const TestCage test = make_cube_cage();
-    const LimitSurface surface(test.cage, 8, 0);
-    const Vertices vertices = vertices_of(surface, test.points);
-    ASSERT_EQ(vertices.positions.size(), 8u);
-    for (std::size_t i = 0; i < 8; ++i) {
-        // n^2 v + 4 sum e + sum f over n (n + 5), n = 3: (9 + 4 - 1) / 24 of a half edge.
-        EXPECT_NEAR(std::abs(vertices.positions[i].x), 0.5, 1e-15);
-        EXPECT_NEAR(std::abs(vertices.positions[i].y), 0.5, 1e-15);
-        EXPECT_NEAR(std::abs(vertices.positions[i].z), 0.5, 1e-15);
-        const glm::dvec3 out = glm::normalize(vertices.positions[i]);
-        EXPECT_LT(glm::length(glm::dvec3(vertices.normals[i]) - out), 1e-7);
-    }
 }
 
 TEST(LimitSurface, AgreesWithExplicitSubdivision) {
@@ -165,25 +135,6 @@ TEST(LimitSurface, SharpCreasesAgreeWithExplicitSubdivision) {
     add_corner(corner.cage, 3, 10.0f);
     add_corner(corner.cage, 4, 2.0f);
     EXPECT_LT(error_against_reference(corner, 3), 1e-14);
-}
-
-TEST(LimitSurface, InfinitelySharpCreaseIsABSplineCurve) {
-    TestCage test = make_grid_cage(6, 5);
-    add_crease(test.cage, {12, 13, 14, 15, 16, 17}, 10.0f);  // row 2
-    const LimitSurface surface(test.cage, test.points.size(), 0);
-    const auto control = surface.make_control_points(test.points);
-    for (int column = 1; column <= 3; ++column) {
-        for (int i = 0; i <= 10; ++i) {
-            const auto w = bspline(i / 10.0);
-            glm::dvec3 expected(0.0);
-            for (int k = 0; k < 4; ++k) {
-                expected += w[k] * test.points[12 + column - 1 + k];
-            }
-            // From the face below and from the one above.
-            EXPECT_LT(glm::length(limit_at(surface, control, 5 + column, i / 10.0, 1.0) - expected), 1e-14);
-            EXPECT_LT(glm::length(limit_at(surface, control, 10 + column, i / 10.0, 0.0) - expected), 1e-14);
-        }
-    }
 }
 
 TEST(LimitSurface, SharpEdgesHaveANormalPerSide) {

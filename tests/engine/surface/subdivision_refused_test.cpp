@@ -1,7 +1,6 @@
 // Cages that OpenSubdiv would crash on are refused.
 #include "tests/engine/surface/cage_checks.h"
 #include "tests/support/files/load_cost.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

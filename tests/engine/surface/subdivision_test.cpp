@@ -2,7 +2,6 @@
 #include <numeric>
 
 #include "tests/engine/surface/cage_checks.h"
-#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
