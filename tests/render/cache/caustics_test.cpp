@@ -1,7 +1,7 @@
 // Light that mirrors send to diffuse surfaces, against a closed form, and places that mirrors show.
 
-#include "render/cache/gather.h"
 #include "render/cache/bounce_places.h"
+#include "render/cache/gather.h"
 #include "render/settings/settings.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/lobes.h"

@@ -242,7 +242,9 @@ TEST(MapsImages, AGapIsRefusedWhereFramesOfBothSidesAreAsked) {
     for (const int frame : {1, 2, 3, 10, 11}) files[frame] = "f";
     EXPECT_NO_THROW(refuse_gaps(files, {}, {1, 2, 3}));
     EXPECT_NO_THROW(refuse_gaps(files, {10}, {1, 2, 3, 10, 11}));
-    EXPECT_THAT(find_refusal([&] { refuse_gaps(files, {}, {1, 2, 3, 10, 11}); }).message,
+    EXPECT_THAT(find_refusal([&] {
+                    refuse_gaps(files, {}, {1, 2, 3, 10, 11});
+                }).message,
                 HasSubstr("frames 4 to 9 are missing"));
     EXPECT_THROW(refuse_gaps(files, {}, {4}), InputError);
 }

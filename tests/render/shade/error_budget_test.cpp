@@ -1,10 +1,10 @@
 // Tolerances of samples, from thresholds and the error that is asked for; and what that error must not leave out.
 // Outlines of lamps and of the sky: emission from many camera rays of each sample.
 
-#include "render/shade/progressive.h"
 #include "render/frame/sequence.h"
 #include "render/guide/stopping_rule.h"
 #include "render/shade/bright_edges.h"
+#include "render/shade/progressive.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 
