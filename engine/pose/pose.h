@@ -89,6 +89,10 @@ ScenePose pose(const Scene& scene, double seconds);
 /// The scene's frames: Film::range where given, else the span of all keys, rounded inwards to whole frames.
 FrameRange frame_range(const Scene& scene);
 
+/// Gives a film another frame rate. Its range, its cuts and the keys of its cameras keep their times: a shot begins
+/// with the first frame that is not before its time.
+void change_frame_rate(Film& film, const FrameRate& rate);
+
 /// The cameras of a scene by name.
 class CameraNames {
   public:

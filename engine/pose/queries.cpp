@@ -99,6 +99,29 @@ FrameRange frame_range(const Scene& scene) {
     return {first, std::max(first, last)};  // keys that all lie between two frames: the frame after them
 }
 
+void change_frame_rate(Film& film, const FrameRate& rate) {
+    constexpr double rounding = 1e-9;
+    const double ratio = rate.per_second() / film.frame_rate.per_second();
+    const auto first_after = [&](std::int64_t frame) {
+        return static_cast<std::int64_t>(std::ceil(static_cast<double>(frame) * ratio - rounding));
+    };
+    film.frame_rate = rate;
+    if (film.range) {
+        const double last = std::floor(static_cast<double>(film.range->last) * ratio + rounding);
+        film.range->first = first_after(film.range->first);
+        film.range->last = std::max(film.range->first, static_cast<std::int64_t>(last));
+    }
+    for (std::int64_t& cut : film.cuts) cut = first_after(cut);
+    film.cuts.erase(std::unique(film.cuts.begin(), film.cuts.end()), film.cuts.end());
+    std::vector<CameraKey> keys;
+    for (CameraKey& key : film.camera_keys) {
+        key.frame = first_after(key.frame);
+        if (!keys.empty() && keys.back().frame == key.frame) keys.pop_back();
+        keys.push_back(std::move(key));
+    }
+    film.camera_keys = std::move(keys);
+}
+
 CameraNames::CameraNames(const Scene& scene) : scene_(scene) {
     for (const Node& node : scene.nodes) {
         if (node.camera == no_index) continue;

@@ -42,4 +42,8 @@ class SteadySpans {
     bool changes_ = false;  ///< something does, cameras included
 };
 
+/// Times of keys within a span, without its ends, s, in order: of everything but the points of meshes. Where there are
+/// more than 256, an even choice of them.
+std::vector<double> find_key_times(const Scene& scene, double from, double to);
+
 }  // namespace aleph

@@ -224,7 +224,7 @@ PreparedScene prepare_scene(const SceneOptions& options) {
         prepared.read = files.read.paths();
     }
     Scene& scene = prepared.scene;
-    if (!options.fps.empty()) scene.film.frame_rate = parse_fps(options.fps);
+    if (!options.fps.empty()) change_frame_rate(scene.film, parse_fps(options.fps));
     prepared.settings = join_settings(scene, options.settings, options.keeps_to_error);
     if (!options.quiet) print_warnings(scene.source.warnings);
     const FrameRange range = frame_range(scene);

@@ -1,5 +1,6 @@
 #include "render/frame/frame_estimate.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/pixel_loops.h"
@@ -68,35 +69,75 @@ OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& 
     return open;
 }
 
-SampleScene open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter) {
-    EffectSet skipped = scene.shading().skipped;
+SampleScene open_scene(const OpenFrame& frame, double at) {
+    const Shot& shot = frame.shot;
+    EffectSet skipped = frame.scene.shading().skipped;
     // The plan knows the lights at the shutter's centre alone: at other times lamps are seen and cast shadows.
     for (const Effect effect : {Effect::direct_light, Effect::area_shadows})
         if (!shot.settings.effects.forbid.contains(effect)) skipped.remove(effect);
-    shutter.pose(at / shot.scene.film.frame_rate.per_second(), shot.camera(frame), shot.settings.picture.width,
-                 shot.settings.picture.height);
-    shutter.prepare();
-    shutter.leave_out(skipped);
-    shutter.take_media_around(scene);
-    return shutter.sample_scene();
+    const int camera = shot.camera(frame.number);
+    frame.shutter.pose(at / shot.scene.film.frame_rate.per_second(), camera, shot.settings.picture.width,
+                       shot.settings.picture.height);
+    frame.shutter.prepare();
+    frame.shutter.leave_out(skipped);
+    std::uint64_t rays_cast = 0;
+    frame.shutter.find_media_around(rays_cast);
+    SampleScene sample = frame.shutter.sample_scene();
+    sample.rays_cast = rays_cast;
+    if (!frame.plan.skips(Effect::depth_of_field))
+        sample.lens = find_lens(shot.scene, frame.shutter.posed().pose.cameras[camera]);
+    return sample;
 }
 
-void blur_frame_estimate(const OpenFrame& frame, const SampleHits& centers, const EstimateNodes* nodes,
-                         Image<Rgb>& sharp, RayCounts& counts) {
+namespace {
+
+/// The largest value within so many pixels in each direction.
+Image<float> find_largest_around(const Image<float>& values, int reach) {
+    Image<float> rows(values.width, values.height), largest(values.width, values.height);
+    const auto spread = [&](const Image<float>& from, Image<float>& to, int step_x, int step_y) {
+        parallel_pixels(to, 16, [&](int x, int y) {
+            float most = 0.0f;
+            for (int i = -reach; i <= reach; ++i) {
+                const int nx = x + i * step_x, ny = y + i * step_y;
+                if (nx >= 0 && ny >= 0 && nx < from.width && ny < from.height) most = std::max(most, from(nx, ny));
+            }
+            to(x, y) = most;
+        });
+    };
+    spread(values, rows, 1, 0);
+    spread(rows, largest, 0, 1);
+    return largest;
+}
+
+/// Half of the longest way of a point between two times of a blurred estimate, and a pixel for the filter.
+int find_blur_reach(const MotionField& motion, const ShutterInterval& shutter) {
+    constexpr double most = 32.0;
+    double longest = 0.0;
+    for (const double length : motion.path_length.pixels) longest = std::max(longest, length);
+    return 1 + static_cast<int>(std::ceil(std::min(most, 0.5 * longest * (shutter.close - shutter.open) / blur_looks)));
+}
+
+}  // namespace
+
+Image<float> blur_frame_estimate(const OpenFrame& frame, const SampleHits& centers, const EstimateNodes* nodes,
+                                 const MotionField& motion, Image<Rgb>& sharp, RayCounts& counts) {
     const Shot& shot = frame.shot;
     const FrameScene& scene = frame.scene;
     const OpenLens open = find_open_lens(shot, frame.number, scene, frame.plan);
-    if (!open.shutter && !(open.lens.radius > 0.0)) return;
+    if (!open.shutter && !(open.lens.radius > 0.0)) return {};
     const SharpEstimate estimate{scene.shading(), scene.posed().view,           centers,      sharp,
                                  nodes,           shot.settings.guide.estimate, shot.exposure};
     const auto look = [&](double place) -> SampleScene {
-        if (!open.shutter) return scene.sample_scene();
-        const double at = open.shutter->open + (open.shutter->close - open.shutter->open) * place;
-        return open_scene(shot, frame.number, at, scene, frame.shutter);
+        if (open.shutter) return open_scene(frame, std::lerp(open.shutter->open, open.shutter->close, place));
+        SampleScene still = scene.sample_scene();
+        still.lens = open.lens;
+        return still;
     };
-    Image<Rgb> blurred = blur_estimate(estimate, open.lens, look, counts);
-    sanitize_estimate(blurred);
-    sharp = std::move(blurred);
+    BlurredEstimate blurred = blur_estimate(estimate, look, counts);
+    sanitize_estimate(blurred.picture);
+    sharp = std::move(blurred.picture);
+    if (!open.shutter) return {};
+    return find_largest_around(blurred.swing, find_blur_reach(motion, *open.shutter));
 }
 
 namespace {
@@ -200,13 +241,14 @@ struct Look {
 
 }  // namespace
 
-Image<Rgb> blur_estimate(const SharpEstimate& sharp, const Lens& lens,
-                         const std::function<SampleScene(double place)>& look_at, RayCounts& counts) {
+BlurredEstimate blur_estimate(const SharpEstimate& sharp, const std::function<SampleScene(double place)>& look_at,
+                              RayCounts& counts) {
     const int width = sharp.view.width, height = sharp.view.height;
     const SharpReader reader(sharp);
     const std::optional<NodeIrradiance> irradiance =
         sharp.nodes != nullptr ? std::optional<NodeIrradiance>(*sharp.nodes) : std::nullopt;
-    Image<Rgb> blurred(width, height, Rgb(0.0f));
+    BlurredEstimate blurred{Image<Rgb>(width, height, Rgb(0.0f)), Image<float>(width, height, 0.0f)};
+    Image<float> darkest(width, height, 1.0f);
     Image<Hit> hits(width, height);
     for (int i = 0; i < blur_looks; ++i) {
         const double time = (i + 0.5) / blur_looks;
@@ -214,20 +256,26 @@ Image<Rgb> blur_estimate(const SharpEstimate& sharp, const Lens& lens,
         // Fibonacci's lattice of 8 points: even over times and lens.
         const glm::vec2 u(std::fmod(time * 3.0, 1.0), std::fmod(time * 5.0, 1.0));
         const auto make_ray = [&](int x, int y) {
-            if (!(lens.radius > 0.0)) return make_camera_ray(keyframe.view, x + 0.5, y + 0.5);
-            return make_lens_ray(keyframe.view, lens, {x + 0.5, y + 0.5}, u);
+            if (!(keyframe.lens.radius > 0.0)) return make_camera_ray(keyframe.view, x + 0.5, y + 0.5);
+            return make_lens_ray(keyframe.view, keyframe.lens, {x + 0.5, y + 0.5}, u);
         };
         cast_rays(keyframe.lighting.rays, make_ray, Blend::cutout, hits);
-        counts.primary += hits.size();
+        counts.primary += hits.size() + keyframe.rays_cast;
         const Look look{sharp, reader, irradiance ? &*irradiance : nullptr, keyframe};
         const auto look_at_row = [&](int y, RayTask& task) {
             for (int x = 0; x < width; ++x) {
                 const glm::vec3 direction(make_ray(x, y).direction);
-                blurred(x, y) += look.find(task, hits(x, y), direction, x, y) * (1.0f / blur_looks);
+                const Rgb seen = look.find(task, hits(x, y), direction, x, y);
+                blurred.picture(x, y) += seen * (1.0f / blur_looks);
+                // `swing` holds the brightest until the last look. NaN counts as black.
+                const float shown = std::min(1.0f, std::max(0.0f, luminance(seen)));
+                darkest(x, y) = std::min(darkest(x, y), shown);
+                blurred.swing(x, y) = std::max(blurred.swing(x, y), shown);
             }
         };
         cast_parallel(height, 4, keyframe.lighting.rays, counts, look_at_row, Blend::cutout);
     }
+    for (std::size_t i = 0; i < darkest.size(); ++i) blurred.swing.pixels[i] -= darkest.pixels[i];
     return blurred;
 }
 

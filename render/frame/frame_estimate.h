@@ -54,11 +54,6 @@ struct OpenLens {
 };
 OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& scene, const FramePlan& plan);
 
-/// The scene while the shutter of a frame is open, valid until the next call. It leaves out what the frame does.
-/// @param at       frames
-/// @param shutter  moved there
-SampleScene open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter);
-
 /// A frame whose shutter or lens may be open.
 struct OpenFrame {
     const Shot& shot;
@@ -68,10 +63,17 @@ struct OpenFrame {
     FrameScene& shutter;  ///< moved to times while the shutter is open
 };
 
+/// The scene while the shutter of a frame is open, valid until the next call. It leaves out what the frame does.
+/// @param at  frames
+SampleScene open_scene(const OpenFrame& frame, double at);
+
 /// Blurs the sharp estimate by shutter and lens, if they are open.
-/// @param sharp  the estimate; replaced
-void blur_frame_estimate(const OpenFrame& frame, const SampleHits& centers, const EstimateNodes* nodes,
-                         Image<Rgb>& sharp, RayCounts& counts);
+/// @param motion  of the frame
+/// @param sharp   the estimate; replaced
+/// @return how much the luminance of each pixel changes while the shutter is open, up to that of white, 1; of what
+///     passes between two of the times that are looked at, too. Empty if it is closed
+Image<float> blur_frame_estimate(const OpenFrame& frame, const SampleHits& centers, const EstimateNodes* nodes,
+                                 const MotionField& motion, Image<Rgb>& sharp, RayCounts& counts);
 
 /// A frame's quick estimate at the shutter's centre, through a pinhole.
 struct SharpEstimate {
@@ -88,10 +90,16 @@ struct SharpEstimate {
 /// estimate has no noise.
 inline constexpr int blur_looks = 8;
 
+/// A blurred estimate, and how much the luminance of each pixel differs between its times, up to that of white.
+struct BlurredEstimate {
+    Image<Rgb> picture;
+    Image<float> swing;
+};
+
 /// At each of its times, every pixel shows a surface. Its light is read from the sharp estimate where that shows the
 /// same point, and is computed elsewhere. So what does not move and is in focus keeps its values.
 /// @param look    the scene at a place of the shutter, in [0,1], valid until the next call
-Image<Rgb> blur_estimate(const SharpEstimate& sharp, const Lens& lens,
-                         const std::function<SampleScene(double place)>& look, RayCounts& counts);
+BlurredEstimate blur_estimate(const SharpEstimate& sharp, const std::function<SampleScene(double place)>& look,
+                              RayCounts& counts);
 
 }  // namespace aleph

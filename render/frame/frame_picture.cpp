@@ -53,9 +53,9 @@ SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const Fr
     if (!open.shutter) return options;
     options.light_lasts = !s.light_breaks.changes(open.shutter->open, open.shutter->close);
     const double shift = RandomStream({plan.settings.seed ^ shutter_seed_mask, s.shot.noise_key(frame), 0, 0}).next();
-    options.at_sample = [&s, frame, shutter = *open.shutter, shift](int sample, int pixel_class) {
+    options.at_sample = [&s, &plan, frame, shutter = *open.shutter, shift](int sample, int pixel_class) {
         const double at = place_in_shutter(shutter, sample, pixel_class, shift);
-        return open_scene(s.shot, frame, at, s.here, s.shutter);
+        return open_scene({s.shot, frame, plan, s.here, s.shutter}, at);
     };
     return options;
 }
@@ -65,7 +65,7 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     options.partial = &request.partial;
     FrameOutput& out = prepared.out;
     const Image<Outline> outlines = find_visible_outlines(s.shot, s.here.shading(), prepared);
-    const VisibleLimits limits = make_visible_limits(s.shot, out, outlines);
+    const VisibleLimits limits = make_visible_limits(s.shot, prepared, outlines);
     if (!out.limits.threshold.empty()) {
         options.limits = &limits;
         options.estimate = &out.estimate;

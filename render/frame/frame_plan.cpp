@@ -115,11 +115,13 @@ double find_largest_circle(const CameraView& view, double radius, double focus, 
 
 }  // namespace
 
-/// The camera's values at nine equal steps, both ends included.
+/// The camera's values at equal steps, eight for each of the spans between keys, both ends included.
 /// @param camera    index into ScenePose::cameras
 /// @param from, to  s
 std::vector<CameraValues> FramePlanner::look(int camera, double from, double to) {
-    constexpr int looks = 9;
+    constexpr std::size_t most_spans = 32;
+    const std::size_t spans = std::min(most_spans, find_key_times(shot_.scene, from, to).size() + 1);
+    const int looks = static_cast<int>(8 * spans) + 1;
     std::vector<CameraValues> values;
     for (int i = 0; i < looks; ++i) {
         const double seconds = from + (to - from) * i / (looks - 1);
@@ -143,6 +145,7 @@ ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const Frame
     const double rate = shot_.scene.film.frame_rate.per_second();
     const double open_at = interval->open / rate, close_at = interval->close / rate;
     shutter.changes = !shot_.steady.is_steady(camera, open_at, close_at);
+    shutter.light_changes = shutter.changes && light_breaks_.changes(interval->open, interval->close);
     if (shutter.changes && !facts.sees_all && shot_.steady.is_world_steady(open_at, close_at)) {
         shutter.blur = find_camera_blur(look(camera, open_at, close_at), shot_.settings.picture.width,
                                         shot_.settings.picture.height, nearest, shutter.largest);

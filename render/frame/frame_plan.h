@@ -7,6 +7,7 @@
 #include "render/frame/shot.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/plan/effects_plan.h"
+#include "render/time/lighting_keyframes.h"
 #include "render/time/shutter.h"
 
 namespace aleph {
@@ -34,7 +35,8 @@ struct FrameWork {
 /// Makes the effects plans of a shot's frames.
 class FramePlanner {
   public:
-    explicit FramePlanner(const Shot& shot) : shot_(shot) {}
+    /// Keeps references.
+    FramePlanner(const Shot& shot, LightBreaks& light_breaks) : shot_(shot), light_breaks_(light_breaks) {}
 
     /// Plans to skip what cannot change the picture, as far as that is known before the first ray.
     FramePlan begin(const FrameWork& work, const PosedView& posed);
@@ -50,6 +52,7 @@ class FramePlanner {
     std::vector<CameraValues> look(int camera, double from, double to);
 
     const Shot& shot_;
+    LightBreaks& light_breaks_;
     std::optional<ScenePose> posed_;  ///< when cameras were looked at last: only what can move is posed again
     std::optional<ShotFacts> facts_;  ///< once a frame was planned
 };

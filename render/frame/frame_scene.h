@@ -40,8 +40,6 @@ class FrameScene {
     std::size_t prepare();
     /// Finds the volumes that the camera is in. To be called after prepare; without it there are none.
     void find_media_around(std::uint64_t& rays_cast);
-    /// Takes the volumes around the camera from another time.
-    void take_media_around(const FrameScene& other) { around_ = other.around_; }
     /// Leaves out of shading what a plan for this frame skips. To be called after prepare.
     void leave_out(const EffectsPlan& effects);
     /// Leaves effects out of shading; the lights stay, unless direct light is among the effects.

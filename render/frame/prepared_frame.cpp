@@ -26,7 +26,8 @@ void perceive(SequenceState& s, const FrameScene& here, const FrameWork& work, S
     clock.add_to(out.statistics.seconds.estimate);
     s.motion.compute(work, here, s.estimate_light, clock, frame);
     if (work.maps) s.motion.compute_backward(work, here, frame);
-    blur_frame_estimate({shot, work.frame, plan, here, s.shutter}, frame.centers, indirect, out.estimate, counts);
+    frame.swing = blur_frame_estimate({shot, work.frame, plan, here, s.shutter}, frame.centers, indirect, out.motion,
+                                      out.estimate, counts);
     clock.add_to(out.statistics.seconds.estimate);
     RenderSettings vision = shot.settings;
     if (plan.skips(Effect::saliency) && vision.perception.guide == Guide::saliency)
@@ -92,16 +93,17 @@ Image<Outline> find_visible_outlines(const Shot& shot, const ShadingScene& shadi
     return outlines;
 }
 
-VisibleLimits make_visible_limits(const Shot& shot, const FrameOutput& out, const Image<Outline>& outlines) {
-    return {out.limits.threshold,   out.limits.threshold_noise, out.perception.aleph, out.limits.alpha, outlines,
-            shot.scene.film.viewing};
+VisibleLimits make_visible_limits(const Shot& shot, const PreparedFrame& frame, const Image<Outline>& outlines) {
+    const ErrorLimits& limits = frame.out.limits;
+    return {limits.threshold, limits.threshold_noise, frame.out.perception.aleph, limits.alpha, outlines,
+            frame.swing,      shot.scene.film.viewing};
 }
 
 Image<float> find_record_tolerance(const Shot& shot, const ShadingScene& shading, const PreparedFrame& keyframe) {
     const RenderSettings& settings = keyframe.plan.settings;
     if (!(settings.error > 0.0) || keyframe.out.limits.threshold.empty()) return {};
     const Image<Outline> outlines = find_visible_outlines(shot, shading, keyframe);
-    return compute_sampling_tolerance(make_visible_limits(shot, keyframe.out, outlines), settings, shot.exposure);
+    return compute_sampling_tolerance(make_visible_limits(shot, keyframe, outlines), settings, shot.exposure);
 }
 
 }  // namespace aleph

@@ -11,6 +11,7 @@ struct PreparedFrame {
     FramePlan plan;
     SampleHits centers;  ///< hits through the pixel centres
     FrameOutput out;     ///< all but the picture
+    Image<float> swing;  ///< blur_frame_estimate; empty: the shutter is closed
 };
 
 struct SequenceState;
@@ -24,7 +25,7 @@ PreparedFrame prepare_frame(SequenceState& s, FrameScene& here, FrameWork work);
 Image<Outline> find_visible_outlines(const Shot& shot, const ShadingScene& shading, const PreparedFrame& frame);
 
 /// Refers to the outlines and to the frame.
-VisibleLimits make_visible_limits(const Shot& shot, const FrameOutput& out, const Image<Outline>& outlines);
+VisibleLimits make_visible_limits(const Shot& shot, const PreparedFrame& frame, const Image<Outline>& outlines);
 
 /// The tolerance of a lighting keyframe's records (KeyView); empty where no error is asked for.
 /// @param shading  of the keyframe

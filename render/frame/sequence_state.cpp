@@ -52,7 +52,7 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
       here(shot, shot.pose_plan),
       keyframe(shot, here),
       light_breaks(shot.scene, shot.pose_plan, shot.shutter(shot.range.first)),
-      planner(shot),
+      planner(shot, light_breaks),
       estimate_light(shot, shot_light, keyframe),
       motion(shot, here),
       shutter(shot, here) {

@@ -41,7 +41,7 @@ struct SequenceState {
     bool rendered = false;                                      ///< a frame, which `here` shows
 };
 
-/// How the samples of a prepared frame are taken.
+/// How the samples of a prepared frame are taken. Refers to its plan.
 SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const FramePlan& plan);
 
 /// The light of the lighting keyframes around a frame; null if it reads none.

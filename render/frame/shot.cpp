@@ -63,18 +63,20 @@ Shot::Shot(Scene given, const RenderSettings& chosen, const std::vector<CameraSh
       textures(make_texture_set(scene)),
       pose_plan(make_pose_plan(scene)),
       steady(scene, pose_plan),
-      blended(has_blended(scene)) {}
+      blended(has_blended(scene)),
+      crossed_cuts(find_crossed_cuts(scene, [this](std::int64_t frame) { return camera(frame); })) {}
 
 glm::dvec2 Shot::shutter(std::int64_t frame) const {
     return read_shutter(scene, camera(frame));
 }
 
 std::optional<ShutterInterval> Shot::open_shutter(std::int64_t frame) const {
-    return can_change() ? find_shutter(scene, shutter(frame), frame) : std::nullopt;
+    return can_change() ? find_shutter(scene, shutter(frame), frame, crossed_cuts) : std::nullopt;
 }
 
 double Shot::seconds(std::int64_t frame) const {
-    return can_change() ? find_shutter_center(scene, shutter(frame), frame) : scene.film.frame_rate.seconds_of(frame);
+    return can_change() ? find_shutter_center(scene, shutter(frame), frame, crossed_cuts)
+                        : scene.film.frame_rate.seconds_of(frame);
 }
 
 OtherFrame Shot::other_frame(std::int64_t frame) const {

@@ -72,7 +72,8 @@ struct Shot {
     const TextureSet textures;
     const PosePlan pose_plan;
     const SteadySpans steady;
-    const bool blended;  ///< blended surfaces are in the scene
+    const bool blended;                            ///< blended surfaces are in the scene
+    const std::vector<std::int64_t> crossed_cuts;  ///< find_crossed_cuts
     double exposure = 1.0;
 };
 

@@ -70,8 +70,9 @@ struct BlurMoments {
 
 /// The shutter of a frame's camera.
 struct ShutterFacts {
-    bool open = false;     ///< for some time
-    bool changes = false;  ///< something does while it is open
+    bool open = false;           ///< for some time
+    bool changes = false;        ///< something does while it is open
+    bool light_changes = false;  ///< what sends light does (LightBreaks), so that its bounds at one time do not hold
     /// How far the picture moves, where only the camera does; nothing if more than the picture's place may change.
     std::optional<BlurMoments> blur;
     double largest = 0.0;  ///< of these distances, pixels, from the first to the last

@@ -50,7 +50,7 @@ void set_frame_rate(Scene& scene, const py::object& value) {
     }
     if (!(rate.numerator > 0 && rate.numerator <= 1000000))
         throw InputError("", "fps", "expected frames per second, such as 30 or '30000/1001'");
-    scene.film.frame_rate = rate;
+    change_frame_rate(scene.film, rate);
 }
 
 py::dict list_settings(const Scene& scene) {

@@ -150,7 +150,7 @@ class FrameShading {
         expected_ = taken_ + sum_samples(ranges);
         if (!plan_.tolerance.empty()) expected_ += predict_samples(ranges, before, plan_.most);
         if (!options_.at_sample) {
-            take_at({context_.lighting, context_.view}, ranges);
+            take_at({context_.lighting, context_.view, options_.lens}, ranges);
         } else {
             take_in_turn(ranges, [this](int i, int c, auto now) { take_at(options_.at_sample(i, c), now); });
         }
@@ -158,6 +158,8 @@ class FrameShading {
 
     void take_at(const SampleScene& scene, std::span<const PixelRange> ranges) {
         integrator_->begin(scene);
+        place_.lens = scene.lens;
+        out_.counts.rays.primary += scene.rays_cast;
         const std::size_t task_ranges = find_task_ranges(ranges), slice_ranges = tasks_of_slice * task_ranges;
         for (std::size_t begin = 0; begin < ranges.size(); begin += slice_ranges) {
             const auto slice = ranges.subspan(begin, std::min(slice_ranges, ranges.size() - begin));

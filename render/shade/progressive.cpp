@@ -21,8 +21,9 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
             if (plan.part != nullptr && (*plan.part)(x, y) == 0) continue;
             const Outline outline = plan.outlines.empty() ? Outline::none : plan.outlines(x, y);
             const bool bright = !plan.bright_edges.empty() && plan.bright_edges(x, y) != 0;
-            const int count = plan.rule == Sampling::protocol ? protocol_samples(plan.aleph(x, y), plan.most)
-                                                              : first_samples(plan.rule, outline, bright, plan.most);
+            int count = plan.rule == Sampling::protocol ? protocol_samples(plan.aleph(x, y), plan.most)
+                                                        : first_samples(plan.rule, outline, bright, plan.most);
+            if (!plan.least.empty()) count = std::max(count, plan.least(x, y));
             ranges.push_back({x, y, 0, count});
         }
     }
@@ -190,6 +191,20 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
     return tolerance;
 }
 
+/// Pixels of a class have the same times (shutter.h), so their neighbours do not tell what these miss: a step of the
+/// luminance may lie anywhere between two of n times, which makes an error of up to its height / n.
+Image<int> find_least_samples(const VisibleLimits& limits, const RenderSettings& settings) {
+    Image<int> least(limits.swing.width, limits.swing.height);
+    const double error = settings.error > 0.0 ? settings.error : 1.0, white = limits.viewing.display_white;
+    for (std::size_t i = 0; i < least.size(); ++i) {
+        const double needed = limits.swing.pixels[i] * white / (error * limits.threshold.pixels[i]);
+        int count = 1;
+        while (count < needed && count < settings.sampling.spp) count *= 2;
+        least.pixels[i] = std::min(count, settings.sampling.spp);
+    }
+    return least;
+}
+
 SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSettings& settings, double exposure) {
     SamplingPlan plan;
     plan.rule = settings.sampling.rule;
@@ -202,6 +217,7 @@ SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSetting
     plan.outlines = limits->outlines;
     plan.reach = find_seen_reach(limits->viewing.pixels_per_degree);
     if (plan.rule == Sampling::threshold) plan.white = 1.0 / exposure;
+    if (plan.rule == Sampling::threshold && !limits->swing.empty()) plan.least = find_least_samples(*limits, settings);
     return plan;
 }
 

@@ -21,6 +21,7 @@ struct SamplingPlan {
     Image<float> tolerance;   ///< of luminance, in the samples' unit (is_enough); empty for `uniform` and `protocol`
     Image<float> aleph;       ///< for `protocol`
     Image<Outline> outlines;  ///< for `threshold`; empty: none
+    Image<int> least;         ///< for `threshold`: samples before the rule is asked first; empty: no more than usual
     int reach = 1;            ///< for `threshold`: pixels on either side that are seen together (find_seen_reach)
     Image<std::uint8_t> bright_edges;                        ///< for `threshold` (bright_edges.h); empty: none
     double white = std::numeric_limits<double>::infinity();  ///< for `threshold`: radiance that is shown as white
@@ -64,6 +65,7 @@ struct VisibleLimits {
     const Image<float>& aleph;      ///< elevation of the threshold
     const Image<float>& accuracy;   ///< alpha, of cached light
     const Image<Outline>& outlines;
+    const Image<float>& swing;  ///< blur_frame_estimate; empty: the shutter is closed
     ViewingConditions viewing;
 };
 

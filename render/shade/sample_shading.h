@@ -12,6 +12,8 @@ namespace aleph {
 struct SampleScene {
     LightingContext lighting;
     const CameraView& view;
+    Lens lens{};
+    std::uint64_t rays_cast = 0;  ///< to find what surrounds the camera
 };
 
 /// The work of one task: its rays, and what it counts.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/pose/parts.h"
+#include "engine/pose/steady.h"
 #include "render/time/shutter.h"
 
 namespace aleph {
@@ -144,11 +145,13 @@ const std::vector<std::int64_t>& LightBreaks::find(std::int64_t first, std::int6
 
 bool LightBreaks::changes(double open, double close) {
     constexpr int looks = 9;
-    const Sources first = look(open / scene_.film.frame_rate.per_second());
+    const double rate = scene_.film.frame_rate.per_second(), from = open / rate, to = close / rate;
+    std::vector<double> times = find_key_times(scene_, from, to);
+    for (int i = 1; i < looks; ++i) times.push_back(from + (to - from) * i / (looks - 1));
+    const Sources first = look(from);
     std::vector<float> largest = first.values, smallest = first.values;
-    for (int i = 1; i < looks; ++i) {
-        const double at = open + (close - open) * i / (looks - 1);
-        const Sources now = look(at / scene_.film.frame_rate.per_second());
+    for (const double seconds : times) {
+        const Sources now = look(seconds);
         if (now.there != first.there || now.values.size() != first.values.size()) return true;
         raise_to(largest, now.values);
         for (std::size_t k = 0; k < smallest.size(); ++k) smallest[k] = std::min(smallest[k], now.values[k]);

@@ -55,7 +55,7 @@ class LightBreaks {
     const std::vector<std::int64_t>& find(std::int64_t first, std::int64_t last);
 
     /// Returns whether such a change lies within an interval of time, which may be slow there: it is looked at nine
-    /// times.
+    /// times, and at keys.
     /// @param open, close  frames
     bool changes(double open, double close);
 

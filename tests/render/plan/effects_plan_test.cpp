@@ -62,6 +62,38 @@ TEST(EffectsPlan, FX02_IndirectLightNeedsSurfacesThatSeeEachOther) {
     EXPECT_FALSE(effects_of(scene).contains("indirect_diffuse")) << "albedo 0";
 }
 
+TEST(EffectsPlan, FX02_LightThatIsOutAtTheMiddleOfTheShutter) {
+    // A lamp shines down on the floor, whose light the wall alone gets.
+    Scene scene = make_empty_view();
+    scene.cameras.back().shutter = glm::dvec2(0.0, 1.0);
+    const int grey = add_lambert(scene, glm::dvec3(0.6));
+    add_mesh(scene, make_quad(4.0, 4.0, grey));
+    add_mesh(scene, make_quad(4.0, 4.0, grey), {0.0, -1.5, 2.0}, z_to_up);
+    const int lamp = add_light(scene, Light::Kind::spot, glm::dvec3(40.0), {0.0, 1.3, 2.0}, z_to_up);
+    RenderSettings settings = planned_settings();
+    settings.sampling.spp = 64;
+    const auto mean = [&] { return mean_of_pixels(Sequence(scene, settings).render(0).shaded).mean(); };
+    const double always = mean();
+    ASSERT_GT(always, 1e-3);
+    scene.nodes[lamp].visible = keyed<double>({0.0, 0.3 / scene.film.frame_rate.per_second()}, {1.0, 0.0},
+                                               Interpolation::step);
+    EXPECT_TRUE(effects_of(scene, settings).contains("indirect_diffuse"));
+    EXPECT_NEAR(mean(), 0.3 * always, 0.03 * always);
+}
+
+TEST(EffectsPlan, FX15_AnUnevenWayOfTheCameraIsLookedAtBetweenItsKeys) {
+    Scene scene = make_lit_square();
+    scene.cameras.back().shutter = glm::dvec2(0.0, 1.0);
+    std::vector<double> times;
+    std::vector<glm::dvec3> places;
+    for (int i = 0; i <= 16; ++i) {
+        times.push_back(i / 16.0 / scene.film.frame_rate.per_second());
+        places.emplace_back(0.3 * (i % 2), 0.0, 3.0);
+    }
+    scene.nodes[0].transform.translation = keyed<glm::dvec3>(times, places);
+    EXPECT_TRUE(effects_of(scene).contains("motion_blur"));
+}
+
 TEST(EffectsPlan, FX02_OrthographicRaysMayStartInsideABodyBesideTheCamera) {
     Scene scene = make_empty_view();
     scene.cameras[0].orthographic = true;

@@ -14,11 +14,11 @@ namespace {
 TEST(ErrorBudget, MovingOutlinesKeepToTheStrictestThresholdAround) {
     Image<float> threshold(5, 5, 8.0f);
     threshold(2, 2) = 2.0f;
-    const Image<float> noise(5, 5, 1.0f), aleph(5, 5, 1.0f), accuracy(5, 5, 0.1f);
+    const Image<float> noise(5, 5, 1.0f), aleph(5, 5, 1.0f), accuracy(5, 5, 0.1f), swing;
     Image<Outline> outlines(5, 5, Outline::none);
     outlines(1, 1) = outlines(3, 2) = Outline::moving;
     outlines(2, 1) = Outline::still;
-    const VisibleLimits limits{threshold, noise, aleph, accuracy, outlines, ViewingConditions{}};
+    const VisibleLimits limits{threshold, noise, aleph, accuracy, outlines, swing, ViewingConditions{}};
     RenderSettings settings;
     settings.sampling.rule = Sampling::variance;
     settings.error = 0.5;
@@ -34,9 +34,9 @@ TEST(ErrorBudget, MovingOutlinesKeepToTheStrictestThresholdAround) {
 }
 
 TEST(ErrorBudget, SamplesKeepToTheNoiseThatGoesUnseen) {
-    const Image<float> threshold(3, 3, 2.0f), noise(3, 3, 5.0f), aleph(3, 3, 1.0f), accuracy(3, 3, 0.1f);
+    const Image<float> threshold(3, 3, 2.0f), noise(3, 3, 5.0f), aleph(3, 3, 1.0f), accuracy(3, 3, 0.1f), swing;
     const Image<Outline> outlines(3, 3, Outline::none);
-    const VisibleLimits limits{threshold, noise, aleph, accuracy, outlines, ViewingConditions{}};
+    const VisibleLimits limits{threshold, noise, aleph, accuracy, outlines, swing, ViewingConditions{}};
     RenderSettings settings;
     const double unit = 5.0 / limits.viewing.display_white / 2.0;
     for (const auto& [error, times] : {std::pair(0.5, 0.5), std::pair(1.0, 1.0), std::pair(2.0, std::pow(2.0, 0.8))}) {

@@ -4,6 +4,7 @@
 #include "render/time/shutter.h"
 #include "render/time/shutter_light.h"
 #include "tests/support/frame_bytes.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
 
@@ -28,18 +29,19 @@ TEST(Shutter, IsRelativeToTheFrame) {
 
 TEST(Shutter, MC27_CutsEndItOnBothSides) {
     const std::vector<std::int64_t> cuts{20, 5, 10};
+    constexpr double before = 1.0 / 2048.0;  // frames
     const auto expect = [&](std::int64_t frame, const glm::dvec2& shutter, double open, double close) {
         const ShutterInterval found = open_at(frame, shutter, cuts);
         EXPECT_DOUBLE_EQ(found.open, open) << frame;
         EXPECT_DOUBLE_EQ(found.close, close) << frame;
     };
     expect(9, {-0.5, 0.5}, 8.5, 9.5);
-    expect(9, {-0.5, 2.0}, 8.5, 10.0);  // the next shot begins at 10
-    expect(9, {0.0, 30.0}, 9.0, 10.0);  // and another at 20
+    expect(9, {-0.5, 2.0}, 8.5, 10.0 - before);  // the next shot begins at 10
+    expect(9, {0.0, 30.0}, 9.0, 10.0 - before);  // and another at 20
     expect(10, {-0.5, 0.5}, 10.0, 10.5);
     expect(10, {-9.0, 0.0}, 10.0, 10.0);  // all of it before the cut: the shot's first keyframe
-    expect(11, {-9.0, 30.0}, 10.0, 20.0);
-    expect(4, {0.0, 1.0}, 4.0, 5.0);
+    expect(11, {-9.0, 30.0}, 10.0, 20.0 - before);
+    expect(4, {0.0, 1.0}, 4.0, 5.0 - before);
 }
 
 TEST(Shutter, MC27_AShutterBeyondTheCutShowsTheLastMomentBeforeIt) {
@@ -54,6 +56,35 @@ TEST(Shutter, MC27_AShutterBeyondTheCutShowsTheLastMomentBeforeIt) {
     }
 }
 
+/// A camera with an open shutter that jumps by 40 m to frame 5.
+Scene make_jump(const Track<glm::dvec3>& way) {
+    Scene scene;
+    scene.film.frame_rate = {1, 1};
+    scene.film.cuts = {5};
+    scene.cameras.emplace_back().shutter = glm::dvec2(-0.25, 0.5);
+    scene.nodes.emplace_back().transform.translation = way;
+    scene.nodes.emplace_back().camera = 0;
+    scene.nodes.back().parent = 0;
+    return scene;
+}
+
+TEST(Shutter, MC27_AShotEndsBeforeKeysThatLeadIntoTheNext) {
+    using Keys = std::vector<glm::dvec3>;
+    const auto crossed = [](const Scene& scene) { return find_crossed_cuts(scene, [](std::int64_t) { return 0; }); };
+    const glm::dvec3 there(40, 0, 0), on(1, 0, 0);
+    const Scene neighbours = make_jump(keyed<glm::dvec3>({0, 4, 5, 9}, Keys{{}, on, there, there + on}));
+    EXPECT_EQ(crossed(neighbours), neighbours.film.cuts);
+    const ShutterInterval found = find_shutter(neighbours, {-0.25, 0.5}, 4, neighbours.film.cuts).value();
+    EXPECT_EQ(found.open, 3.75);
+    EXPECT_EQ(found.close, 4.0);
+    EXPECT_DOUBLE_EQ(find_shutter_center(neighbours, {0.0, 0.5}, 4, neighbours.film.cuts), 4.0);
+    // A step takes no time, and what moves on is no jump.
+    Track<glm::dvec3> step = keyed<glm::dvec3>({0, 5}, Keys{{}, there});
+    step.interpolation = Interpolation::step;
+    EXPECT_TRUE(crossed(make_jump(step)).empty());
+    EXPECT_TRUE(crossed(make_jump(keyed<glm::dvec3>({0, 4, 5, 9}, Keys{{}, 4.0 * on, 5.0 * on, 9.0 * on}))).empty());
+}
+
 TEST(Shutter, ItsCenterStaysInTheShot) {
     Scene scene;
     scene.film.frame_rate = {30, 1};
@@ -65,7 +96,7 @@ TEST(Shutter, ItsCenterStaysInTheShot) {
     EXPECT_DOUBLE_EQ(center({-0.3, 0.3}, 3), 3.0);
     EXPECT_DOUBLE_EQ(center({0.0, 0.5}, 3), 3.25);
     EXPECT_DOUBLE_EQ(center({0.5, 0.5}, 3), 3.5);
-    EXPECT_DOUBLE_EQ(center({0.0, 2.0}, 4), 4.5);  // the shot ends at 5
+    EXPECT_NEAR(center({0.0, 2.0}, 4), 4.5, 1e-3);  // the shot ends at 5
     EXPECT_DOUBLE_EQ(center({-0.5, 0.5}, 5), 5.0);
     EXPECT_DOUBLE_EQ(center({-2.0, 0.5}, 5), 5.25);  // it begins at 5
     EXPECT_LT(center({1.0, 1.0}, 4), 5.0);
