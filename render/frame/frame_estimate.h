@@ -31,8 +31,6 @@ class EstimateLight {
     void gather_around(std::int64_t frame, std::int64_t but, RayCounts& counts);
 
     /// The nodes of a frame, after gather_around.
-    /// @param scene    prepared for the frame
-    /// @param centers  hits through its pixel centres
     EstimateNodes find_nodes(std::int64_t frame, const FrameScene& scene, const SampleHits& centers, RayCounts& counts);
     /// The same for a frame whose own gathers are not kept, even at a lighting keyframe.
     EstimateNodes gather_nodes(std::int64_t frame, const FrameScene& scene, const SampleHits& centers,
@@ -56,7 +54,6 @@ OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& 
 
 /// The scene while the shutter of a frame is open, valid until the next call. It leaves out what the frame does.
 /// @param at       frames
-/// @param shutter  moved there
 SampleScene open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter);
 
 /// A frame whose shutter or lens may be open.
