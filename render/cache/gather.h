@@ -14,7 +14,7 @@
 #include "render/cache/direct_grid.h"
 #include "render/cache/hemisphere_strata.h"
 #include "render/light/light_choice.h"
-#include "render/path/direct_light.h"
+#include "render/path/path.h"
 #include "render/surface/lambert_hit.h"
 
 namespace aleph {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "render/path/direct_light.h"
+#include "render/path/path.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/settings/settings.h"
 

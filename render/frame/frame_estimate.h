@@ -9,7 +9,7 @@
 #include "render/frame/frame_plan.h"
 #include "render/frame/frame_scene.h"
 #include "render/shade/sample_shading.h"
-#include "render/time/estimate_keyframes.h"
+#include "render/time/keyframe_light.h"
 #include "render/time/shot_light.h"
 
 namespace aleph {
