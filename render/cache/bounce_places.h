@@ -44,7 +44,6 @@ struct MirrorPlaces {
 MirrorPlaces cast_mirror_places(const IndirectContext& context, const SampleHits& sample, RayCounts& counts);
 
 /// Adds records to the cache until these places are covered.
-/// @param tally  increased; its images have the frame's size
 void fill_mirror_places(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample,
                         FrameTally& tally);
 

@@ -67,8 +67,6 @@ RadiusBounds radius_bounds(const IndirectContext& context, float footprint, floa
 
 /// fill_places for the surfaces that this sample of the pixels shows.
 /// @param sample  if it is the pixels' first, tiles start large; later samples are looked at pixel by pixel
-/// @param tally   increased; its images have the frame's size
-/// @param finest  of FillPlaces
 void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally,
                 int finest = 1);
 

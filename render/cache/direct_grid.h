@@ -48,9 +48,7 @@ class DirectGrid {
         }
     };
 
-    /// @param unit  m, such as the scene's size: cells are as wide as it times a power of two, so that a scene of
-    /// another
-    ///              scale has the same cells
+    /// @param unit  m, such as the scene's size: cells are as wide as it times a power of two
     explicit DirectGrid(float unit = 1.0f);
 
     /// The cell of a surface point; never 0.

@@ -14,7 +14,7 @@
 #include "render/cache/direct_grid.h"
 #include "render/cache/hemisphere_strata.h"
 #include "render/light/light_choice.h"
-#include "render/path/direct_light.h"
+#include "render/path/path.h"
 #include "render/surface/lambert_hit.h"
 
 namespace aleph {
@@ -214,7 +214,6 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
                                    const GatherOptions& options = {});
 
 /// Sets the rays of all cells, as far as they are above the true surface, their places, and which cells are below it.
-/// @param basis  of the hemisphere
 void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePlace& point,
                 const CellNumbers& numbers, GatherScratch& scratch);
 
@@ -227,7 +226,6 @@ void restore_rays(const KeptRays& kept, GatherScratch& scratch);
 IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch);
 
 /// Its part over the hemisphere: sets everything in `out` but the irradiance, which must be set.
-/// @param basis  of the hemisphere
 void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, GatherScratch& scratch,
                           IrradianceSample& out);
 

@@ -41,7 +41,6 @@ bool is_worth_record(const ExpectedRecord& expected, float footprint, float accu
 
 /// Returns the rays, at least `rays` and at most most_rays, that bring the noise of a record below what the pixel's
 /// samples may have.
-/// @param expected, reflected, tolerance  as above
 int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance);
 
 }  // namespace aleph

@@ -19,7 +19,6 @@ class RecordLists {
 
     /// Calls visit(number, error) for every record whose interpolation_error is below the accuracy, by number. A record
     /// is visited once.
-    /// @param accuracy  at most that of the lists
     template <class Visit>
     void visit(const glm::vec3& position, const glm::vec3& normal, float accuracy, const Visit& visit) const {
         const Cell& leaf = find_leaf(position);

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "render/path/direct_light.h"
+#include "render/path/path.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/settings/settings.h"
 
@@ -92,7 +92,6 @@ class NodeIrradiance {
 /// The radiance, towards the viewer, of the light that arrives after one bounce, without the noise and the blocks that
 /// the model of vision would take for detail. Biased: what is smaller than about 30 pixels of a 640x480 picture, such
 /// as the shadow of a chair leg, is smoothed away.
-/// @param surfaces  of all pixel centres
 Image<Rgb> interpolate_estimate(const EstimateNodes& nodes, const Image<DiffuseSurface>& surfaces);
 
 struct EstimateOptions {

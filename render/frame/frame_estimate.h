@@ -9,7 +9,7 @@
 #include "render/frame/frame_plan.h"
 #include "render/frame/frame_scene.h"
 #include "render/shade/sample_shading.h"
-#include "render/time/estimate_keyframes.h"
+#include "render/time/keyframe_light.h"
 #include "render/time/shot_light.h"
 
 namespace aleph {
@@ -31,8 +31,6 @@ class EstimateLight {
     void gather_around(std::int64_t frame, std::int64_t but, RayCounts& counts);
 
     /// The nodes of a frame, after gather_around.
-    /// @param scene    prepared for the frame
-    /// @param centers  hits through its pixel centres
     EstimateNodes find_nodes(std::int64_t frame, const FrameScene& scene, const SampleHits& centers, RayCounts& counts);
     /// The same for a frame whose own gathers are not kept, even at a lighting keyframe.
     EstimateNodes gather_nodes(std::int64_t frame, const FrameScene& scene, const SampleHits& centers,

@@ -28,13 +28,11 @@ class FrameMotion {
     std::optional<PosedView> end_edited();
 
     /// Poses the scene at the other frame.
-    /// @param here  the frame's own pose
     /// @return the other frame; none if the pose before an edit has other elements
     OtherFrame pose_other(const FrameWork& work, const PosedView& here);
 
     /// Motion of a frame whose estimate is made, with the hidden pixels if maps are wanted. After pose_other.
     /// @param clock  adds an estimate of the other frame to that stage
-    /// @param frame  its output gets the motion
     void compute(const FrameWork& work, const FrameScene& here, EstimateLight& light, StageClock& clock,
                  PreparedFrame& frame);
 

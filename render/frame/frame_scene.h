@@ -26,7 +26,6 @@ class FrameScene {
 
     /// Poses the scene, seen by one of its cameras.
     /// @param camera  index into ScenePose::cameras
-    /// @param width, height  pixels
     void pose(double seconds, int camera, int width, int height);
     /// Poses the scene as the shot has it at a frame.
     void pose(std::int64_t frame);

@@ -14,7 +14,6 @@ void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const View
 
 /// Fills velocity, perception, threshold and alpha from `estimate` and `motion`, which are filled.
 /// @param maps   also the maps that only files need: retinal velocity and conspicuity
-/// @param clock  adds the time to the stages motion and perception
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings,
                           const NoiseVisibility& noise, bool maps, StageClock& clock);
 

@@ -55,7 +55,6 @@ struct Shot {
     }
     /// Returns whether something obeys the visible threshold.
     bool needs_perception() const { return is_guided() || settings.sampling.rule != Sampling::uniform; }
-    /// @param bounces  of the frame's settings
     bool estimates_indirect_light(int bounces) const {
         return bounces > 0 && settings.guide.estimate == EstimateKind::direct;
     }

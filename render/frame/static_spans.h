@@ -16,7 +16,6 @@ class StaticSpans {
   public:
     /// Keeps references to scene and shots.
     /// @param scene    its cuts include every change of cameras
-    /// @param shutter  of a frame's camera
     StaticSpans(const Scene& scene, const PosePlan& plan, const std::vector<CameraShot>& shots,
                 std::function<glm::dvec2(std::int64_t frame)> shutter);
 
@@ -41,7 +40,6 @@ class StaticFrame {
   public:
     /// A copy for a frame of the same static span, without times and counts; nothing if this holds another frame, or if
     /// other contents are requested.
-    /// @param first  first frame of the static span
     std::optional<FrameOutput> copy(std::int64_t first, const FrameRequest& request) const;
 
     void keep(std::int64_t first, const FrameRequest& request, const FrameOutput& output);

@@ -36,8 +36,8 @@ inline float with_margin(float cosine) {
 }
 
 /// bound_illuminances of one light. Without branches, so that a loop over lights becomes vector instructions.
-inline float bound_illuminance(const LightBounds& lights, std::size_t i, const Receiver& receiver) {
-    const glm::vec3 &position = receiver.position, &normal = receiver.normal;
+inline float bound_illuminance(const LightBounds& lights, std::size_t i, const glm::vec3& position,
+                               const glm::vec3& normal, float behind) {
     const float nearby = lights.nearby[i], radius = lights.radius[i], strength = lights.strength[i];
     const float inside = lights.inside[i], one_sided = lights.one_sided[i];
     const float x = lights.x[i] - nearby * position.x, y = lights.y[i] - nearby * position.y,
@@ -52,7 +52,7 @@ inline float bound_illuminance(const LightBounds& lights, std::size_t i, const R
     };
     const float facing = widen(x * normal.x + y * normal.y + z * normal.z);
     const float shining = widen(-(x * lights.axis_x[i] + y * lights.axis_y[i] + z * lights.axis_z[i]));
-    const float share = (receiver.behind ? 1.0f : facing) * (one_sided > 0.0f ? shining : 1.0f);
+    const float share = (behind > 0.0f ? 1.0f : facing) * (one_sided > 0.0f ? shining : 1.0f);
     const float outside = strength * share * (inverse * inverse);
     return distance2 <= 1.01f * (radius * radius) ? inside : outside;
 }
@@ -60,12 +60,13 @@ inline float bound_illuminance(const LightBounds& lights, std::size_t i, const R
 }  // namespace
 
 void bound_illuminances(const LightBounds& lights, const Receiver& receiver, std::span<float> weights) {
-    const Receiver at = receiver;
+    const glm::vec3 from = receiver.position, facing = receiver.normal;
+    const float behind = receiver.behind ? 1.0f : 0.0f;  // as the values of the loop
     for (std::size_t first = 0; first < weights.size(); first += LightBounds::step) {
         // An array that nothing else overlaps: the loop becomes vector instructions.
         std::array<float, LightBounds::step> part;
         for (std::size_t i = 0; i < LightBounds::step; ++i) {
-            part[i] = bound_illuminance(lights, first + i, at);
+            part[i] = bound_illuminance(lights, first + i, from, facing, behind);
         }
         std::copy(part.begin(), part.end(), weights.begin() + static_cast<std::ptrdiff_t>(first));
     }
@@ -73,7 +74,7 @@ void bound_illuminances(const LightBounds& lights, const Receiver& receiver, std
 
 LightReaches reach_of(const LightGroup& group, const Receiver& receiver) {
     const glm::vec3 from = receiver.position, facing = receiver.normal;
-    const bool behind = receiver.behind;
+    const float behind = receiver.behind ? 1.0f : 0.0f;
     LightReaches reaches;
     for (std::size_t i = 0; i < LightGroup::size; ++i) {
         const float near = group.nearby[i], radius = group.radius[i];
@@ -93,7 +94,7 @@ LightReaches reach_of(const LightGroup& group, const Receiver& receiver) {
         const float outside = subtract(at_light, {group.cone.cosine[i], group.cone.sine[i]}).cosine;
         const float falloff = group.by_cosine[i] > 0.0f ? with_margin(outside) : 1.0f;
         const float leaving = outside < group.cos_emission[i] - margin ? 0.0f : falloff;
-        const float outside_share = (behind ? 1.0f : arriving) * (group.directed[i] > 0.0f ? leaving : 1.0f);
+        const float outside_share = (behind > 0.0f ? 1.0f : arriving) * (group.directed[i] > 0.0f ? leaving : 1.0f);
         const bool is_inside = distance2 <= 1.001f * radius2;
         const float share = is_inside ? 1.0f : outside_share;
         // A point light at the point has no direction to it.

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "engine/base/sampling.h"
-#include "render/light/seen_light.h"
 #include "render/surface/environment_map.h"
 #include "render/surface/surface_material.h"
 

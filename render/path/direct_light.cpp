@@ -1,10 +1,10 @@
-#include "render/path/direct_light.h"
+#include "render/path/path.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "render/light/light_cut.h"
-#include "render/light/seen_light.h"
+#include "render/light/lights.h"
 
 namespace aleph {
 

@@ -86,7 +86,6 @@ std::optional<std::string_view> unseal(std::string_view magic, std::string_view 
 class FrameCheckpoint {
   public:
     /// Reads the state that an earlier process left, if the file is whole and of this identity; any other is ignored.
-    /// @param identity  what the frame is made from
     /// @param is_due    asked between pieces of work: the state is to be written now
     FrameCheckpoint(std::filesystem::path file, std::string identity, std::function<bool()> is_due);
 

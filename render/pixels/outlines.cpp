@@ -17,50 +17,45 @@ constexpr double different_motion = 0.5;  // pixels per frame
 constexpr float least_contrast = 0.5f;    // of what is tolerated
 constexpr double small_object = 1.5;      // pixels, largest radius
 
-class OutlineFinder {
-  public:
-    OutlineFinder(const CameraView& view, const Image<Hit>& hits, const MotionField& motion)
-        : view_(view), hits_(hits), motion_(motion) {}
+struct OutlineFinder {
+    const CameraView& view;
+    const Image<Hit>& hits;
+    const MotionField& motion;
 
     Outline find(int x, int y) const {
         if (!has_outline(x, y)) return Outline::none;
         return moves_differently(x, y) ? Outline::moving : Outline::still;
     }
 
-  private:
     bool has_outline(int x, int y) const {
-        const int own = hits_(x, y).instance;
+        const int own = hits(x, y).instance;
         bool several = false;
-        visit_around(hits_, x, y, 1, [&](int nx, int ny) { several = several || hits_(nx, ny).instance != own; });
+        visit_around(hits, x, y, 1, [&](int nx, int ny) { several = several || hits(nx, ny).instance != own; });
         if (several) return true;
-        if (own == no_index || x == 0 || y == 0 || x == hits_.width - 1 || y == hits_.height - 1) return false;
+        if (own == no_index || x == 0 || y == 0 || x == hits.width - 1 || y == hits.height - 1) return false;
         constexpr std::array<std::array<int, 2>, 4> axes{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
         return std::ranges::any_of(axes, [&](const auto& axis) {
-            return bends(hits_(x - axis[0], y - axis[1]), hits_(x, y), hits_(x + axis[0], y + axis[1]));
+            return bends(hits(x - axis[0], y - axis[1]), hits(x, y), hits(x + axis[0], y + axis[1]));
         });
     }
 
     /// Returns whether three neighbours in a row do not lie on a plane.
     bool bends(const Hit& before, const Hit& here, const Hit& after) const {
         const double a = before.distance, b = here.distance, c = after.distance;
-        const double bend = view_.orthographic ? a - 2.0 * b + c : b / a - 2.0 + b / c;
-        return std::abs(bend) * view_.pixels_per_unit > least_step;
+        const double bend = view.orthographic ? a - 2.0 * b + c : b / a - 2.0 + b / c;
+        return std::abs(bend) * view.pixels_per_unit > least_step;
     }
 
     bool moves_differently(int x, int y) const {
-        if (motion_.displacement.empty()) return false;
-        const glm::dvec2 own = motion_.displacement(x, y);
+        if (motion.displacement.empty()) return false;
+        const glm::dvec2 own = motion.displacement(x, y);
         bool differs = false;
-        visit_around(hits_, x, y, 1, [&](int nx, int ny) {
-            const glm::dvec2 other = motion_.displacement(nx, ny);
+        visit_around(hits, x, y, 1, [&](int nx, int ny) {
+            const glm::dvec2 other = motion.displacement(nx, ny);
             differs = differs || std::hypot(other.x - own.x, other.y - own.y) > different_motion;
         });
         return differs;
     }
-
-    const CameraView& view_;
-    const Image<Hit>& hits_;
-    const MotionField& motion_;
 };
 
 struct SmallObject {
@@ -107,7 +102,7 @@ void mark_small_objects(Image<Outline>& outlines, const CameraView& view, const 
 
 Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, const MotionField& motion) {
     Image<Outline> outlines(hits.width, hits.height);
-    const OutlineFinder finder(view, hits, motion);
+    const OutlineFinder finder{view, hits, motion};
     parallel_pixels(hits, 16, [&](int x, int y) { outlines(x, y) = finder.find(x, y); });
     return outlines;
 }

@@ -23,7 +23,6 @@ enum class Outline : std::uint8_t {
 /// inverse distance from a pinhole is linear in the picture, to second order in the angle of a pixel. A
 /// step of half a pixel's size or more counts, or a crease of some 30 degrees.
 /// No random number is involved, so that what depends on outlines, such as when a pixel stops, favours no samples.
-/// @param hits  through pixel centres, of the view's size; the motion is theirs, and may be empty: nothing moves
 Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, const MotionField& motion);
 
 /// Marks the pixels that objects of at most 1.5 pixels' radius lie in, and those around them, as `small`: rays through

@@ -80,7 +80,6 @@ class PixelSamples {
     const Error& error() const { return error_; }
     /// Indirect irradiance for a sample that sees the surface of the pixel's first one: the mean of what the first four
     /// such samples looked up, at places spread over the pixel. Nothing before there are four.
-    /// @param light  of the sample: its surface
     std::optional<Rgb> find_irradiance(const SampleLight& light) const;
     /// Keeps the mean as it is now, the first time: samples that follow are taken because of those so far.
     void keep_mean();

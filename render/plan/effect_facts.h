@@ -86,7 +86,6 @@ struct FrameFacts {
     bool any(auto layer) const { return std::ranges::any_of(objects, layer, &ObjectFacts::material); }
 };
 
-/// @param textures  make_texture_set(scene)
 /// @param all_in_view  the view is not known well enough to leave objects out: a lens, or an open shutter
 FrameFacts find_frame_facts(const Scene& scene, const ShotFacts& shot, const TextureSet& textures,
                             const ScenePose& pose, const CameraView& view, bool all_in_view);

@@ -23,7 +23,7 @@ void follow_error(RenderSettings& settings, double error) {
     settings.sampling.rule = Sampling::threshold;
     settings.guide.adapter = Adapter::none;  // light that follows the map flickers
     settings.cache.accuracy = accuracy;
-    settings.cache.gather = 128;    // more where noise would be seen (record_worth.h)
+    settings.cache.gather = 128;    // more where noise would be seen (gather_at.h)
     settings.cache.light_step = 0;  // a frame alone takes its own records only; keyframes pay over shots
     settings.light.bounces = all_bounces;
     settings.sampling.spp = most_samples;

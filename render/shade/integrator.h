@@ -1,7 +1,5 @@
 #pragma once
-// Integrators: ways to find the light of a frame's samples. To add one, write a class like those of
-// cache_integrator.cpp and path_integrator.cpp, give it a row in make_integrator (path_integrator.cpp) and a name in
-// the setting table.
+// Integrators: ways to find the light of a frame's samples. README.md says how to add one.
 
 #include <memory>
 
@@ -18,7 +16,6 @@ class LightIntegrator {
     /// Returns whether light is computed before the samples, which share it.
     virtual bool shares_light() const { return false; }
     /// Computes it.
-    /// @param first  the first sample of every pixel
     virtual void fill(const SampleHits& /*first*/) {}
 
     /// Samples are taken at this time until the next call.

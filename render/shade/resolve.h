@@ -15,7 +15,6 @@ namespace aleph {
 void spread_lost_light(Image<PixelSamples>& pixels, int reach);
 
 /// Fills colour, coverage and numbers of samples.
-/// @param exposure       factor on light
 void resolve_pixels(const Image<PixelSamples>& pixels, double exposure, bool with_indirect, bool with_variance,
                     ShadedFrame& out);
 

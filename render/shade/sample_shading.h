@@ -2,7 +2,7 @@
 // Shading one sample of a pixel: emission, direct light, gloss, and indirect light read from a filled cache.
 
 #include "render/cache/indirect_context.h"
-#include "render/path/direct_light.h"
+#include "render/path/path.h"
 #include "render/pixels/pixel_samples.h"
 #include "render/time/shutter_light.h"
 

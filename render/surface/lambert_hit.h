@@ -19,7 +19,6 @@ void prefetch_corners(const ShadingScene& shading, const Hit& hit);
 /// The mesh is read only for textures and vertex colours.
 /// @param hit          of a surface that is plain_lambert
 /// @param normal       of the hit (Tracer::intersect)
-/// @param solid_angle  that the ray represents, sr
 LambertHit make_lambert_hit(const ShadingScene& shading, const Ray& ray, const Hit& hit, const glm::vec3& normal,
                             float solid_angle);
 

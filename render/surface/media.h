@@ -8,9 +8,7 @@
 
 namespace aleph {
 
-/// Share of light that is left on its way through a medium (Beer-Lambert).
-/// @param attenuation  1/m
-/// @param distance     m; may be infinite
+/// Share of light that is left on its way through a medium (Beer-Lambert): 1/m, and m, which may be infinite.
 Rgb transmit(const Rgb& attenuation, float distance);
 
 /// Media around a ray: meshes with a volume (KHR_materials_volume) that it has entered, the innermost last.

@@ -1,9 +1,7 @@
 #pragma once
 // All layers of a surface together, one lobe for each: what they scatter towards a direction, and directions sampled
 // from them. Each lobe is sampled by itself, and is weighted by itself against the sampling of lights (Veach 1997).
-// A layer takes its albedo, by the angle of the view, from the light of those below it (KHR_materials_clearcoat,
-// KHR_materials_sheen): all together never scatter more light than arrives, but layers are not reciprocal. Radiance is
-// divided by the square of the index of refraction of its medium, which refraction leaves unchanged.
+// Radiance is divided by the square of the index of refraction of its medium, which refraction leaves unchanged.
 
 #include <array>
 
@@ -69,9 +67,7 @@ struct ScatterSample {
     bool straight = false;  ///< through a smooth sheet, without a turn
 };
 
-/// @param pick  in [0,1): which lobe
-/// @param u     in [0,1)^2: the direction
-/// @param side  in [0,1): reflected by glass, or passing it
+/// The numbers, all in [0,1), choose the lobe, its direction, and whether light is reflected by glass or passes it.
 ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, float pick, const glm::vec2& u,
                              float side);
 

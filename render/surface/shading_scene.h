@@ -102,7 +102,6 @@ struct ShadingScene {
 
 /// Keeps pointers to scene, pose and textures, which must outlive it.
 /// @param rays  of the scene, updated to the pose: gives the anchor, and which instances are flat
-/// @param textures  make_texture_set(scene)
 ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const RayScene& rays,
                                 const TextureSet& textures);
 

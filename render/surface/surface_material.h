@@ -93,8 +93,8 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
 /// The material as paths see it that a Lambert layer turned: lobes have at least the scene's caustic_width, so that
 /// light which a mirror or a narrow lobe sends from a small lamp to a diffuse surface is found by sampling the lamp,
 /// and not by chance (Kaplanyan and Dachsbacher 2013, "Path Space Regularization for Holistic and Robust Light
-/// Transport"). The glossy layer reflects as much light as before. Smooth sheets of glass still pass light straight,
-/// and from inside glass lobes stay narrow near and beyond the critical angle. Without caustics there are no lobes.
+/// Transport"). Smooth sheets of glass still pass light straight, and from inside glass lobes stay narrow near and
+/// beyond the critical angle. Without caustics there are no lobes.
 void blur_caustics(const ShadingScene& shading, ViewedSurface& surface);
 
 /// Share of the rays that the surface stops: less than 1 where a mask or blending lets some pass (Blend::random).

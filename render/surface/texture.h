@@ -55,7 +55,6 @@ struct TextureSet {
 TextureSet make_texture_set(const Scene& scene);
 
 Texture make_texture(const SceneImage& image, TextureSpace space);
-/// @param texture  into TextureSet::textures
 TextureUse make_texture_use(const TextureRef& reference, int texture);
 
 /// The area that a look-up averages over, in uv before the reference's own transform.

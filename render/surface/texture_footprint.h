@@ -22,9 +22,7 @@ struct RayFootprint {
 RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& point, const glm::vec3& direction,
                                   float distance, float spacing);
 
-/// The footprint, where it meets a surface, of a ray that represents a solid angle.
-/// @param distance  along the ray, m
-/// @param solid_angle  sr
+/// The footprint, where it meets a surface at a distance (m), of a ray that represents a solid angle (sr).
 RayFootprint make_cone_footprint(const SurfacePoint& point, const glm::vec3& direction, float distance,
                                  float solid_angle);
 

@@ -22,7 +22,6 @@ using ShotRecords = std::map<std::int64_t, KeyframeRecords>;
 
 /// Everything that records depend on.
 /// @param scene   with its cages at the levels that are rendered
-/// @param shots   list_camera_shots
 Fingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings,
                                    const std::vector<CameraShot>& shots);
 

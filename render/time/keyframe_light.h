@@ -2,11 +2,13 @@
 // Indirect light of lighting keyframes (lighting_keyframes.h): computed at each of them, and read by the frames in
 // between, where a surface point lies at the keyframe.
 
+#include <deque>
 #include <functional>
 #include <memory>
 
 #include "engine/pose/posed_view.h"
 #include "render/cache/cache_fill.h"
+#include "render/estimate/estimate.h"
 #include "render/pixels/shaded_frame.h"
 #include "render/time/lighting_keyframes.h"
 
@@ -88,6 +90,39 @@ class BlendedLight : public CarriedLight {
     float weight_;
     bool still_;
     std::unique_ptr<const BlendedLight> finer_;
+};
+
+/// The gathers of a lighting keyframe's own estimate. They depend on scene, settings and keyframe alone.
+struct EstimateKeyframe : KeyPose {
+    EstimateKeyframe(std::int64_t keyframe, EstimateNodes gathered) : frame(keyframe), nodes(std::move(gathered)) {}
+
+    std::int64_t frame = 0;
+    EstimateNodes nodes;
+};
+
+/// Irradiance between two lighting keyframes, linear in time. What only one of them knows is taken from there.
+class BlendedEstimate : public CarriedEstimate {
+  public:
+    /// @param weight  of `after`
+    BlendedEstimate(std::shared_ptr<const EstimateKeyframe> before, std::shared_ptr<const EstimateKeyframe> after,
+                    double weight);
+
+    std::optional<Rgb> find(const PixelSurface& surface) const override;
+
+  private:
+    std::shared_ptr<const EstimateKeyframe> before_, after_;
+    float weight_;
+};
+
+/// The keyframes that were used last. They are the same in whatever order frames ask for them.
+class EstimateKeyframes {
+  public:
+    /// Null if the keyframe is not kept.
+    std::shared_ptr<const EstimateKeyframe> find(std::int64_t frame);
+    void keep(std::shared_ptr<const EstimateKeyframe> keyframe);
+
+  private:
+    std::deque<std::shared_ptr<const EstimateKeyframe>> keyframes_;  ///< used last first
 };
 
 }  // namespace aleph

@@ -44,7 +44,6 @@ class ShotLight {
 
     /// The light that a frame reads. Computes the lighting keyframes around the frame, unless they are kept from
     /// before.
-    /// @param filled  the keyframes that were computed are added
     std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<KeyframeStatistics>& filled);
 
     /// Keeps the records of all keyframes there; those that it has need not be computed.

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "render/path/direct_light.h"
+#include "render/path/path.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/trial.h"
 

@@ -1,7 +1,7 @@
 // Indirect light of the quick estimate, carried from lighting keyframes to the frames between them.
 // Which frames are lighting keyframes, and which views they are computed for.
 
-#include "render/time/estimate_keyframes.h"
+#include "render/time/keyframe_light.h"
 #include "render/time/lighting_keyframes.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/test.h"
