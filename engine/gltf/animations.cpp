@@ -14,13 +14,13 @@ namespace aleph {
 
 namespace {
 
-struct Channel {
+struct MovedProperty {
     const tinygltf::AnimationSampler& sampler;
     GltfPointer target;
     std::string place;  ///< of the sampler
 };
 
-void read_weights(GltfReader& reader, const Channel& channel) {
+void read_weights(GltfReader& reader, const MovedProperty& channel) {
     const std::vector<int>& meshes = reader.morphs_of[channel.target.index];
     if (meshes.empty()) return;
     const std::size_t count = reader.part.meshes[meshes[0]].deformation.targets.size();
@@ -33,7 +33,7 @@ void read_weights(GltfReader& reader, const Channel& channel) {
     }
 }
 
-void read_node_channel(GltfReader& reader, const Channel& channel) {
+void read_node_channel(GltfReader& reader, const MovedProperty& channel) {
     const std::size_t source = channel.target.index;
     const int index = reader.node_of[source];
     if (index == no_index) {
@@ -90,7 +90,7 @@ Track<glm::dvec3>* find_color(Scene& part, const GltfPointer& target) {
     return factor != nullptr && factor->is_color() ? &factor->color(part.materials[target.index]) : nullptr;
 }
 
-void read_channel(GltfReader& reader, const Channel& channel) {
+void read_channel(GltfReader& reader, const MovedProperty& channel) {
     const GltfPropertyInfo& info = *channel.target.info;
     if (info.owner == GltfOwner::node) return read_node_channel(reader, channel);
     GltfKeys keys = read_keys(reader, channel.sampler, channel.place);

@@ -164,13 +164,25 @@ Imf::Slice make_slice(Image<float>& image, const Imath::Box2i& window) {
     return Imf::Slice::Make(Imf::FLOAT, image.pixels.data(), window, sizeof(float), sizeof(float) * image.width);
 }
 
+/// Turns other exceptions into InputErrors.
+template <class Use>
+auto with_input_errors(const std::string& name, const Use& use) {
+    try {
+        return use();
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::exception& e) {
+        throw InputError(name, "", printable(e.what(), 400));
+    }
+}
+
 }  // namespace
 
 std::string encode_exr(const ChannelImage& image, int threads) {
     check_channels(image);
     const Image<float>& first = image.channels.front().values;
-    std::string bytes;
-    try {
+    return with_input_errors("", [&]() -> std::string {
+        std::string bytes;
         Imf::Header header(first.width, first.height);
         header.compression() = Imf::ZIP_COMPRESSION;
         Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec.709 with D65
@@ -189,16 +201,12 @@ std::string encode_exr(const ChannelImage& image, int threads) {
             file.writePixels(first.height);
         }
         verify(bytes, first, image.channels.back());
-    } catch (const InputError&) {
-        throw;
-    } catch (const std::exception& e) {
-        throw InputError("", "", printable(e.what(), 400));
-    }
-    return bytes;
+        return bytes;
+    });
 }
 
 std::optional<std::string> find_exr_text(const std::filesystem::path& path, const std::string& key) {
-    try {
+    return with_input_errors(printable(path.string(), 400), [&]() -> std::optional<std::string> {
         Imf::InputFile file(path.c_str(), 0);
         const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(key);
         const Imath::Box2i window = file.header().dataWindow();
@@ -214,17 +222,13 @@ std::optional<std::string> find_exr_text(const std::filesystem::path& path, cons
         file.setFrameBuffer(pixels);
         file.readPixels(window.max.y);
         return text->value();
-    } catch (const InputError&) {
-        throw;
-    } catch (const std::exception& e) {
-        throw InputError(printable(path.string(), 400), "", printable(e.what(), 400));
-    }
+    });
 }
 
 ChannelImage decode_exr(ByteView bytes, const std::string& name) {
     refuse_unsupported_kinds(bytes, name);
     check_exr_header(bytes, name);
-    try {
+    return with_input_errors(name, [&]() -> ChannelImage {
         MemoryInput stream(bytes);
         Imf::InputFile file(stream, grow_thread_pool(thread_count()));
         const Imf::Header& header = file.header();
@@ -255,11 +259,7 @@ ChannelImage decode_exr(ByteView bytes, const std::string& name) {
         file.readPixels(window.min.y, window.max.y);
         image.metadata = read_attributes(header);
         return image;
-    } catch (const InputError&) {
-        throw;
-    } catch (const std::exception& e) {
-        throw InputError(name, "", printable(e.what(), 400));
-    }
+    });
 }
 
 }  // namespace aleph

@@ -67,6 +67,18 @@ TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
     return texture;
 }
 
+/// Calls add(reader, element, name) for the members of one of the root's objects, in the order of the file.
+template <class Add>
+void read_named(SceneReader& reader, const JsonRef& root, const KeyOrder& key_order, const char* kind, const Add& add) {
+    const auto object = root.find(kind);
+    if (!object || object->json().empty()) return;
+    for (const std::string& name : key_order.at(kind)) add(reader, object->require(name), name);
+}
+
+void add_mesh(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    read_mesh(reader, at.require("shape"), at.find("material"), at.find("present"), name);
+}
+
 }  // namespace
 
 int add_material(SceneReader& reader, const JsonRef& at, const std::string& name) {
@@ -142,22 +154,6 @@ int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) 
     }
     return SceneReader::add(std::move(camera), reader.scene.cameras, reader.names.cameras);
 }
-
-namespace {
-
-/// Calls add(reader, element, name) for the members of one of the root's objects, in the order of the file.
-template <class Add>
-void read_named(SceneReader& reader, const JsonRef& root, const KeyOrder& key_order, const char* kind, const Add& add) {
-    const auto object = root.find(kind);
-    if (!object || object->json().empty()) return;
-    for (const std::string& name : key_order.at(kind)) add(reader, object->require(name), name);
-}
-
-void add_mesh(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    read_mesh(reader, at.require("shape"), at.find("material"), at.find("present"), name);
-}
-
-}  // namespace
 
 std::string path_fault(std::string_view path) {
     if (path.empty()) return "the path is empty";

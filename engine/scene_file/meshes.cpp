@@ -59,22 +59,6 @@ TimeSampling read_point_samples(const JsonRef& at, const FrameRate& rate,
     });
 }
 
-}  // namespace
-
-int add_points(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    PointCache cache;
-    cache.name = name;
-    if (at.json().is_array()) {
-        cache.positions.push_back(read_vectors<glm::vec3>(at));
-    } else {
-        cache.sampling = read_point_samples(at, reader.scene.film.frame_rate, cache.positions);
-    }
-    if (cache.point_count() == 0) at.fail("has no points");
-    return SceneReader::add(std::move(cache), reader.scene.point_caches, reader.names.points);
-}
-
-namespace {
-
 void expect_count(const JsonRef& at, std::size_t found, std::size_t vertices, const char* kind) {
     if (found != vertices) {
         at.fail(fmt::format("has {} {} for {} vertices: one for each was expected", found, kind, vertices));
@@ -148,6 +132,18 @@ constexpr std::size_t shape_triangle_bytes = 28, cage_triangle_bytes = 200;
 constexpr std::size_t mesh_bytes = sizeof(Mesh) + 1000;
 
 }  // namespace
+
+int add_points(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    PointCache cache;
+    cache.name = name;
+    if (at.json().is_array()) {
+        cache.positions.push_back(read_vectors<glm::vec3>(at));
+    } else {
+        cache.sampling = read_point_samples(at, reader.scene.film.frame_rate, cache.positions);
+    }
+    if (cache.point_count() == 0) at.fail("has no points");
+    return SceneReader::add(std::move(cache), reader.scene.point_caches, reader.names.points);
+}
 
 std::vector<glm::vec3> first_positions(const Mesh& mesh, const PointCache& cache) {
     const std::vector<glm::vec3>& points = cache.positions.front();

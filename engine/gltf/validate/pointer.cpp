@@ -10,34 +10,28 @@ namespace aleph {
 namespace {
 
 std::vector<GltfPropertyInfo> list_properties() {
+    using enum GltfProperty;
+    const std::string lights = "/extensions/KHR_lights_punctual/lights/{}/";
     std::vector<GltfPropertyInfo> properties = {
-        {GltfProperty::node_translation, GltfOwner::node, "/nodes/{}/translation", "VEC3", -no_limit, no_limit},
-        {GltfProperty::node_rotation, GltfOwner::node, "/nodes/{}/rotation", "VEC4", -no_limit, no_limit},
-        {GltfProperty::node_scale, GltfOwner::node, "/nodes/{}/scale", "VEC3", -no_limit, no_limit},
-        {GltfProperty::node_weights, GltfOwner::node, "/nodes/{}/weights", "SCALAR", -no_limit, no_limit},
-        {GltfProperty::node_visible, GltfOwner::node, "/nodes/{}/extensions/KHR_node_visibility/visible", "SCALAR", 0,
-         1},
-        {GltfProperty::camera_yfov, GltfOwner::camera, "/cameras/{}/perspective/yfov", "SCALAR", min_gltf_size,
+        {node_translation, GltfOwner::node, "/nodes/{}/translation", "VEC3", -no_limit, no_limit},
+        {node_rotation, GltfOwner::node, "/nodes/{}/rotation", "VEC4", -no_limit, no_limit},
+        {node_scale, GltfOwner::node, "/nodes/{}/scale", "VEC3", -no_limit, no_limit},
+        {node_weights, GltfOwner::node, "/nodes/{}/weights", "SCALAR", -no_limit, no_limit},
+        {node_visible, GltfOwner::node, "/nodes/{}/extensions/KHR_node_visibility/visible", "SCALAR", 0, 1},
+        {camera_yfov, GltfOwner::camera, "/cameras/{}/perspective/yfov", "SCALAR", min_gltf_size,
          std::numbers::pi - min_gltf_size},
-        {GltfProperty::camera_ymag, GltfOwner::camera, "/cameras/{}/orthographic/ymag", "SCALAR", min_gltf_size,
-         no_limit},
-        {GltfProperty::light_color, GltfOwner::light, "/extensions/KHR_lights_punctual/lights/{}/color", "VEC3", 0,
-         no_limit},
-        {GltfProperty::light_intensity, GltfOwner::light, "/extensions/KHR_lights_punctual/lights/{}/intensity",
-         "SCALAR", 0, no_limit},
-        {GltfProperty::light_range, GltfOwner::light, "/extensions/KHR_lights_punctual/lights/{}/range", "SCALAR",
-         min_gltf_size, no_limit},
-        {GltfProperty::light_inner_cone, GltfOwner::light,
-         "/extensions/KHR_lights_punctual/lights/{}/spot/innerConeAngle", "SCALAR", 0, std::numbers::pi / 2},
-        {GltfProperty::light_outer_cone, GltfOwner::light,
-         "/extensions/KHR_lights_punctual/lights/{}/spot/outerConeAngle", "SCALAR", min_gltf_size,
+        {camera_ymag, GltfOwner::camera, "/cameras/{}/orthographic/ymag", "SCALAR", min_gltf_size, no_limit},
+        {light_color, GltfOwner::light, lights + "color", "VEC3", 0, no_limit},
+        {light_intensity, GltfOwner::light, lights + "intensity", "SCALAR", 0, no_limit},
+        {light_range, GltfOwner::light, lights + "range", "SCALAR", min_gltf_size, no_limit},
+        {light_inner_cone, GltfOwner::light, lights + "spot/innerConeAngle", "SCALAR", 0, std::numbers::pi / 2},
+        {light_outer_cone, GltfOwner::light, lights + "spot/outerConeAngle", "SCALAR", min_gltf_size,
          std::numbers::pi / 2},
     };
     for (const GltfFactor& factor : gltf_factors()) {
         const std::string pointer = "/materials/{}/" + gltf_owner_path(factor.owner) + factor.key;
         const char* const type = !factor.is_color() ? "SCALAR" : factor.has_alpha ? "VEC4" : "VEC3";
-        properties.push_back(
-            {GltfProperty::material_factor, GltfOwner::material, pointer, type, factor.low, factor.high, &factor});
+        properties.push_back({material_factor, GltfOwner::material, pointer, type, factor.low, factor.high, &factor});
     }
     return properties;
 }
