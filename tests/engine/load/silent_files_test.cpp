@@ -40,6 +40,12 @@ class SilentFiles : public testing::Test {
         EXPECT_THAT(scene.source.warnings[0], HasSubstr(path_.string() + ": " + place));
         EXPECT_THAT(scene.source.warnings[0], HasSubstr(words));
     }
+    /// The draft after a change gives no warning either.
+    void expect_quiet(const std::function<void(GltfDraft&)>& change) {
+        GltfDraft draft = quiet_draft(folder_);
+        change(draft);
+        EXPECT_THAT(load(draft).source.warnings, testing::IsEmpty());
+    }
     void expect_refused(GltfDraft draft, const std::string& place, const std::string& words) {
         expect_refusal([&] { load(std::move(draft)); }, path_.string(), place, words);
     }
@@ -81,20 +87,18 @@ TEST_F(SilentFiles, MeshesWithoutAnArea) {
 TEST_F(SilentFiles, SmallOrThinOrMovingMeshesAreNoReasonToWarn) {
     for (const std::vector<float>& corners :
          {std::vector<float>{0, 0, 0, 1e-20f, 0, 0, 0, 1e-20f, 0}, {0, 0, 0, 1, 0, 0, 1, 1e-6f, 0}}) {
-        GltfDraft draft = quiet_draft(folder_);
-        set_corners(draft, corners);
-        EXPECT_THAT(load(draft).source.warnings, testing::IsEmpty());
+        expect_quiet([&](GltfDraft& d) { set_corners(d, corners); });
     }
-    GltfDraft morph = quiet_draft(folder_);
-    const int moves = morph.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
-    set_corners(morph, std::vector<float>(9, 0.0f));
-    morph.primitive()["targets"] = {{{"POSITION", moves}}};
-    EXPECT_THAT(load(morph).source.warnings, testing::IsEmpty());
-    GltfDraft unused = quiet_draft(folder_);
-    Json flat = unused.json["meshes"][0];
-    flat["primitives"][0]["indices"] = unused.add_accessor<std::uint16_t>({1, 1, 1}, "SCALAR", 1);
-    unused.json["meshes"].push_back(flat);
-    EXPECT_THAT(load(unused).source.warnings, testing::IsEmpty());
+    expect_quiet([&](GltfDraft& d) {
+        const int moves = d.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
+        set_corners(d, std::vector<float>(9, 0.0f));
+        d.primitive()["targets"] = {{{"POSITION", moves}}};
+    });
+    expect_quiet([&](GltfDraft& d) {
+        Json flat = d.json["meshes"][0];
+        flat["primitives"][0]["indices"] = d.add_accessor<std::uint16_t>({1, 1, 1}, "SCALAR", 1);
+        d.json["meshes"].push_back(flat);
+    });
 }
 
 TEST_F(SilentFiles, ASceneWithoutAMesh) {
@@ -125,17 +129,15 @@ TEST_F(SilentFiles, NodesThatShrinkTheirMeshesToAPoint) {
     EXPECT_THAT(load(flat).source.warnings,
                 testing::ElementsAre(HasSubstr("the scale is 0, or next to it, along an axis")));
     // Small, without a mesh, or keyed: no reason to warn.
-    GltfDraft small = quiet_draft(folder_);
-    small.json["nodes"][1]["scale"] = {1e-6, 1e-6, 1e-6};
-    EXPECT_THAT(load(small).source.warnings, testing::IsEmpty());
-    GltfDraft empty = quiet_draft(folder_);
-    empty.json["nodes"].push_back({{"scale", {0, 0, 0}}});
-    empty.json["nodes"][0]["children"].push_back(3);
-    EXPECT_THAT(load(empty).source.warnings, testing::IsEmpty());
-    GltfDraft keyed = quiet_draft(folder_);
-    keyed.json["nodes"][1]["scale"] = {0, 0, 0};
-    keyed.animate(1, "scale", {0, 1}, {0, 0, 0, 1, 1, 1});
-    EXPECT_THAT(load(keyed).source.warnings, testing::IsEmpty());
+    expect_quiet([&](GltfDraft& d) { d.json["nodes"][1]["scale"] = {1e-6, 1e-6, 1e-6}; });
+    expect_quiet([&](GltfDraft& d) {
+        d.json["nodes"].push_back({{"scale", {0, 0, 0}}});
+        d.json["nodes"][0]["children"].push_back(3);
+    });
+    expect_quiet([&](GltfDraft& d) {
+        d.json["nodes"][1]["scale"] = {0, 0, 0};
+        d.animate(1, "scale", {0, 1}, {0, 0, 0, 1, 1, 1});
+    });
 }
 
 TEST_F(SilentFiles, TexturesWithoutTheirCoordinates) {
@@ -172,15 +174,9 @@ TEST_F(SilentFiles, CamerasWithoutADirectionAreRefused) {
     line.json["nodes"][2]["scale"] = {0, 0, 1};
     expect_refused(line, "node \"node2\"", reason);
     // A scale does not matter to a camera as long as its axes can be told, or as it moves away from 0.
-    GltfDraft small = quiet_draft(folder_);
-    small.json["nodes"][2]["scale"] = {1e-20, 1e-20, 1e-20};
-    EXPECT_THAT(load(small).source.warnings, testing::IsEmpty());
-    GltfDraft flat = quiet_draft(folder_);
-    flat.json["nodes"][2]["scale"] = {1, 0, 1};
-    EXPECT_THAT(load(flat).source.warnings, testing::IsEmpty());
-    GltfDraft keyed = quiet_draft(folder_);
-    keyed.animate(2, "scale", {0, 1}, {0, 0, 0, 1, 1, 1});
-    EXPECT_THAT(load(keyed).source.warnings, testing::IsEmpty());
+    expect_quiet([&](GltfDraft& d) { d.json["nodes"][2]["scale"] = {1e-20, 1e-20, 1e-20}; });
+    expect_quiet([&](GltfDraft& d) { d.json["nodes"][2]["scale"] = {1, 0, 1}; });
+    expect_quiet([&](GltfDraft& d) { d.animate(2, "scale", {0, 1}, {0, 0, 0, 1, 1, 1}); });
 
     write_text(folder_ / "scene.json", R"({"aleph": 1, "environment": [1, 1, 1], "nodes": [
         {"name": "rig", "scale": 0, "children": [{"name": "eye", "camera": {"fov": 45}}]}]})");

@@ -28,16 +28,15 @@ TEST_F(LoadWarnings, SceneWithoutLightGetsAWhiteEnvironment) {
 }
 
 TEST_F(LoadWarnings, TransmissionAndBlendingGiveNone) {
-    const Scene scene = load_scene(write_scene(R"("environment": [1, 1, 1], "nodes": [
+    const Scene scene = load_lit(R"("nodes": [
         {"shape": {"type": "quad"}, "material": {"alpha_mode": "blend", "alpha": 0.5}},
-        {"shape": {"type": "box"}, "material": {"transmission": 1, "thickness": 1}}])"));
+        {"shape": {"type": "box"}, "material": {"transmission": 1, "thickness": 1}}])");
     EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
 }
 
 TEST_F(LoadWarnings, RP08_RotationKeysMoreThan170DegreesApartAreSaid) {
     const auto load = [&](const std::string& rotation) {
-        return load_scene(write_scene(
-            "\"environment\": [1, 1, 1], \"nodes\": [{\"name\": \"arm\", \"rotation\": " + rotation + "}]"));
+        return load_lit("\"nodes\": [{\"name\": \"arm\", \"rotation\": " + rotation + "}]");
     };
     const auto keys = [](double degrees, const std::string& more) {
         const double half = 0.5 * degrees * std::acos(-1.0) / 180.0;
@@ -58,8 +57,7 @@ TEST_F(LoadWarnings, RP08_RotationKeysMoreThan170DegreesApartAreSaid) {
 
 TEST_F(LoadWarnings, KF04_RotationsThatAreNotUnitAreSaid) {
     const auto load = [&](const std::string& rotation) {
-        return load_scene(write_scene(
-            "\"environment\": [1, 1, 1], \"nodes\": [{\"name\": \"arm\", \"rotation\": " + rotation + "}]"));
+        return load_lit("\"nodes\": [{\"name\": \"arm\", \"rotation\": " + rotation + "}]");
     };
     EXPECT_TRUE(has_warning(load("[0, 0, 0, 2]"), "\"arm\": rotation key 0 has length 2"));
     EXPECT_TRUE(has_warning(load("[0, 1.002, 0, 0]"), "length 1.002"));
@@ -72,8 +70,7 @@ using UnlikelyValues = LoadScene;
 
 TEST_F(UnlikelyValues, FieldsOfViewInRadians) {
     const auto load = [&](const std::string& fov) {
-        return load_scene(
-            write_scene(R"("environment": [1, 1, 1], "nodes": [{"name": "eye", "camera": {"fov": )" + fov + "}}]"));
+        return load_lit(R"("nodes": [{"name": "eye", "camera": {"fov": )" + fov + "}}]");
     };
     EXPECT_TRUE(has_warning(load("0.7"), "0.7 degrees looks like radians; 0.7 radians are 40.11 degrees"));
     EXPECT_TRUE(has_warning(load(R"({"keys": [[0, 0.7], [9, 1.2]]})"), "radians"));
@@ -83,10 +80,7 @@ TEST_F(UnlikelyValues, FieldsOfViewInRadians) {
 
 TEST_F(UnlikelyValues, RotationsInRadians) {
     const auto load = [&](const std::string& degrees) {
-        return load_scene(
-            write_scene(R"("environment": [1, 1, 1], "nodes": [{"name": "door", "rotation": {"axis": [0, 1, 0],
-            "degrees": )" +
-                        degrees + "}}]"));
+        return load_lit(R"("nodes": [{"name": "door", "rotation": {"axis": [0, 1, 0], "degrees": )" + degrees + "}}]");
     };
     for (const char* radians : {"-1.5708", "0.7854", "3.14159", R"({"keys": [[0, 0], [9, 6.2832]]})"}) {
         EXPECT_TRUE(has_warning(load(radians), "node \"door\": the degrees of its rotation look like radians"))
@@ -99,8 +93,7 @@ TEST_F(UnlikelyValues, RotationsInRadians) {
 
 TEST_F(UnlikelyValues, OperationsInRadians) {
     const auto load = [&](const std::string& operations) {
-        return load_scene(
-            write_scene(R"("environment": [1, 1, 1], "nodes": [{"name": "arm", "operations": [)" + operations + "]}]"));
+        return load_lit(R"("nodes": [{"name": "arm", "operations": [)" + operations + "]}]");
     };
     const char* axis = R"({"scale": 2}, {"rotate": {"axis": [1, 1, 0], "degrees": 0.7854}}, {"translate": [1, 2, 3]})";
     const char* keyed = R"({"rotate_z": {"keys": [[0, 0], [9, -3.1416]]}})";
@@ -115,9 +108,7 @@ TEST_F(UnlikelyValues, OperationsInRadians) {
 }
 
 TEST_F(UnlikelyValues, CutsOutsideTheFrames) {
-    const auto load = [&](const std::string& cuts) {
-        return load_scene(write_scene(R"("environment": [1, 1, 1], "frames": [5, 20], "cuts": )" + cuts));
-    };
+    const auto load = [&](const std::string& cuts) { return load_lit(R"("frames": [5, 20], "cuts": )" + cuts); };
     EXPECT_TRUE(has_warning(load("[7, 50]"), "cut at frame 50 lies outside the frames 5 to 20"));
     EXPECT_TRUE(has_warning(load("[4]"), "cut at frame 4"));
     EXPECT_TRUE(load("[6, 20]").source.warnings.empty());
@@ -127,8 +118,7 @@ TEST_F(UnlikelyValues, CamerasThatJumpWithoutACut) {
     const auto load = [&](const std::string& cuts, const std::string& interpolation, const std::string& holder) {
         const std::string keys = R"("translation": {"interpolation": ")" + interpolation +
                                  R"(", "keys": [[0, [0, 0, 5]], [8, [0, 0, 5]], [10, [3, 0, 5]], [15, [4, 0, 5]]]})";
-        return load_scene(write_scene(R"("environment": [1, 1, 1], "frames": [0, 20], "cuts": )" + cuts +
-                                      R"(, "nodes": [{"name": "dolly", )" + keys + holder));
+        return load_lit(R"("frames": [0, 20], "cuts": )" + cuts + R"(, "nodes": [{"name": "dolly", )" + keys + holder);
     };
     const std::string own = R"(, "camera": {}}])", below = R"(, "children": [{"name": "eye", "camera": {}}]}])";
     EXPECT_TRUE(

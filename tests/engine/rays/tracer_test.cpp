@@ -33,10 +33,23 @@ class RandomRays {
     }
     /// A number such as a broken computation gives.
     float special() {
-        constexpr float values[] = {0.0f,      -0.0f,    1e-45f,   -1e-39f, 1.0f,           -1.0f,           9.9e8f,
-                                    1.843e18f, 1.85e18f, -3.4e38f, 3.4e38f, float_infinity, -float_infinity, float_nan};
-        const auto any = std::uniform_int_distribution<std::size_t>(0, 15)(engine_);
-        return any < std::size(values) ? values[any] : uniform(-9.0f, 9.0f);
+        const float values[] = {0.0f,
+                                -0.0f,
+                                1e-45f,
+                                -1e-39f,
+                                1.0f,
+                                -1.0f,
+                                9.9e8f,
+                                1.843e18f,
+                                1.85e18f,
+                                -3.4e38f,
+                                3.4e38f,
+                                float_infinity,
+                                -float_infinity,
+                                float_nan,
+                                uniform(-9.0f, 9.0f),
+                                uniform(-9.0f, 9.0f)};
+        return values[std::uniform_int_distribution<std::size_t>(0, 15)(engine_)];
     }
 
   private:
