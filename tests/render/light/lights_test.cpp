@@ -2,8 +2,6 @@
 
 #include "render/light/lights.h"
 #include "engine/base/sampling.h"
-#include "render/light/seen_light.h"
-#include "tests/support/directions.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/test.h"
 

@@ -1,7 +1,6 @@
 // Direct light against closed forms: point, directional, area and environment light; multiple importance sampling.
 
 #include "render/path/path.h"
-#include "tests/support/directions.h"
 #include "tests/support/lobes.h"
 #include "tests/support/penumbra.h"
 #include "tests/support/test.h"
