@@ -15,8 +15,7 @@ struct Deformer {
     int node = no_index;   ///< skinned: the only node that carries the mesh
     bool changes = false;  ///< false: posed, but the same at every time
     /// Where normals are computed from the moved triangles: per vertex, the number of its group. Vertices of one point
-    /// whose normals agree at rest share one, so that an edge stays as smooth or sharp as in the file. Without
-    /// Deformation::vertex_points, vertices are of one point that are together at every sample.
+    /// whose normals agree at rest share one, so that an edge stays as smooth or sharp as in the file.
     std::vector<std::uint32_t> normal_groups;
 };
 
