@@ -204,7 +204,7 @@ std::vector<std::optional<ClosestPass>> find_closest_passes(const Scene& scene, 
                                                             int height) {
     const Passes passes(scene, camera_node, instances, width, height);
     if (passes.is_empty()) return std::vector<std::optional<ClosestPass>>(instances.size());
-    constexpr double most_work = 4e8;
+    constexpr double most_work = 2e8;
     const FrameRange range = frame_range(scene);
     const double frames = static_cast<double>(range.last) - static_cast<double>(range.first) + 1.0;
     const auto stride = static_cast<std::int64_t>(std::max(1.0, std::ceil(frames * passes.cost() / most_work)));
