@@ -35,20 +35,27 @@ struct AimedBlock {
     std::array<Hit, hidden_block * hidden_block> met;
 };
 
-/// The place in the camera's axes of what a hit names, and its triangle's normal there: not unit, m^2.
+/// The triangle that a hit names, in the camera's axes, m.
 struct PlacedTriangle {
-    const Mesh& mesh;
-    const PosedMesh& posed;
-    CameraFromObject map;
+    std::array<glm::dvec3, 3> corners;
 
-    glm::dvec3 point(const Hit& hit) const { return map(triangle_point(mesh, posed, hit)); }
-    glm::dvec3 normal(int primitive) const {
-        const glm::uvec3& t = mesh.triangles[primitive];
-        const auto corner = [&](unsigned v) {
-            return map.linear * (posed.positions.empty() ? glm::dvec3(mesh.positions[v]) : posed.positions[v]);
-        };
-        const glm::dvec3 first = corner(t.x);
-        return glm::cross(corner(t.y) - first, corner(t.z) - first);
+    PlacedTriangle(const Scene& scene, const PosedView& view, const Hit& hit) {
+        const auto [node, number] = view.pose.instances[hit.instance];
+        const Mesh& mesh = scene.meshes[number];
+        const std::vector<glm::dvec3>& moved = view.pose.meshes[number].positions;
+        const CameraFromObject map = make_camera_from_object(view.view, view.pose.world[node]);
+        const glm::uvec3& t = mesh.triangles[hit.primitive];
+        for (int k = 0; k < 3; ++k) corners[k] = map(moved.empty() ? glm::dvec3(mesh.positions[t[k]]) : moved[t[k]]);
+    }
+
+    glm::dvec3 unit_normal() const {
+        const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        return normal / glm::length(normal);
+    }
+    /// How far its corners reach from a place.
+    double reach(const glm::dvec3& from) const {
+        return std::max(
+            {glm::distance(corners[0], from), glm::distance(corners[1], from), glm::distance(corners[2], from)});
     }
 };
 
@@ -60,19 +67,25 @@ class HiddenPoints {
     /// Adds a pixel whose point is to be found.
     void add(std::size_t pixel, AimedBlock& block) const {
         const Hit& hit = hits_.pixels[pixel];
-        const PlacedTriangle place = find(hit.instance);
+        const auto [node, mesh] = other_.pose.instances[hit.instance];
         const CameraView& view = other_.view;
-        const glm::dvec3 target = place.point(hit);
+        const CameraFromObject map = make_camera_from_object(view, other_.pose.world[node]);
+        const PosedMesh& posed = other_.pose.meshes[mesh];
+        const glm::dvec3 target = map(triangle_point(scene_.meshes[mesh], posed, hit));
         const glm::dvec3 start = view.orthographic ? glm::dvec3(target.x, target.y, 0.0) : glm::dvec3(0.0);
         const glm::dvec3 origin = (view.position - rays_.anchor()) + view.axes * start;
         AimedPoint& aimed = block.points[block.count];
         aimed.pixel = pixel;
         aimed.distance = glm::length(target - start);
         aimed.way = (target - start) / aimed.distance;
-        double sizes = glm::length(origin) + aimed.distance + glm::length(target - place.map.offset);
-        if (rays_.is_flat(hit.instance))
-            sizes += glm::length(view.axes * target + (view.position - rays_.flat_origin()));
-        aimed.resolution = 0x1p-22 * sizes;  // four times the rounding of single precision
+        // Corners of trees in the world, and of what deforms, are rounded too.
+        double sizes = glm::length(origin) + aimed.distance;
+        const bool flat = rays_.is_flat(hit.instance);
+        if (flat || !posed.positions.empty())
+            sizes +=
+                PlacedTriangle(scene_, other_, hit).reach(flat ? to_camera(view, rays_.flat_origin()) : map.offset);
+        constexpr double rounding = 0x1p-22;  // four times that of single precision
+        aimed.resolution = std::min(rounding * sizes, largest_gap * aimed.distance);
 
         Ray& ray = block.rays[block.count++];
         ray.origin = glm::vec3(origin);
@@ -88,8 +101,8 @@ class HiddenPoints {
         if (met.instance == no_index || (met.instance == own.instance && met.primitive == own.primitive)) return false;
         const double gap = aimed.distance - met.distance;
         if (!(gap > aimed.resolution)) return false;
-        const double slope = glm::dot(find_unit_normal(own), aimed.way);
-        const double met_slope = glm::dot(find_unit_normal(met), aimed.way);
+        const double slope = glm::dot(PlacedTriangle(scene_, other_, own).unit_normal(), aimed.way);
+        const double met_slope = glm::dot(PlacedTriangle(scene_, other_, met).unit_normal(), aimed.way);
         if (met.instance == own.instance && slope * met_slope < 0.0) return true;
         const double touching = aimed.resolution * (1.0 / std::abs(slope) + 1.0 / std::abs(met_slope));
         return gap > std::min(largest_gap * aimed.distance, touching);
@@ -98,17 +111,6 @@ class HiddenPoints {
   private:
     /// The share of the distance by which two surfaces that touch are met apart at most.
     static constexpr double largest_gap = 1e-3;
-
-    PlacedTriangle find(int instance) const {
-        const auto [node, mesh] = other_.pose.instances[instance];
-        return {scene_.meshes[mesh], other_.pose.meshes[mesh],
-                make_camera_from_object(other_.view, other_.pose.world[node])};
-    }
-
-    glm::dvec3 find_unit_normal(const Hit& hit) const {
-        const glm::dvec3 normal = find(hit.instance).normal(hit.primitive);
-        return normal / glm::length(normal);
-    }
 
     const Scene& scene_;
     const PosedView& other_;
