@@ -59,7 +59,7 @@ double remoteness(const CameraView& view, const Ball& ball) {
     return (glm::length(ball.center) / ball.radius - 1.0) / view.pixels_per_unit;
 }
 
-/// What is looked at, and how to pose it at any frame.
+/// The instances that are looked at, and the nodes that place them.
 class Passes {
   public:
     Passes(const Scene& scene, int camera_node, std::span<const Instance> instances, int width, int height)

@@ -1,5 +1,5 @@
 #pragma once
-// When an instance of a cage comes closest to the camera.
+// The frame at which an instance of a cage comes closest to the camera.
 
 #include <glm/mat4x4.hpp>
 #include <optional>

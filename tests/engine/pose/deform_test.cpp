@@ -122,7 +122,7 @@ TEST(Deform, NormalsStaySmoothAcrossSeams) {
     EXPECT_EQ(smooth.meshes[0].normals[0], smooth.meshes[0].normals[4]);
     for (const std::size_t v : {4, 5, 6, 7}) scene.meshes[0].normals[v] = glm::vec3(0.1f, 0.0f, 1.0f);
     expect_near(pose(scene, 1.0).meshes[0].normals[0], {0.0, 0.0, 1.0}, 1e-6);  // an edge at rest stays one
-    // What comes apart are two points.
+    // Vertices that come apart are two points.
     scene.meshes[0] = mesh;
     scene.point_caches.clear();
     std::size_t vertex = 0;
