@@ -181,8 +181,9 @@ PreparedMotion prepare_motion(const Scene& scene, const PosedView& now, const Po
         object.other = make_camera_from_object(motion.other, other.pose.world[instance.node]);
         object.shape_now = &now.pose.meshes[instance.mesh];
         object.shape_other = &other.pose.meshes[instance.mesh];
-        object.counterpart = other.pose.shown[place] != 0 && is_traceable(other.pose.world[instance.node]) &&
-                             are_traceable(object.shape_other->positions);
+        // Lost is what rays can meet now and not then; hits on other things are not of rays.
+        const bool lost = is_traceable(now.pose.world[instance.node]) && !is_traceable(other.pose.world[instance.node]);
+        object.counterpart = other.pose.shown[place] != 0 && !lost && are_traceable(object.shape_other->positions);
         object.deforms = !object.shape_now->positions.empty();
         object.still = same && object.now == object.other && *object.shape_now == *object.shape_other;
     }

@@ -1,4 +1,5 @@
 // Subdivision surfaces as meshes: levels, holes and parts, places between the vertices (RP-16, RP-17).
+#include "engine/scene/points.h"
 #include "tests/engine/surface/cage_checks.h"
 #include "tests/support/subdivision_reference.h"
 
