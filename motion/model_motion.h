@@ -54,7 +54,8 @@ class ModelMotion {
                         OtherFrame which = OtherFrame::next);
 
   private:
-    void add_steps(PreparedMotion& motion, const PosedView& now, const PosedView& other);
+    void sum_paths(PreparedMotion& all, const PosedView& now, const PosedView& other, const Image<Hit>& hits,
+                   MotionField& field);
     const ScenePose& pose_between(double seconds);
 
     const Scene& scene_;
@@ -73,7 +74,9 @@ MotionField compute_model_motion(const Scene& scene, const PosedView& now, const
 /// @param hits  first hits through the pixel centres of the view
 MotionField make_still_motion(const CameraView& view, const Image<Hit>& hits);
 
-/// Marks valid pixels whose point is hidden in the other frame as `hidden`. Casts one ray for each.
+/// Marks valid pixels whose point is hidden in the other frame as `hidden`. Casts one ray for each. It takes what is
+/// first met for a cover where that lies before the point by more than positions and rays are rounded, which is about a
+/// millionth of the distance, and more along surfaces that are seen at a grazing angle.
 /// @param other_rays  updated to the other frame
 /// @return number of rays cast
 std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const PosedView& other, const Image<Hit>& hits,

@@ -23,7 +23,8 @@ struct MotionField {
     /// centre is not used. Length at most the image diagonal.
     Image<glm::dvec2> displacement;
     /// Length of the path in pixels: |displacement|, or the sum over sub-frame steps where something turns more than
-    /// 20 degrees in the frame. Not negative.
+    /// 20 degrees in the frame. A translation counts from end to end: along a closed path within the frame it has 0.
+    /// Not negative.
     Image<double> path_length;
     Image<MotionValidity> validity;
 };

@@ -232,10 +232,11 @@ MotionField compute_raster_motion(ModelMotion& model, const Scene& scene, const 
         const glm::dvec3 point = surface_point(scene.meshes[mesh], now.pose.meshes[mesh], item);
         const glm::dvec2 named = project_camera_point(now.view, place(point));
         glm::dvec2& displacement = field.displacement(x, y);
+        const bool is_chord = field.path_length(x, y) == glm::length(displacement);
         displacement += sign * (named - glm::dvec2(x + 0.5, y + 0.5));
         const double length = glm::length(displacement);
         if (length > longest) displacement *= longest / length;
-        field.path_length(x, y) = std::min(length, longest);
+        if (is_chord) field.path_length(x, y) = std::min(length, longest);
     });
     return field;
 }

@@ -14,7 +14,8 @@ namespace aleph {
 Image<Hit> rasterize(const Scene& scene, const PosedView& posed);
 
 /// As ModelMotion::compute, but from each pixel's centre to where the place that the item names lies in the other
-/// frame: off by up to half a 255th of a triangle, at rest too. The path length is that of the displacement.
+/// frame: off by up to half a 255th of a triangle, at rest too. The path length is that of the
+/// displacement, or the sum of ModelMotion::compute where something turns further than one chord stands for.
 /// @param items  rasterize(scene, now)
 MotionField compute_raster_motion(ModelMotion& model, const Scene& scene, const PosedView& now, const PosedView& other,
                                   const Image<Hit>& items, OtherFrame which = OtherFrame::next);

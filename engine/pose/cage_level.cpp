@@ -8,6 +8,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/pose/camera_view.h"
+#include "engine/pose/closest_pass.h"
 #include "engine/pose/parts.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/points.h"
@@ -181,7 +182,8 @@ std::vector<std::int64_t> sample_frames(const FrameRange& range) {
     return frames;
 }
 
-/// By cage: the level that its triangles need over the sampled frames; -infinity where it is never in view.
+/// By cage: the level that its triangles need over the sampled frames, and at the frame at which each instance comes
+/// closest; -infinity where it is never in view.
 std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int width, int height) {
     std::vector<Instance> instances = list_instances(scene);
     std::erase_if(instances, [&](const Instance& instance) {
@@ -203,6 +205,13 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
             needed = std::max(
                 needed, find_level_needed(shapes.at(instances[i].mesh, seconds), posed.world[instances[i].node], view));
         }
+    }
+    const auto passes = find_closest_passes(scene, camera_node, instances, width, height);
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        if (!passes[i]) continue;
+        double& needed = most[scene.meshes[instances[i].mesh].subdivision.cage];
+        needed = std::max(needed, find_level_needed(shapes.at(instances[i].mesh, passes[i]->seconds), passes[i]->world,
+                                                    passes[i]->view));
     }
     return most;
 }

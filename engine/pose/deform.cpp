@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <map>
@@ -30,20 +31,32 @@ bool are_weights_on(const Deformation& deformation) {
     });
 }
 
+std::partial_ordering compare_components(const glm::vec3& a, const glm::vec3& b) {
+    return std::tie(a.x, a.y, a.z) <=> std::tie(b.x, b.y, b.z);
+}
+
 bool are_weights_animated(const Deformation& deformation) {
     return std::ranges::any_of(deformation.target_weights, [](const auto& weight) { return is_animated(weight); });
 }
 
-/// Vertices of one point and one rest normal get one number.
-std::vector<std::uint32_t> group_normals(const Mesh& mesh) {
+/// Vertices of one point and one rest normal get one number. Where vertices are listed as points of their own, as along
+/// a seam of the texture, those are one point that are together at every sample.
+std::vector<std::uint32_t> group_normals(const PointCache& cache, const Mesh& mesh) {
+    const std::vector<std::uint32_t>& points = mesh.deformation.vertex_points;
+    const auto compare_points = [&](std::uint32_t a, std::uint32_t b) -> std::partial_ordering {
+        if (!points.empty()) return points[a] <=> points[b];
+        for (const std::vector<glm::vec3>& sample : cache.positions)
+            if (sample[a] != sample[b]) return compare_components(sample[a], sample[b]);
+        return std::partial_ordering::equivalent;
+    };
+    const auto comes_before = [&](std::uint32_t a, std::uint32_t b) {
+        const glm::vec3 &m = mesh.normals[a], &n = mesh.normals[b];
+        return (m == n ? compare_points(a, b) : compare_components(m, n)) < 0;
+    };
+    std::map<std::uint32_t, std::uint32_t, decltype(comes_before)> known(comes_before);
     std::vector<std::uint32_t> groups(mesh.positions.size());
-    std::map<std::tuple<std::uint32_t, float, float, float>, std::uint32_t> known;
-    for (std::uint32_t v = 0; v < groups.size(); ++v) {
-        const glm::vec3& n = mesh.normals[v];
-        const std::uint32_t point = mesh.deformation.vertex_points.empty() ? v : mesh.deformation.vertex_points[v];
-        const auto next = static_cast<std::uint32_t>(known.size());
-        groups[v] = known.try_emplace({point, n.x, n.y, n.z}, next).first->second;
-    }
+    for (std::uint32_t v = 0; v < groups.size(); ++v)
+        groups[v] = known.try_emplace(v, static_cast<std::uint32_t>(known.size())).first->second;
     return groups;
 }
 
@@ -189,7 +202,7 @@ std::vector<Deformer> find_deformers(const Scene& scene, std::span<const std::ui
                    (is_animated(cache_of(scene, mesh)) || do_samples_differ(mesh.deformation.normal_samples))) {
             deformer.changes = true;
             if (mesh.deformation.normal_samples.empty() && !mesh.normals.empty())
-                deformer.normal_groups = group_normals(mesh);
+                deformer.normal_groups = group_normals(cache_of(scene, mesh), mesh);
         } else if (are_weights_on(mesh.deformation)) {
             deformer.changes = are_weights_animated(mesh.deformation);
         } else if (is_cage_animated(scene, mesh)) {

@@ -165,11 +165,13 @@ bool is_inside(const glm::dvec2& place, const Image<float>& image) {
 struct MotionChannels {
     const Image<float>&u, &v;
     glm::dvec2 sign;
-    const Image<float>* codes = nullptr;  ///< null: none
+    const Image<float>* codes = nullptr;   ///< null: none
+    const Image<float>* speeds = nullptr;  ///< null: the path is as long as the displacement
+    double pixels_by_speed = 0.0;          ///< takes speeds to the path's length
 };
 
 MotionField read_motion(const MotionChannels& channels, const Image<float>& depth) {
-    const auto& [u, v, sign, codes] = channels;
+    const auto& [u, v, sign, codes, speeds, pixels_by_speed] = channels;
     const double longest = std::hypot(u.width, u.height);
     MotionField motion{Image<glm::dvec2>(u.width, u.height), Image<double>(u.width, u.height),
                        Image<MotionValidity>(u.width, u.height, MotionValidity::valid)};
@@ -193,13 +195,26 @@ MotionField read_motion(const MotionChannels& channels, const Image<float>& dept
             if (length > longest) way *= longest / length;
             motion.displacement(x, y) = way;
             motion.path_length(x, y) = std::min(length, longest);
+            if (speeds != nullptr && (*speeds)(x, y) >= 0.0f && std::isfinite((*speeds)(x, y)))
+                motion.path_length(x, y) = (*speeds)(x, y) * pixels_by_speed;
         }
     }
     return motion;
 }
 
+/// Pixels per frame for each degree per second, by the file's attributes; 0 where they do not tell.
+double find_pixels_by_speed(const ChannelImage& file) {
+    const auto rate = file.metadata.find("framesPerSecond"), density = file.metadata.find("pixelsPerDegree");
+    if (rate == file.metadata.end() || density == file.metadata.end()) return 0.0;
+    const auto* const frames = std::get_if<std::array<int, 2>>(&rate->second);
+    const auto* const pixels = std::get_if<double>(&density->second);
+    if (frames == nullptr || pixels == nullptr || (*frames)[0] <= 0 || (*frames)[1] <= 0) return 0.0;
+    const double factor = *pixels * (*frames)[1] / (*frames)[0];
+    return factor > 0.0 && std::isfinite(factor) ? factor : 0.0;
+}
+
 /// Motion to the next frame, and where the layer has it, to the frame before.
-void read_motions(const Layers& layers, const std::string& layer, PictureFrame& frame) {
+void read_motions(const ChannelImage& file, const Layers& layers, const std::string& layer, PictureFrame& frame) {
     const auto channel = [&](const std::string& of, const char* name) -> const Image<float>& {
         return *layers.find(of, name);
     };
@@ -210,8 +225,13 @@ void read_motions(const Layers& layers, const std::string& layer, PictureFrame& 
         return;
     }
     const bool own = layer == "forward";
-    frame.motion = read_motion(
-        {channel(layer, "u"), channel(layer, "v"), y_up, own ? layers.find("motion", "valid") : nullptr}, frame.depth);
+    MotionChannels forward{channel(layer, "u"), channel(layer, "v"), y_up};
+    if (own) {
+        forward.codes = layers.find("motion", "valid");
+        forward.pixels_by_speed = find_pixels_by_speed(file);
+        if (forward.pixels_by_speed > 0.0) forward.speeds = layers.find("velocity", "image");
+    }
+    frame.motion = read_motion(forward, frame.depth);
     if (!own || !layers.has("backward", uv_channels)) return;
     frame.backward = read_motion(
         {channel("backward", "u"), channel("backward", "v"), y_up, layers.find("backward", "valid")}, frame.depth);
@@ -226,7 +246,7 @@ PictureFrame read_picture_frame(const std::filesystem::path& path, const Picture
     frame.color = read_color(layers, wanted.color, file.metadata.contains("encoding"));
     frame.depth = read_depth(layers, wanted.depth);
     if (const std::optional<std::string> motion = choose_motion(layers, wanted.motion))
-        read_motions(layers, *motion, frame);
+        read_motions(file, layers, *motion, frame);
     return frame;
 }
 

@@ -30,11 +30,12 @@ struct PictureFrame {
 
 /// Colour: the layer that is named; else channels R, G, B or Y outside of layers; else the only layer with such
 /// channels; else the only one of them called "Combined".
-/// Motion: channels u and v, pixels, x right, y up, to the next frame, with motion.valid if the layer is "forward"; or
-/// X, Y, Z and W, where Z and W are this frame's position minus the next one's (Blender's Vector pass). Not named: the
-/// layer "forward", or the only one called "Vector". Motion to the frame before: the layer "backward" beside "forward";
-/// X and Y beside Z and W. Depth: channel Z of the layer that is named; else Z outside of layers; else that of the only
-/// layer called "Depth". Pixels at 1e10 m and beyond that do not move are background.
+/// Motion: channels u and v, pixels, x right, y up, to the next frame; if the layer is "forward", with motion.valid,
+/// and with velocity.image, which tells the length of the path where the file has framesPerSecond and pixelsPerDegree;
+/// or X, Y, Z and W, where Z and W are this frame's position minus the next one's (Blender's Vector pass). Not named:
+/// the layer "forward", or the only one called "Vector". Motion to the frame before: the layer "backward" beside
+/// "forward"; X and Y beside Z and W. Depth: channel Z of the layer that is named; else Z outside of layers; else that
+/// of the only layer called "Depth". Pixels at 1e10 m and beyond that do not move are background.
 /// @throws InputError: unreadable, no such layer, or several among which one has to be named
 PictureFrame read_picture_frame(const std::filesystem::path& path, const PictureLayers& layers = {});
 

@@ -1,5 +1,7 @@
 // Motion of deforming cages against the closed form of their limit surface (a bicubic B-spline over regular faces).
+#include "tests/support/allocations.h"
 #include "tests/support/cage_scenes.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/seen_motion.h"
 #include "tests/support/test.h"
 
@@ -60,6 +62,22 @@ TEST(CageMotion, RP16_StaticSurfacesDoNotMoveAtAnyLevel) {
         const Scene rigid = make_cage_scene(test, {test.points, test.points}, level);
         EXPECT_TRUE(pose(rigid, 0.0).meshes[0].positions.empty());
     }
+}
+
+/// Paths are summed with one pose at a time, however many steps a turn takes.
+TEST(CageMotion, FastTurnsTakeNoMoreMemory) {
+    if (!allocations_count) GTEST_SKIP() << "the sanitizer counts";
+    const TestCage test = make_cube_cage();
+    std::vector<glm::dvec3> later = test.points;
+    for (glm::dvec3& p : later) p *= 1.2;
+    const auto peak_of = [&](double turns) {
+        Scene scene = make_cage_scene(test, {test.points, later}, 5);
+        scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, 6.0);
+        AxisRotation& turn = scene.nodes[0].transform.axis_rotation.emplace();
+        turn.angle = keyed<double>({0.0, 1.0}, {0.0, turns * 60.0 * std::numbers::pi});
+        return count_allocations([&] { compute_motion(scene); }).peak;
+    };
+    EXPECT_LT(static_cast<double>(peak_of(20.0)), 1.1 * static_cast<double>(peak_of(1.0)));
 }
 
 TEST(CageMotion, RP16_PartsThatDoNotMoveDoNotMove) {

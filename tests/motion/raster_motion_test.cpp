@@ -109,6 +109,23 @@ TEST(RasterMotion, TheFrameBeforeAndNone) {
     EXPECT_EQ(none.validity(40, 30), MotionValidity::no_counterpart);
 }
 
+/// A full turn in a frame ends where it began.
+TEST(RasterMotion, RP07_PathsOfTurnsAreArcs) {
+    Scene scene;
+    Node square{.meshes = {add_grid(scene, 1.0f, 1.0f)}};
+    square.transform.translation = glm::dvec3(0.0, 0.0, -3.0);
+    square.transform.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 360.0 * degrees)};
+    add_node(scene, square);
+    add_camera(scene);
+    const TwoViews views(scene, 0.0, 1.0, 80, 60);
+    const MotionField field = find_raster_motion(scene, views);
+    for (const int x : {45, 50}) {
+        const double arc = 2.0 * std::numbers::pi * std::hypot(x + 0.5 - 40.0, 0.5);
+        EXPECT_NEAR(field.path_length(x, 30), arc, 0.02 * arc + 0.5);
+        EXPECT_LT(glm::length(field.displacement(x, 30)), 0.2);
+    }
+}
+
 TEST(RasterMotion, IsNoLongerThanThePictureNorWithoutANumber) {
     Scene scene;
     add_endless_floor(scene);

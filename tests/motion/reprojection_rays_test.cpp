@@ -1,7 +1,5 @@
-// Reprojection with real rays: single-precision hits must not disturb motion, and points hidden in the other frame are
-// found.
+// Reprojection with real rays: single-precision hits must not disturb motion.
 
-#include "engine/surface/shapes.h"
 #include "motion/reprojection.h"
 #include "tests/support/motion_scenes.h"
 #include "tests/support/motion_truth.h"
@@ -132,102 +130,6 @@ TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
     EXPECT_LT(worst, 1e-6L);
     // Where Embree's own distance is off by a good part of a metre: 500 m along slivers that are seen edge-on.
     EXPECT_LT(worst_by_distance, 1e-4L);
-}
-
-/// A scene at two times, with the points that are hidden at the second.
-struct Hidden {
-    TwoViews views;
-    RayScene rays, other_rays;
-    Image<Hit> hits, other_hits;
-    MotionField before, after;
-    std::uint64_t rays_cast = 0;
-
-    Hidden(const Scene& scene, int width, int height)
-        : views(scene, 0.0, 1.0, width, height), rays(scene), other_rays(rays.share_meshes()) {
-        rays.update(views.now.pose, compute_anchor(views.now.view));
-        other_rays.update(views.other.pose, compute_anchor(views.other.view));
-        hits = cast_first_hits(rays, views.now.view);
-        other_hits = cast_first_hits(other_rays, views.other.view);
-        before = compute_model_motion(scene, views.now, views.other, hits);
-        after = before;
-        rays_cast = mark_hidden(after, scene, views.other, hits, other_rays);
-    }
-};
-
-/// A card passes before a wall while the camera stands still.
-Scene make_card(bool orthographic, double distance_from_origin) {
-    Scene scene;
-    Node root{
-        .transform = {.translation = glm::dvec3(distance_from_origin, -distance_from_origin, distance_from_origin),
-                      .axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, -2.0, 0.5)), 0.8}}};
-    add_node(scene, root);
-    Node wall{.parent = 0,
-              .transform = {.translation = glm::dvec3(0.0, 0.0, -10.0)},
-              .meshes = {add_grid(scene, 30.0f, 30.0f, 3)}};
-    add_node(scene, wall);
-    Node card{.parent = 0,
-              .transform = {.translation = ramp(glm::dvec3(-0.9, 0.1, -5.0), glm::dvec3(0.7, -0.2, -5.0))},
-              .meshes = {add_grid(scene, 1.03f, 1.51f)}};
-    add_node(scene, card);
-    add_camera(scene, 0);
-    scene.cameras[0].orthographic = orthographic;
-    scene.cameras[0].half_height = 2.0;
-    return scene;
-}
-
-TEST(ReprojectionRays, HiddenIsWhatTheCardCoversNext) {
-    for (const bool orthographic : {false, true}) {
-        for (const double distance : {0.0, 1e6}) {
-            const Hidden scene(make_card(orthographic, distance), 161, 120);
-            std::size_t hidden = 0, valid_before = 0, wrong = 0;
-            for (std::size_t i = 0; i < scene.hits.size(); ++i) {
-                const bool was_valid = scene.before.validity.pixels[i] == MotionValidity::valid;
-                valid_before += was_valid ? 1 : 0;
-                const bool covered =
-                    was_valid && scene.hits.pixels[i].instance == 0 && scene.other_hits.pixels[i].instance == 1;
-                const bool marked = scene.after.validity.pixels[i] == MotionValidity::hidden;
-                hidden += marked ? 1 : 0;
-                wrong += marked != covered ? 1 : 0;
-            }
-            EXPECT_EQ(wrong, 0u) << orthographic << ' ' << distance;
-            EXPECT_GT(hidden, 500u) << orthographic << ' ' << distance;
-            EXPECT_EQ(scene.rays_cast, valid_before);
-            // Displacement and path stay.
-            EXPECT_EQ(scene.after.displacement, scene.before.displacement);
-            EXPECT_EQ(scene.after.path_length, scene.before.path_length);
-        }
-    }
-}
-
-TEST(ReprojectionRays, ASpinningBallHidesWhatTurnsAway) {
-    Scene scene;
-    const Mesh ball = make_shape_mesh({.kind = Shape::Kind::sphere, .radius = 1.0, .segments = 96});
-    scene.meshes = {ball};
-    Node node{.transform = {.translation = ramp(glm::dvec3(-0.3, 0.0, -6.0), glm::dvec3(0.3, 0.2, -6.0)),
-                            .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 40.0 * degrees)}},
-              .meshes = {0}};
-    add_node(scene, node);
-    add_camera(scene);
-    const Hidden motion(scene, 200, 150);
-    std::size_t hidden = 0, kept = 0;
-    for (std::size_t i = 0; i < motion.hits.size(); ++i) {
-        if (motion.hits.pixels[i].instance == no_index) continue;
-        // On a ball a point is its own normal; it faces the camera where that leans towards it.
-        const RealVector normal =
-            real_turned(surface_point(ball, motion.hits.pixels[i]), {0, 1, 0}, 40.0L * std::numbers::pi_v<Real> / 180);
-        const RealVector place = normal + RealVector(0.3L, 0.2L, -6);
-        const Real facing = -glm::dot(unit(place), unit(normal));
-        const MotionValidity validity = motion.after.validity.pixels[i];
-        if (facing > 0.05L) {
-            EXPECT_EQ(validity, MotionValidity::valid) << i;
-            ++kept;
-        } else if (facing < -0.05L) {
-            EXPECT_EQ(validity, MotionValidity::hidden) << i;
-            ++hidden;
-        }
-    }
-    EXPECT_GT(kept, 1000u);
-    EXPECT_GT(hidden, 300u);
 }
 
 }  // namespace

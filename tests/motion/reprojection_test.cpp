@@ -234,6 +234,20 @@ TEST(Reprojection, RP12_VisibleInOneFrameOnly) {
     EXPECT_EQ(motion_of_point(scene).validity, MotionValidity::behind_camera);
 }
 
+TEST(Reprojection, RP12_WhatNoRayCanMeetIsNotInTheOtherFrame) {
+    Scene flat = make_point_scene({0.1f, 0.2f, -5.0f});
+    flat.nodes[0].transform.scale = ramp(glm::dvec3(1.0), glm::dvec3(0.0, 1.0, 1.0));
+    Scene far = make_point_scene({0.1f, 0.2f, -5.0f});
+    add_cache(far, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t sample) {
+        return sample == 0 ? p : p + glm::vec3(0.0f, 0.0f, -1e20f);
+    });
+    for (const Scene& scene : {flat, far}) {
+        const PointMotion motion = motion_of_point(scene);
+        EXPECT_EQ(motion.validity, MotionValidity::no_counterpart);
+        EXPECT_EQ(motion.displacement, glm::dvec2(0.0));
+    }
+}
+
 TEST(Reprojection, RP13_LeavingTheScreen) {
     // 200 px per metre at 5 m; the screen ends 500 px right of the axis.
     const struct {

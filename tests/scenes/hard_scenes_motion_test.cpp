@@ -76,6 +76,16 @@ TEST(HardScenes, RP12_AppearingHasNoCounterpart) {
         EXPECT_EQ(output.motion.displacement.pixels[i], glm::dvec2(0.0));
     }
 }
+TEST(HardScenes, RP12_WhatHasNoVolumeHasNoCounterpart) {
+    HardScene hard("scale_through_zero");
+    for (const std::int64_t frame : {0, 2}) {
+        const FrameOutput output = hard.render(frame);
+        for (const std::size_t i : hard.seen_on(output, "thing")) {
+            EXPECT_EQ(output.motion.validity.pixels[i], MotionValidity::no_counterpart);
+            EXPECT_EQ(output.motion.displacement.pixels[i], glm::dvec2(0.0));
+        }
+    }
+}
 TEST(HardScenes, RP13_LeavingKeepsItsDisplacement) {
     HardScene hard("leaving");
     const FrameOutput output = hard.render(0);

@@ -92,6 +92,50 @@ TEST(CageLevel, NearestFrameOfTheShotDecidesForAll) {
     EXPECT_LT(level_of(scene), level_of(make_sheet(1.0)));
 }
 
+Track<glm::dvec3> make_path(std::vector<double> frames, std::vector<glm::dvec3> places) {
+    Track<glm::dvec3> path;
+    path.sampling.kind = TimeSampling::Kind::acyclic;
+    for (const double frame : frames) path.sampling.times.push_back(frame / 30.0);
+    path.values = std::move(places);
+    return path;
+}
+
+TEST(CageLevel, PassesOfAFewFramesCount) {
+    Scene scene = make_sheet(0.0);
+    scene.film.range = FrameRange{0, 640};
+    const glm::dvec3 away(0.0, 0.0, -400.0), near(0.0, 0.0, -1.0);
+    scene.nodes[0].transform.translation = make_path({0.0, 323.0, 325.0, 327.0, 640.0}, {away, away, near, away, away});
+    EXPECT_EQ(level_of(scene), level_of(make_sheet(1.0)));
+    // The camera passes a sheet at rest.
+    Scene still = make_sheet(0.0);
+    still.film.range = FrameRange{0, 640};
+    still.nodes[1].transform.translation =
+        make_path({0.0, 323.0, 325.0, 327.0, 640.0}, {-away, -away, -near, -away, -away});
+    EXPECT_EQ(level_of(still), level_of(make_sheet(1.0)));
+    // It is there for a moment only, and once it passes out of view.
+    Scene shown = make_sheet(1.0);
+    shown.film.range = FrameRange{0, 640};
+    shown.nodes[0].visible = Track<double>();
+    shown.nodes[0].visible.interpolation = Interpolation::step;
+    shown.nodes[0].visible.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 325.0 / 30.0, 326.0 / 30.0}};
+    shown.nodes[0].visible.values = {0.0, 1.0, 0.0};
+    EXPECT_EQ(level_of(shown), level_of(make_sheet(1.0)));
+    scene.nodes[0].visible = 0.0;
+    EXPECT_EQ(level_of(scene), 0);
+    Scene behind = make_sheet(0.0);
+    behind.film.range = FrameRange{0, 640};
+    behind.nodes[0].transform.translation =
+        make_path({0.0, 323.0, 325.0, 327.0, 640.0}, {-away, -away, -near, -away, -away});
+    EXPECT_EQ(level_of(behind), 0);
+}
+
+TEST(CageLevel, LongShotsAreLookedAtInSteps) {
+    Scene scene = make_sheet(6.0);
+    scene.film.range = FrameRange{0, 4'000'000'000'000};
+    scene.nodes[0].transform.translation = make_path({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(0.1)});
+    EXPECT_GE(level_of(scene), level_of(make_sheet(6.0)));
+}
+
 TEST(CageLevel, PictureSizeScaleAndDeformationCount) {
     const Scene scene = make_sheet(6.0);
     const int level = level_of(scene);

@@ -103,6 +103,35 @@ TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
     EXPECT_TRUE(pose(scene, 1.0).meshes[0].normals.empty());  // flat stays flat
 }
 
+/// The hinge's axis is a seam of the texture: its vertices are listed twice, and are points of their own.
+TEST(Deform, NormalsStaySmoothAcrossSeams) {
+    Scene scene;
+    scene.nodes.resize(1);
+    scene.nodes[0].meshes = {0};
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
+    mesh.triangles = {{2, 0, 1}, {2, 1, 3}, {4, 6, 7}, {4, 7, 5}};
+    mesh.normals.assign(8, glm::vec3(0.0f, 0.0f, 1.0f));
+    scene.meshes = {mesh};
+    const auto stand_up = [](const glm::vec3& p, std::size_t sample) {
+        return sample == 1 && p.x > 0.0f ? glm::vec3(0.0f, p.y, 1.0f) : p;
+    };
+    add_cache(scene, 0, {0.0, 1.0}, stand_up);
+    const ScenePose smooth = pose(scene, 1.0);
+    expect_near(smooth.meshes[0].normals[0], glm::normalize(glm::dvec3(-1.0, 0.0, 1.0)), 1e-6);
+    EXPECT_EQ(smooth.meshes[0].normals[0], smooth.meshes[0].normals[4]);
+    for (const std::size_t v : {4, 5, 6, 7}) scene.meshes[0].normals[v] = glm::vec3(0.1f, 0.0f, 1.0f);
+    expect_near(pose(scene, 1.0).meshes[0].normals[0], {0.0, 0.0, 1.0}, 1e-6);  // an edge at rest stays one
+    // Vertices that come apart are two points.
+    scene.meshes[0] = mesh;
+    scene.point_caches.clear();
+    std::size_t vertex = 0;
+    add_cache(scene, 0, {0.0, 1.0}, [&](const glm::vec3& p, std::size_t sample) {
+        return stand_up(p, sample) + (vertex++ % 8 >= 4 && sample == 1 ? glm::vec3(0.5f, 0.0f, 0.0f) : glm::vec3(0.0f));
+    });
+    expect_near(pose(scene, 1.0).meshes[0].normals[0], {0.0, 0.0, 1.0}, 1e-6);
+}
+
 TEST(Deform, NormalsAreWeightedByAngleHoweverFacesAreCut) {
     // Three sides of a box of 2 x 3 x 1 m around a corner; one is cut through the corner, the others across it.
     Scene scene;

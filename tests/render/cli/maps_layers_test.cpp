@@ -96,6 +96,33 @@ TEST(MapsLayers, OurOwnMotionComesBackAsItWas) {
     EXPECT_EQ((*cut.find("motion.valid"))(9, 9), -3.0f) << "a cut has no motion";
 }
 
+/// A path may be longer than the way from end to end: the speed tells it, as a share of the file's own frame rate.
+TEST(MapsLayers, SpeedsOfOurOwnFilesComeBackAsTheyWere) {
+    const Frames frames(1, 0);
+    const auto own = [](int frame) {
+        ChannelImage file = make_color_image(picture(frame));
+        for (const auto& [name, value] :
+             {std::pair("forward.u", 0.0f), {"forward.v", 0.5f}, {"motion.valid", 1.0f}, {"velocity.image", 51.5f}})
+            add_flat(file, name, value);
+        channel(file, "velocity.image")(2, 3) = float_nan;
+        file.metadata["framesPerSecond"] = std::array<int, 2>{24000, 1001};
+        file.metadata["pixelsPerDegree"] = 27.3;
+        return file;
+    };
+    ASSERT_EQ(maps_of(frames, own).code, 0);
+    const Image<float> speeds = *frames.maps(1).find("velocity.image");
+    EXPECT_EQ(speeds(30, 30), 51.5f);
+    EXPECT_NEAR(speeds(2, 3), 0.5 / 27.3 * 24000.0 / 1001.0, 1e-6) << "not a number";
+    const auto without = [&](int frame) {
+        ChannelImage file = own(frame);
+        file.metadata.erase("pixelsPerDegree");
+        return file;
+    };
+    const Frames others(1, 0);
+    ASSERT_EQ(maps_of(others, without).code, 0);
+    EXPECT_LT((*others.maps(1).find("velocity.image"))(30, 30), 1.0f);
+}
+
 TEST(MapsLayers, FramesWithMotionMayHaveGaps) {
     const Frames frames(1, 0);
     for (const int frame : {1, 5}) write_exr(frames.file(frame), blender_frame(frame));

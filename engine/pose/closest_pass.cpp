@@ -1,0 +1,214 @@
+#include "engine/pose/closest_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "engine/base/parallel.h"
+#include "engine/pose/parts.h"
+#include "engine/scene/operations.h"
+#include "engine/scene/points.h"
+#include "engine/scene/visit.h"
+
+namespace aleph {
+namespace {
+
+struct Ball {
+    glm::dvec3 center{0.0};  ///< m
+    double radius = 0.0;
+};
+
+Ball ball_around(const std::vector<glm::vec3>& points) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const glm::vec3& p : points) {
+        low = glm::min(low, glm::dvec3(p));
+        high = glm::max(high, glm::dvec3(p));
+    }
+    return {0.5 * (low + high), 0.5 * glm::length(high - low)};
+}
+
+Ball ball_at(const PointCache& cache, const std::vector<Ball>& balls, double seconds) {
+    const SampleSpan span = find_samples(cache.sampling, balls.size(), seconds);
+    const Ball &a = balls[span.floor], &b = balls[span.ceil];
+    return {glm::mix(a.center, b.center, span.fraction), std::lerp(a.radius, b.radius, span.fraction)};
+}
+
+template <class Element>
+bool has_keys(const Element& element) {
+    bool animated = false;
+    visit_tracks(element, [&](const auto& track) { animated = animated || is_animated(track); });
+    return animated;
+}
+
+bool is_in_view(const CameraView& view, const Ball& ball) {
+    const glm::dvec2 low = unproject_pixel(view, 0.0, view.height), high = unproject_pixel(view, view.width, 0.0);
+    const double depth = -ball.center.z;
+    // How far the centre lies within a side of the picture.
+    const auto within = [&](double place, double side) {
+        return view.orthographic ? place - side : (place - side * depth) / std::sqrt(1.0 + side * side);
+    };
+    const double least = std::min({within(ball.center.x, low.x), -within(ball.center.x, high.x),
+                                   within(ball.center.y, low.y), -within(ball.center.y, high.y)});
+    return least >= -ball.radius && depth + ball.radius >= view.near_plane;
+}
+
+/// Smaller where the ball is larger in the picture; in it, where its centre is nearer.
+double remoteness(const CameraView& view, const Ball& ball) {
+    if (view.orthographic) return -ball.radius * view.pixels_per_unit;
+    return (glm::length(ball.center) / ball.radius - 1.0) / view.pixels_per_unit;
+}
+
+/// The instances that are looked at, and the nodes that place them.
+class Passes {
+  public:
+    Passes(const Scene& scene, int camera_node, std::span<const Instance> instances, int width, int height)
+        : scene_(scene), camera_node_(camera_node), instances_(instances), width_(width), height_(height) {
+        list_nodes();
+        for (std::size_t i = 0; i < instances.size(); ++i)
+            if (changes(instances[i])) changing_.push_back(i);
+        for (const Cage& cage : scene.cages) {
+            std::vector<Ball>& balls = balls_.emplace_back();
+            if (cage.points == no_index) continue;
+            for (const auto& sample : scene.point_caches[cage.points].positions) balls.push_back(ball_around(sample));
+        }
+    }
+
+    /// Work for a frame, in units of about 10 ns.
+    double cost() const {
+        return 20.0 * static_cast<double>(nodes_.size()) + 4.0 * static_cast<double>(changing_.size());
+    }
+    bool is_empty() const { return changing_.empty(); }
+
+    /// The closest passes among the frames first, first + stride, ... up to `last`.
+    std::vector<std::optional<ClosestPass>> find(std::int64_t first, std::int64_t last, std::int64_t stride) const {
+        constexpr std::size_t frames_per_chunk = 64;
+        const auto count = static_cast<std::size_t>((last - first) / stride) + 1;
+        std::vector<Nearest> chunks((count + frames_per_chunk - 1) / frames_per_chunk);
+        const ScenePose start = place_nodes(scene_, scene_.film.frame_rate.seconds_of(first));
+        parallel_for(count, frames_per_chunk, [&](std::size_t begin, std::size_t end) {
+            Nearest& nearest = chunks[begin / frames_per_chunk];
+            nearest.assign(changing_.size(), {});
+            ScenePose posed = start;
+            for (std::size_t i = begin; i < end; ++i) {
+                place(first + static_cast<std::int64_t>(i) * stride, posed);
+                look(posed, first + static_cast<std::int64_t>(i) * stride, nearest);
+            }
+        });
+        return pose_passes(chunks, start);
+    }
+
+  private:
+    static constexpr double never = std::numeric_limits<double>::infinity();
+    struct Near {
+        double remoteness = never;
+        std::int64_t frame = 0;
+    };
+    using Nearest = std::vector<Near>;  ///< as changing_
+
+    /// Nodes that move, and that the camera or an instance hangs below.
+    void list_nodes() {
+        const auto count = scene_.nodes.size();
+        std::vector<std::uint8_t> needed(count, 0);
+        moving_.resize(count, 0);
+        needed[camera_node_] = 1;
+        for (const Instance& instance : instances_) needed[instance.node] = 1;
+        for (std::size_t n = count; n-- > 0;) {
+            const Node& node = scene_.nodes[n];
+            if (needed[n] == 0) continue;
+            for (const int above : {node.parent, space_of(scene_, node)})
+                if (above != no_index) needed[above] = 1;
+        }
+        for (std::size_t n = 0; n < count; ++n) {
+            const Node& node = scene_.nodes[n];
+            if (needed[n] == 0) continue;
+            moving_[n] = has_keys(node);
+            for (const int above : {node.parent, space_of(scene_, node)})
+                if (above != no_index) moving_[n] |= moving_[above];
+            if (moving_[n] != 0) nodes_.push_back(static_cast<int>(n));
+        }
+    }
+
+    bool changes(const Instance& instance) const {
+        const Mesh& mesh = scene_.meshes[instance.mesh];
+        const int points = scene_.cages[mesh.subdivision.cage].points;
+        return moving_[instance.node] != 0 || moving_[camera_node_] != 0 || is_animated(mesh.present) ||
+               has_keys(scene_.cameras[scene_.nodes[camera_node_].camera]) ||
+               (points != no_index && scene_.point_caches[points].positions.size() > 1);
+    }
+
+    CameraView view_at(const ScenePose& posed) const {
+        return make_camera_view(pose_camera(scene_, camera_node_, posed.world[camera_node_], posed.seconds), width_,
+                                height_);
+    }
+
+    void place(std::int64_t frame, ScenePose& posed) const {
+        posed.seconds = scene_.film.frame_rate.seconds_of(frame);
+        for (const int node : nodes_) place_node(scene_, node, posed.seconds, posed);
+    }
+
+    void look(ScenePose& posed, std::int64_t frame, Nearest& nearest) const {
+        const CameraView view = view_at(posed);
+        posed.instances.resize(1);
+        for (std::size_t c = 0; c < changing_.size(); ++c) {
+            const Instance& instance = posed.instances[0] = instances_[changing_[c]];
+            const glm::dmat4& world = posed.world[instance.node];
+            const int cage = scene_.meshes[instance.mesh].subdivision.cage;
+            if (balls_[cage].empty()) continue;
+            Ball ball = ball_at(scene_.point_caches[scene_.cages[cage].points], balls_[cage], posed.seconds);
+            ball.center = to_camera(view, glm::dvec3(world * glm::dvec4(ball.center, 1.0)));
+            ball.radius *= std::sqrt(
+                std::max({glm::dot(world[0], world[0]), glm::dot(world[1], world[1]), glm::dot(world[2], world[2])}));
+            const double here = remoteness(view, ball);
+            if (!(here < nearest[c].remoteness) || !is_in_view(view, ball) || !is_shown(scene_, posed, 0)) continue;
+            nearest[c] = {here, frame};
+        }
+    }
+
+    /// The best of all chunks, each frame posed once.
+    std::vector<std::optional<ClosestPass>> pose_passes(const std::vector<Nearest>& chunks, ScenePose posed) const {
+        Nearest best(changing_.size());
+        for (const Nearest& chunk : chunks) {
+            for (std::size_t c = 0; c < best.size(); ++c)
+                if (chunk[c].remoteness < best[c].remoteness) best[c] = chunk[c];
+        }
+        std::vector<std::size_t> order;
+        for (std::size_t c = 0; c < best.size(); ++c)
+            if (best[c].remoteness < never) order.push_back(c);
+        std::ranges::stable_sort(order, {}, [&](std::size_t c) { return best[c].frame; });
+        std::vector<std::optional<ClosestPass>> passes(instances_.size());
+        std::optional<std::int64_t> frame;
+        for (const std::size_t c : order) {
+            if (frame != best[c].frame) place(best[c].frame, posed);
+            frame = best[c].frame;
+            const std::size_t i = changing_[c];
+            passes[i] = ClosestPass{posed.seconds, posed.world[instances_[i].node], view_at(posed)};
+        }
+        return passes;
+    }
+
+    const Scene& scene_;
+    const int camera_node_;
+    const std::span<const Instance> instances_;
+    const int width_, height_;
+    std::vector<std::uint8_t> moving_;      ///< by node
+    std::vector<int> nodes_;                ///< those to pose, parents first
+    std::vector<std::size_t> changing_;     ///< instances that are not alike at all frames
+    std::vector<std::vector<Ball>> balls_;  ///< by cage, around each sample of its points
+};
+
+}  // namespace
+
+std::vector<std::optional<ClosestPass>> find_closest_passes(const Scene& scene, int camera_node,
+                                                            std::span<const Instance> instances, int width,
+                                                            int height) {
+    const Passes passes(scene, camera_node, instances, width, height);
+    if (passes.is_empty()) return std::vector<std::optional<ClosestPass>>(instances.size());
+    constexpr double most_work = 2e8;
+    const FrameRange range = frame_range(scene);
+    const double frames = static_cast<double>(range.last) - static_cast<double>(range.first) + 1.0;
+    const auto stride = static_cast<std::int64_t>(std::max(1.0, std::ceil(frames * passes.cost() / most_work)));
+    return passes.find(range.first, range.last, stride);
+}
+
+}  // namespace aleph
