@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <ranges>
 #include <regex>
 #include <tuple>
 
@@ -250,9 +251,15 @@ void add_parallel(CLI::App& farm, Command& command) {
     CLI::App* parallel = farm.add_subcommand("parallel", "the same for GNU parallel, on this host or on several");
     const auto options = std::make_shared<FarmOptions>();
     add_job_options(*parallel, *options);
-    add_text(*parallel, "--hosts", "HOST,...", options->resources.hosts,
-             "hosts, such as one,two, which have this program, the scene and the output under the same paths")
-        ->delimiter(',');
+    const auto read_hosts = [&hosts = options->resources.hosts](const std::string& text) {
+        hosts.clear();
+        for (const auto& part : std::views::split(text, ',')) hosts.emplace_back(part.begin(), part.end());
+    };
+    parallel
+        ->add_option_function<std::string>(
+            "--hosts", read_hosts,
+            "hosts, such as one,two, which have this program, the scene and the output under the same paths")
+        ->type_name("HOST,...");
     add_value(*parallel, "--jobs", options->resources.jobs, "tasks at a time on each host");
     parallel->footer(
         "Examples:\n"
