@@ -71,8 +71,8 @@ void refuse_other_options(const FarmOptions& options, const std::string& command
         {"--load-memory", scene.limits.memory != LoadLimits().memory, "render, maps"},
         {"--stats", !scene.stats.empty(), "render, maps"},
         {"--cache", !options.cache.empty(), "render"},
-        {"--checkpoint", !options.checkpoint.empty(), "render"},
         {"--aovs", options.aovs, "render"},
+        {"--checkpoint", !options.checkpoint.empty(), "render"},
         {"--importance", scene.importance, "maps"},
     };
     for (const auto& [option, is_given, commands] : given) {

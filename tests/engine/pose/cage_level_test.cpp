@@ -1,6 +1,7 @@
 // The level of a cage follows the size of its edges in the picture; it is one for the whole shot.
 #include "engine/pose/cage_level.h"
 #include "engine/pose/pose.h"
+#include "engine/scene/points.h"
 #include "render/frame/sequence.h"
 #include "tests/support/cage_scenes.h"
 #include "tests/support/test.h"
