@@ -8,8 +8,8 @@
 namespace aleph {
 
 /// Runs write(temporary path), flushes the file to the disk, then renames it to `path`. The temporary file is
-/// `.name.<process id>.part` beside the target and is removed if anything throws. An existing file is replaced, unless
-/// it is read-only or not a regular file; a symbolic link is followed.
+/// `.name.<process id><ten random digits>.part` beside the target and is removed if anything throws. An existing file
+/// is replaced, unless it is read-only or not a regular file; a symbolic link is followed.
 /// @throws OutputError naming `path`; whatever `write` throws
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);

@@ -39,14 +39,41 @@ bool has_area(const Mesh& mesh, const glm::uvec3& triangle) {
     return glm::length(glm::cross(a, b)) > 1e-14 * std::max(glm::dot(a, a), glm::dot(b, b));
 }
 
-/// True for a rigid mesh with vertices of which nothing can be drawn.
-bool is_degenerate(const Scene& scene, const Mesh& mesh) {
+/// True for a mesh with vertices that always have their places.
+bool is_rigid(const Scene& scene, const Mesh& mesh) {
     const bool moves =
         mesh.deformation.points != no_index && scene.point_caches[mesh.deformation.points].positions.size() > 1;
-    if (mesh.positions.empty() || moves || !mesh.deformation.targets.empty() || mesh.deformation.skin != no_index ||
-        mesh.subdivision.cage != no_index)
-        return false;
-    return std::ranges::none_of(mesh.triangles, [&](const glm::uvec3& triangle) { return has_area(mesh, triangle); });
+    return !mesh.positions.empty() && !moves && mesh.deformation.targets.empty() && mesh.deformation.skin == no_index &&
+           mesh.subdivision.cage == no_index;
+}
+
+/// Rigid meshes whose triangles have no area: all of them, or some.
+struct Degenerate {
+    Found whole, partly;
+    std::ptrdiff_t triangles = 0;  ///< without an area, of the meshes that have others too
+
+    void add(const Scene& scene, int index) {
+        const Mesh& mesh = scene.meshes[index];
+        if (!is_rigid(scene, mesh)) return;
+        const auto count = std::ranges::count_if(mesh.triangles,
+                                                 [&](const glm::uvec3& triangle) { return !has_area(mesh, triangle); });
+        if (count == std::ssize(mesh.triangles)) {
+            whole.add(index);
+        } else if (count > 0) {
+            partly.add(index);
+            triangles += count;
+        }
+    }
+};
+
+void warn_of_degenerate(Scene& scene, const Degenerate& found) {
+    if (found.whole.count > 0) {
+        scene.source.warnings.push_back(name_meshes(scene, found.whole) +
+                                        ": no triangle has an area, so nothing of it can be seen");
+    }
+    if (found.partly.count == 0) return;
+    scene.source.warnings.push_back(fmt::format("{}: {} of the triangles have no area and are never seen",
+                                                name_meshes(scene, found.partly), found.triangles));
 }
 
 bool has_huge_coordinates(const Mesh& mesh) {
@@ -104,22 +131,20 @@ void add_mesh_warnings(Scene& scene) {
     std::vector<bool> used(scene.meshes.size(), false);
     for (const Node& node : scene.nodes)
         for (const int mesh : node.meshes) used[mesh] = true;
-    Found degenerate, huge;
+    Degenerate degenerate;
+    Found huge;
     std::vector<Found> without_uv(scene.materials.size()), without_directions(scene.materials.size());
     for (int i = 0; i < std::ssize(scene.meshes); ++i) {
         if (!used[i]) continue;
         const Mesh& mesh = scene.meshes[i];
-        if (is_degenerate(scene, mesh)) degenerate.add(i);
+        degenerate.add(scene, i);
         if (has_huge_coordinates(mesh)) huge.add(i);
         if (mesh.material == no_index) continue;
         const Material& material = scene.materials[mesh.material];
         if (find_texture_without_uv(material, mesh, false)) without_uv[mesh.material].add(i);
         if (find_direction_without_uv(material, mesh)) without_directions[mesh.material].add(i);
     }
-    if (degenerate.count > 0) {
-        scene.source.warnings.push_back(name_meshes(scene, degenerate) +
-                                        ": no triangle has an area, so nothing of it can be seen");
-    }
+    warn_of_degenerate(scene, degenerate);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const auto warn = [&](const Found& found, const auto& find, const char* effect) {
             if (found.count == 0) return;

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "engine/base/atomic_file.h"
+#include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/frame_keys.h"
@@ -24,6 +25,8 @@ int export_scene(const ExportOptions& options) {
     require_format(scene_formats(), FormatUse::save, options.output, options.output, "--output");
     const ReadFiles read;
     Scene scene = load_scene(options.scene, options.limits);
+    if (options.bake && lower_extension(options.output) == ".json" && !scene.source.includes.empty())
+        throw InputError("", "--bake", "a .json includes other files, whose motion stays as it is; name a .glb file");
     refuse_overwriting(read.paths(), {{options.output, "--output"}});
     try_output(options.output);
     if (!options.quiet) print_warnings(scene.source.warnings);

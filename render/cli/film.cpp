@@ -52,14 +52,6 @@ void move_file(const fs::path& from, const fs::path& to) {
     });
 }
 
-/// Removes the frames, and what is left of others that were never made a film.
-void remove_frames(const fs::path& folder) {
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        if (entry.path().extension() != lock_ending) fs::remove(entry.path(), error);
-    }
-}
-
 FilmFrames list_frames(const FrameJob& job, const SceneOptions& options) {
     FilmFrames frames;
     const ClaimedOutput& output = job.claims.output();
@@ -91,7 +83,9 @@ void encode(const SceneOptions& options, const FilmFrames& frames, const std::st
         fs::remove(made, ignored);
         throw OutputError(
             printable(options.film, 4096),
-            fmt::format("{}; the frames are kept, and the same command with --resume makes the film", e.what()));
+            fmt::format(
+                "{}{}", e.what(),
+                options.has_resume ? "; the frames are kept, and the same command with --resume makes the film" : ""));
     }
 }
 
@@ -152,14 +146,21 @@ bool is_film_finished(const SceneOptions& options, const std::string& fingerprin
     return has_mark(options.film, lower_extension(options.film), fingerprint);
 }
 
+void remove_frames(const SceneOptions& options) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder_of(options), error)) {
+        if (entry.path().extension() != lock_ending) fs::remove(entry.path(), error);
+    }
+}
+
 void finish_film(const FrameJob& job, const SceneOptions& options) {
     const std::string fingerprint = job.claims.output().identity;
     const RenderSignals signals;
     const auto stop_if_asked = [&] {
         if (options.watch != nullptr && options.watch->is_changed()) throw SceneChanged();
-        if (signals.received() == 0) return;
-        throw Stopped("stopped: all frames are finished, the film is not; the same command with --resume makes it",
-                      options.resume ? static_cast<int>(exit_again) : 128 + signals.received());
+        signals.stop_if_asked(std::string(": all frames are finished, the film is not") +
+                                  (options.has_resume ? "; the same command with --resume makes it" : ""),
+                              options.resume);
     };
     const fs::path folder = folder_of(options);
     FrameLocks locks(folder / (std::string("film") + lock_ending), fingerprint);
@@ -168,7 +169,7 @@ void finish_film(const FrameJob& job, const SceneOptions& options) {
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
     if (options.resume && is_film_finished(options, fingerprint)) {
-        remove_frames(folder);
+        remove_frames(options);
         if (!options.quiet) std::cerr << fmt::format("aleph: {} is finished\n", printable(options.film, 400));
         return;
     }
@@ -181,7 +182,7 @@ void finish_film(const FrameJob& job, const SceneOptions& options) {
         });
     }
     if (!options.quiet) std::cerr << describe_film(options, frames);
-    remove_frames(folder);
+    remove_frames(options);
 }
 
 }  // namespace aleph

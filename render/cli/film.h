@@ -45,6 +45,9 @@ std::string film_fingerprint(const SceneOptions& options, const std::vector<int>
 /// Returns whether options.film is there, whole, and has the fingerprint.
 bool is_film_finished(const SceneOptions& options, const std::string& fingerprint);
 
+/// Removes the frames of the film, and what is left of others that were never made a film.
+void remove_frames(const SceneOptions& options);
+
 /// Encodes the film of frames that are all there, unless it is finished, and removes the frames. Of several processes
 /// that made the frames, one encodes and the others wait.
 /// @throws OutputError; Stopped after a signal. The frames are kept then, and --resume goes on with them.

@@ -202,13 +202,12 @@ void FrameWriter::print_status(int frame, const char* stage, double fraction) co
 void FrameWriter::stop_if_asked(const RenderSignals& signals) const {
     if (options_.watch != nullptr && options_.watch->is_changed()) throw SceneChanged();
     if (signals.received() == 0) return;
-    const bool again = options_.resume || options_.checkpoint > 0.0;
-    throw Stopped(fmt::format("stopped by {}: {} of {} frames are finished; {}",
-                              signals.received() == SIGINT ? "SIGINT" : "SIGTERM", kept_.size() + made_.size(),
-                              output_.frames.size(),
-                              options_.resume ? "the same command goes on with the others"
-                                              : "the same command with --resume makes the others"),
-                  again ? static_cast<int>(exit_again) : 128 + signals.received());
+    const char* const advice = !options_.has_resume ? ""
+                               : options_.resume    ? "; the same command goes on with the others"
+                                                    : "; the same command with --resume makes the others";
+    signals.stop_if_asked(
+        fmt::format(": {} of {} frames are finished{}", kept_.size() + made_.size(), output_.frames.size(), advice),
+        options_.resume);
 }
 
 bool FrameWriter::keep_row(std::size_t place) {

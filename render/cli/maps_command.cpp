@@ -102,7 +102,7 @@ PreparedImages prepare_images(const MapsOptions& options) {
     set_scene_numbers(shot, given, "--set");
     if (options.exposure) shot.film.exposure = *options.exposure;
     if (!(*shot.film.exposure > 0.0 && *shot.film.exposure <= 1e18)) {
-        throw InputError("", "--exposure", "expected a number above 0");
+        throw InputError("", "--exposure", "expected a number above 0, at most 1e+18");
     }
     apply_settings(prepared.settings, given, "");
     MotionSource& source = prepared.settings.guide.motion;
@@ -228,8 +228,9 @@ void add_maps_command(CLI::App& app, Command& command) {
     const std::string group = "Frames without a scene";
     add_text(
         *maps, "--images", "PATTERN", options->images,
-        "pictures in place of a scene, such as 'frame.####.exr' or 'frame.%04d.png', in quotes: EXR (linear Rec.709) "
-        "or PNG (sRGB), numbered without gaps; motion comes from the files that hold it, or from comparing them")
+        "pictures in place of a scene, such as 'frame.####.exr' or 'frame.%04d.png', in quotes: EXR and HDR (linear "
+        "Rec.709), PNG and JPEG (sRGB), numbered without gaps; motion comes from the files that hold it, or from "
+        "comparing them")
         ->group(group);
     const auto add_layer = [&](const char* option, std::string& layer, const char* help) {
         add_text(*maps, option, "NAME", layer, help)->group(group);
@@ -246,16 +247,20 @@ void add_maps_command(CLI::App& app, Command& command) {
               "depth; default: Z outside of layers, else the only layer called Depth");
     add_text(*maps, "--cuts", "LIST", options->cuts, "frames that begin a new shot: no motion from the frame before")
         ->group(group);
-    add_number(*maps, "--exposure", options->exposure,
-               "factor on the pictures' values, so that white is 1 (default: 1)")
-        ->group(group);
+    add_number(
+        *maps, "--exposure", options->exposure,
+        "factor on the values of pictures, so that white is 1 (default: 1), or on a scene's radiance in place of "
+        "its own");
     maps->footer(maps_footer());
-    maps->callback([options, &command] {
+    maps->callback([options, maps, &command] {
         if (options->images.empty()) {
             if (options->common.scene.empty()) {
                 throw CLI::RequiredError("a scene, or --images 'frame.####.exr'");
             }
             if (!options->cuts.empty()) throw CLI::ValidationError("--cuts", "a scene file names its own cuts");
+            for (const char* const option : {"--layer", "--motion-layer", "--depth-layer"}) {
+                if (maps->count(option) > 0) throw CLI::ValidationError(option, "a scene has no layers: give --images");
+            }
             if (options->exposure) options->common.settings["exposure"] = *options->exposure;
         }
         command = [options] {

@@ -150,7 +150,12 @@ PreviewFrames make_film(PreparedScene& prepared, const SceneOptions& options, bo
     const auto make = [&](int frame, const FrameRequest& asked) { return frames.make(frame, asked); };
     FrameJob job{frames.sequence().scene(), prepared.settings, frames.sequence().exposure(), make, claims};
     job.title = "preview";
-    write_frames(job, options, preview_request);
+    try {
+        write_frames(job, options, preview_request);
+    } catch (...) {
+        remove_frames(options);  // nothing goes on with them
+        throw;
+    }
     return frames;
 }
 
@@ -174,6 +179,7 @@ PreviewFrames make_sheet_alone(PreparedScene& prepared, const SceneOptions& opti
 
 void preview_once(const PreviewOptions& given) {
     SceneOptions options = given.scene;
+    options.has_resume = false;
     PreparedScene prepared = prepare_scene(options);
     const PreviewFiles files = choose_files(options.output, prepared.name, options.quiet);
     options.output = files.film;

@@ -32,7 +32,7 @@ constexpr const char* render_footer =
     "take less time and flicker less, but a frame alone takes two to three times as long.\n"
     "--resume goes on where a render was stopped, by SIGTERM, SIGINT or anything else: each file has the fingerprint "
     "of what it was made from, and one that is cut or of something else is made again. SIGTERM and SIGINT then exit "
-    "with 75, without --resume or --checkpoint with 143 and 130. SIGUSR1 prints a line and writes the picture so far "
+    "with 75, without --resume with 143 and 130. SIGUSR1 prints a line and writes the picture so far "
     "(NAME.partial.EXT, until the frame is finished). The rows of --stats and the light of --cache are kept.\n"
     "A film (-o film.mp4, .mov, .webm, .gif) is made by the program ffmpeg from PNG files in a hidden folder, "
     ".film.mp4.frames, which is removed then; after a stop --resume goes on with them. The film has the scene's frame "
@@ -64,10 +64,13 @@ void refuse_beside_resume(bool budget, bool verify) {
         throw InputError("", "--resume", "--verify checks the frames that it renders; render all of them with it");
 }
 
-/// @throws InputError if the error is asked for as well, or a cache file, which is for one error
+/// @throws InputError if the error is asked for as well, or a setting that it chooses, without which it means nothing;
+/// or a cache file, which is for one error
 void refuse_beside_budget(const SceneOptions& options, const std::string& cache) {
-    if (options.settings.contains("error")) {
-        throw InputError("--budget", "--error", "give one of the two: a budget chooses the error");
+    for (const char* const key : {"error", "spp", "sampling", "gather", "accuracy"}) {
+        if (!options.settings.contains(key)) continue;
+        throw InputError("--budget", std::string("--") + key,
+                         "give one of the two: a budget chooses the error and what it takes");
     }
     if (!cache.empty()) {
         throw InputError("--budget", "--cache",
@@ -136,7 +139,8 @@ void add_render_command(CLI::App& app, Command& command) {
         ->type_name("SECONDS");
     add_text(*render_app, "--budget", "SECONDS", options->budget,
              "seconds of a clock, with the threads given, that all the frames asked for may take, loading and choosing "
-             "included: picks the smallest error (--error, .1 to 10) that is predicted to fit");
+             "included: picks the smallest error (--error, .1 to 10) that is predicted to fit; --spp, --sampling, "
+             "--gather and --accuracy cannot be given beside it");
     add_text(*render_app, "--verify", "SECONDS", options->verify,
              "afterwards check the frames for so many seconds of a clock (at least 4 blocks of pixels): blocks of "
              "random frames are path traced, and the share of the pixels that are seen to differ is printed with its "

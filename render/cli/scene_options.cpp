@@ -159,7 +159,7 @@ void add_setting_options(CLI::App& app, SettingMap& settings) {
     app.add_option_function<std::vector<std::string>>(
            "--set", [](const std::vector<std::string>&) {},  // read_settings reads it
            "a setting by its key in scene files; also exposure, viewing.pixels_per_degree (pixels), "
-           "viewing.display_white (cd/m2) and viewing.persistence (at most 1), numbers above 0")
+           "viewing.display_white (cd/m2) and viewing.persistence (at most 1), numbers above 0, at most 1e18")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     app.parse_complete_callback([&app, &settings] { settings = read_settings(app); });

@@ -22,6 +22,7 @@ struct SceneOptions {
     bool quiet = false;
     double checkpoint = 0.0;      ///< s between two states of an unfinished frame; 0: none is kept
     bool resume = false;          ///< frames that are finished are kept
+    bool has_resume = true;       ///< the command has --resume
     bool keeps_to_error = false;  ///< without a setting that chooses the work, an error of 1 is asked for
     bool importance = false;      ///< `maps` writes this picture in place of the maps
     SceneWatch* watch = nullptr;  ///< of the files that the scene is loaded from; null: they may change

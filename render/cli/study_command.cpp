@@ -15,6 +15,7 @@
 #include "render/cli/study_output.h"
 #include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/progress.h"
+#include "render/cli/support/render_signals.h"
 #include "render/settings/frame_pattern.h"
 #include "render/settings/setting_table.h"
 #include "render/study/effects_ledger.h"
@@ -31,7 +32,7 @@ struct StudyCommandOptions {
     std::string file, frames, size, output, part;
     std::vector<std::string> sweeps, sets, viewers, judges, pictures;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0, candidates = 0;
-    bool effects = false, search = false, quiet = false, markdown = false;
+    bool effects = false, search = false, quiet = false, markdown = false, status = false;
     StudyExtras extras;
 };
 
@@ -114,10 +115,15 @@ Study make_study(const StudyCommandOptions& options) {
     return study;
 }
 
+/// @throws InputError for a search, whose runs are not known before it ends
+void refuse_search(const PreparedStudy& prepared, const char* option) {
+    if (prepared.study.search)
+        throw InputError("", option, "a search decides by what it has measured; its runs are not known before");
+}
+
 /// "3/8": the third of eight.
 StudyPart parse_part(const std::string& text, const PreparedStudy& prepared) {
-    if (prepared.study.search)
-        throw InputError("", "--shard", "a search decides by what it has measured; it cannot be divided");
+    refuse_search(prepared, "--shard");
     const std::size_t slash = std::min(text.find('/'), text.size());
     const int index = parse_value<int>(text.substr(0, slash), "--shard");
     const int count = slash < text.size() ? parse_value<int>(text.substr(slash + 1), "--shard") : 0;
@@ -158,10 +164,20 @@ void override_study(const StudyCommandOptions& options, Study& study) {
     for (const std::string& viewer : options.viewers) study.viewers.push_back(make_viewer(viewer));
 }
 
+/// Prints how much of the study its folder has. @return the exit code
+int print_count(const PreparedStudy& prepared, const std::filesystem::path& folder) {
+    refuse_search(prepared, "--status");
+    const StudyCount count = count_finished(prepared, folder);
+    std::cout << fmt::format("references: {} of {} finished\nruns: {} of {} finished\n", count.finished_references,
+                             count.references, count.finished_runs, count.runs);
+    return count.is_finished() ? exit_done : exit_failed;
+}
+
 int run(const StudyCommandOptions& options) {
     check_threads(options.threads);
     check_numbers(options);
     const ThreadLimit limit(find_threads(options.threads));
+    const RenderSignals signals;
     const ReadFiles read;
     Study study = make_study(options);
     override_study(options, study);
@@ -171,8 +187,12 @@ int run(const StudyCommandOptions& options) {
         if (!options.quiet) print_warnings(scene.scene.source.warnings);
     const std::filesystem::path folder =
         options.output.empty() ? study_folder(options.file) : std::filesystem::path(options.output);
+    if (options.status) return print_count(prepared, folder);
     std::optional<Progress> progress(std::in_place, "study", 1.0, progress_look(options.quiet));
-    const auto show = [&](double share, const std::string& what) { progress->update(share, what); };
+    const auto show = [&](double share, const std::string& what) {
+        signals.stop_if_asked(": finished passes and runs are kept; the same command goes on", true);
+        progress->update(share, what);
+    };
     if (!options.part.empty()) {
         make_part(prepared, folder, parse_part(options.part, prepared), show);
         return exit_done;
@@ -244,6 +264,8 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
     add_text(study, "--shard", "N/M", options.part,
              "only make every M-th reference and run, from the N-th on, and compare nothing: several machines share a "
              "study so, which the same command without it then finishes, with as many threads");
+    study.add_flag("--status", options.status,
+                   "only count the references and runs that are finished; exit code 1 if some are missing");
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");
     study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");
 }
@@ -257,7 +279,8 @@ void add_study_command(CLI::App& app, Command& command) {
     study->footer(
         "Every variant is rendered and compared with a reference, in units of what a viewer just sees. The folder gets "
         "study.json and study.csv with all figures, and report.html, a page to look at error against time, the frames "
-        "and their maps. Finished variants are kept there: a study that was stopped goes on.\n"
+        "and their maps. Finished passes of references and finished runs are kept there: the same "
+        "command goes on with a study that was stopped. SIGTERM and SIGINT stop it with exit code 75.\n"
         "Seconds are of a processor. --repeats and --seeds give times and errors their uncertainty; two seeds of "
         "consecutive frames tell how much flickers.\n"
         "--search finds what fixed settings can do at best, a fair opponent for --error: it renders combinations of "

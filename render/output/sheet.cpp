@@ -13,8 +13,11 @@ namespace aleph {
 namespace {
 
 constexpr int caption_height = 26, scale_width = 60, scale_height = 11, scale_text = 34;
+constexpr int scale_room = scale_width + 2 * scale_text + 8;  // with its texts and the margin
+const Rgb sheet_color(0.10f, 0.10f, 0.11f);
 constexpr int jpeg_quality = 80;
 
+/// @param left,top  so that the picture lies in the sheet
 void paste(Image<Rgb>& sheet, const Image<Rgb>& picture, int left, int top) {
     for (int y = 0; y < picture.height; ++y) std::copy_n(&picture(0, y), picture.width, &sheet(left, top + y));
 }
@@ -27,17 +30,16 @@ float scale_position(double value, const MapRange& range) {
     return static_cast<float>(std::isfinite(position) ? std::clamp(position, 0.0, 1.0) : 0.0);
 }
 
-/// Low end, colours, high end, in the right part of a caption. @param right,top  of the caption
-void draw_scale(Image<Rgb>& sheet, const Panel& panel, int right, int top) {
-    if (panel.low.empty()) return;
+/// Low end, colours, high end, in the right part of a caption.
+void draw_scale(Image<Rgb>& picture, const Panel& panel) {
     Image<float> positions(scale_width, scale_height);
     for (int y = 0; y < scale_height; ++y)
         for (int x = 0; x < scale_width; ++x) positions(x, y) = static_cast<float>(x) / (scale_width - 1);
-    const int bar_right = right - 8 - scale_text, bar_left = bar_right - scale_width;
+    const int bar_right = picture.width - 8 - scale_text, bar_left = bar_right - scale_width;
     const ImageLibrary& library = image_library();
-    paste(sheet, library.color_scale(positions), bar_left, top + 8);
-    library.draw_text(sheet, bar_left - 5, top + 18, true, panel.low, 12);
-    library.draw_text(sheet, bar_right + 5, top + 18, false, panel.high, 12);
+    paste(picture, library.color_scale(positions), bar_left, 8);
+    library.draw_text(picture, bar_left - 5, 18, true, panel.low, 12);
+    library.draw_text(picture, bar_right + 5, 18, false, panel.high, 12);
 }
 
 /// Size of a caption's letters, so that it fits into so many pixels.
@@ -47,12 +49,16 @@ int caption_size(const std::string& caption, int room) {
     return size;
 }
 
-/// Draws a panel with its caption above it. @param left,top  of the caption
-void draw_panel(Image<Rgb>& sheet, const Panel& panel, int left, int top, int width, int height) {
-    paste(sheet, image_library().resize(panel.display, width, height), left, top + caption_height);
-    const int room = width - 16 - (panel.low.empty() ? 0 : scale_width + 2 * scale_text + 8);
-    image_library().draw_text(sheet, left + 8, top + 19, false, panel.caption, caption_size(panel.caption, room));
-    draw_scale(sheet, panel, left + width, top);
+/// A panel with its caption above it, and the scale where that has room. It is a picture of its own, which cuts what
+/// does not fit, so that nothing reaches other panels.
+Image<Rgb> draw_panel(const Panel& panel, int width, int height) {
+    Image<Rgb> picture(width, height + caption_height, sheet_color);
+    paste(picture, image_library().resize(panel.display, width, height), 0, caption_height);
+    const bool has_scale = !panel.low.empty() && width >= scale_room;
+    const int room = width - 16 - (has_scale ? scale_room : 0);
+    image_library().draw_text(picture, 8, 19, false, panel.caption, caption_size(panel.caption, room));
+    if (has_scale) draw_scale(picture, panel);
+    return picture;
 }
 
 constexpr int map_columns = 3;
@@ -91,9 +97,10 @@ void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& pa
     const Image<Rgb>& first = panels.front().display;
     const int height = std::max(1, first.height * width / first.width), count = static_cast<int>(panels.size());
     const int rows = (count + columns - 1) / columns;
-    Image<Rgb> sheet(columns * width, rows * (height + caption_height), Rgb(0.10f, 0.10f, 0.11f));
+    Image<Rgb> sheet(columns * width, rows * (height + caption_height), sheet_color);
     for (int i = 0; i < count; ++i)
-        draw_panel(sheet, panels[i], i % columns * width, i / columns * (height + caption_height), width, height);
+        paste(sheet, draw_panel(panels[i], width, height), i % columns * width,
+              i / columns * (height + caption_height));
     for (Rgb& pixel : sheet.pixels)
         for (int c = 0; c < 3; ++c) pixel[c] = srgb_to_linear(std::clamp(pixel[c], 0.0f, 1.0f));
     if (path.extension() == ".jpg") {

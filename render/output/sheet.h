@@ -16,7 +16,8 @@ namespace aleph {
 struct Panel {
     std::string caption;
     Image<Rgb> display;
-    std::string low{}, high{};  ///< of the colour scale that stands beside the caption; empty: none
+    std::string low{},
+        high{};  ///< of the colour scale beside the caption of a panel of 136 pixels or more; empty: none
 };
 
 Panel color_panel(const std::string& caption, const Image<Rgb>& linear);

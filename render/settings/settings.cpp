@@ -114,7 +114,7 @@ void set_scene_numbers(Scene& scene, SettingMap& settings, const std::string& so
         if (found == settings.end()) return;
         const double* const given = std::get_if<double>(&found->second);
         if (given == nullptr || !(*given > 0.0 && *given <= most))
-            throw InputError(source, key, fmt::format("expected a number above 0{}", most == 1.0 ? ", at most 1" : ""));
+            throw InputError(source, key, fmt::format("expected a number above 0, at most {:g}", most));
         number = *given;
         settings.erase(found);
     };

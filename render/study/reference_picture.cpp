@@ -33,7 +33,9 @@ std::filesystem::path name_file(const PreparedStudyScene& scene, const RenderSet
                        kind, hash_bytes(what).substr(0, 16));
 }
 
+/// The reference that is kept; without passes where there is none.
 ChannelImage read_reference(const std::filesystem::path& path, const RenderSettings& settings) {
+    if (!std::filesystem::exists(path)) return {};
     ChannelImage image = read_image(path);
     for (const char* name : {"R", "G", "B", "variance.Y", "noise.R", "noise.G", "noise.B"}) {
         const Image<float>* channel = image.find(name);
@@ -72,7 +74,7 @@ ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const S
     const SceneWithSettings own = with_settings_of(scene, study, wanted.settings);
     const RenderSettings settings = reference_settings(own.settings, study);
     ReferencePicture reference{{}, folder / name_file(scene, settings, wanted.kind, frame)};
-    if (std::filesystem::exists(reference.file)) reference.picture = read_reference(reference.file, settings);
+    reference.picture = read_reference(reference.file, settings);
     std::filesystem::create_directories(folder);
     for (double done = reference_passes(reference.picture); done < wanted.passes; ++done) {
         const auto show = [&](double fraction, const char*) { progress(done + fraction); };
@@ -81,6 +83,14 @@ ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const S
         write_exr(reference.file, reference.picture);
     }
     return reference;
+}
+
+bool is_reference_finished(const PreparedStudyScene& scene, const Study& study, std::int64_t frame,
+                           const std::filesystem::path& folder) {
+    const RenderSettings settings =
+        reference_settings(with_settings_of(scene, study, study.reference.settings).settings, study);
+    const std::filesystem::path file = folder / name_file(scene, settings, study.reference.kind, frame);
+    return reference_passes(read_reference(file, settings)) >= study.reference.passes;
 }
 
 }  // namespace aleph

@@ -28,6 +28,11 @@ using ReferenceProgress = std::function<void(double passes)>;
 ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const Study& study, std::int64_t frame,
                                         const std::filesystem::path& folder, const ReferenceProgress& progress);
 
+/// Returns whether find_or_make_reference would find the picture with all of its passes.
+/// @throws InputError if the kept file is not such a reference
+bool is_reference_finished(const PreparedStudyScene& scene, const Study& study, std::int64_t frame,
+                           const std::filesystem::path& folder);
+
 /// Channels of the part of a picture that surfaces reflect of their indirect irradiance: indirect.R and so on.
 inline constexpr const char* indirect_layer = "indirect.";
 

@@ -85,7 +85,37 @@ class StudyRunner {
         });
     }
 
+    StudyCount count_finished() const {
+        StudyCount count;
+        for (const PreparedStudyScene& scene : prepared_.scenes) {
+            for (const int frame : scene.frames) {
+                ++count.references;
+                count.finished_references += is_reference_finished(scene, study_, frame, reference_folder()) ? 1 : 0;
+            }
+        }
+        for_each_run([&](std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
+            if (!is_made(v)) return;
+            ++count.runs;
+            const RunName name = name_run(v, s, seed, repeat, settings_of(v, s, seed));
+            count.finished_runs += store_.find(name, prepared_.scenes[s].frames) ? 1 : 0;
+        });
+        return count;
+    }
+
   private:
+    std::filesystem::path reference_folder() const { return store_.folder() / "references"; }
+
+    SceneWithSettings settings_of(std::size_t v, std::size_t s, std::uint32_t seed) const {
+        SceneWithSettings own = with_settings_of(prepared_.scenes[s], study_, prepared_.variants[v].settings);
+        own.settings.seed = seed;
+        return own;
+    }
+
+    RunName name_run(std::size_t v, std::size_t s, std::uint32_t seed, int repeat, const SceneWithSettings& own) const {
+        const PreparedStudyScene& scene = prepared_.scenes[s];
+        return {scene.name, prepared_.variants[v].name, identity(own, scene.frames), seed, repeat};
+    }
+
     /// Calls visit(variant, scene, seed, repeat) for every run.
     void for_each_run(const auto& visit) const {
         for (int repeat = 0; repeat < study_.runs.repeats; ++repeat) {
@@ -112,6 +142,7 @@ class StudyRunner {
             request.frame = false;
             request.maps = true;
             for (std::size_t i = 0; i < scene.frames.size(); ++i) {
+                show(0.0, fmt::format("thresholds of {} {}", scene.name, scene.frames[i]));
                 FrameOutput output = sequence.render(scene.frames[i], request);
                 if (results_.frames.size() == first + i) {
                     JudgingFrame& frame = results_.frames.emplace_back();
@@ -149,7 +180,7 @@ class StudyRunner {
 
     ReferencePicture make_reference(const PreparedStudyScene& scene, int frame) {
         ReferencePicture reference =
-            find_or_make_reference(scene, study_, frame, store_.folder() / "references", [&](double passes) {
+            find_or_make_reference(scene, study_, frame, reference_folder(), [&](double passes) {
                 show(frames_per_pass * passes, fmt::format("reference of {} {}", scene.name, frame));
             });
         done_ += frames_per_pass * study_.reference.passes;
@@ -196,9 +227,8 @@ class StudyRunner {
     MeasuredRun find_or_make(std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
         const PreparedStudyScene& scene = prepared_.scenes[s];
         const StudyVariant& variant = prepared_.variants[v];
-        SceneWithSettings own = with_settings_of(scene, study_, variant.settings);
-        own.settings.seed = seed;
-        RunName name{scene.name, variant.name, identity(own, scene.frames), seed, repeat};
+        const SceneWithSettings own = settings_of(v, s, seed);
+        const RunName name = name_run(v, s, seed, repeat, own);
         MeasuredRun run;
         const std::string what = fmt::format("{}: {}", scene.name, variant.name);
         if (auto finished = store_.find(name, scene.frames)) {
@@ -270,6 +300,10 @@ class StudyRunner {
 StudyResults run_study(const PreparedStudy& prepared, const std::filesystem::path& folder,
                        const StudyProgress& progress) {
     return StudyRunner(prepared, folder, progress).run();
+}
+
+StudyCount count_finished(const PreparedStudy& prepared, const std::filesystem::path& folder) {
+    return StudyRunner(prepared, folder, {}).count_finished();
 }
 
 void make_part(const PreparedStudy& prepared, const std::filesystem::path& folder, const StudyPart& part,

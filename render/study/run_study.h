@@ -32,6 +32,17 @@ struct StudyPart {
     std::size_t index = 0, count = 1;
 };
 
+/// References and runs that a study needs, and those of them that its folder has.
+struct StudyCount {
+    std::size_t references = 0, runs = 0, finished_references = 0, finished_runs = 0;
+
+    bool is_finished() const { return finished_references == references && finished_runs == runs; }
+};
+
+/// Counts what run_study would find. It must use as many threads.
+/// @throws InputError
+StudyCount count_finished(const PreparedStudy& prepared, const std::filesystem::path& folder);
+
 /// Makes what belongs to a part and is not finished, and compares nothing. Once all parts are there, run_study finds
 /// them; it must use as many threads.
 /// @throws InputError, OutputError

@@ -1,5 +1,5 @@
 // tests/HAZARDS.md and the tests name the same hazards.
-// The pages that texts refer to exist.
+// The pages that texts refer to exist, and the files that READMEs list.
 
 #include <regex>
 
@@ -32,12 +32,17 @@ std::set<std::string> list_ids(const std::string& text) {
     return ids;
 }
 
-/// A row of the page: where the tests of an ID are.
-using Rows = std::map<std::string, std::vector<fs::path>>;
+struct TestLink {
+    std::string filter;  ///< of GoogleTest; empty: none, the file alone
+    fs::path file;
+};
+
+/// Rows of the page: where the tests of an ID are.
+using Rows = std::map<std::string, std::vector<TestLink>>;
 
 Rows read_rows(const fs::path& page) {
     static const std::regex row(R"re(^\| ([A-Z0-9]{2}-\d\d|S1[23]_\d+) \| .{10,} \|(.*)\|$)re"),
-        link(R"re(\]\(([^)]+)\))re");
+        link(R"re(\[(?:`([^`]+)`|[^`\]]+)\]\(([^)]+)\))re");
     Rows rows;
     std::ifstream file(page);
     for (std::string line; std::getline(file, line);) {
@@ -45,8 +50,9 @@ Rows read_rows(const fs::path& page) {
         if (!std::regex_match(line, match, row)) continue;
         const std::string id = *list_ids(match[1].str()).begin();
         EXPECT_EQ(rows.count(id), 0u) << id << " has two rows";
-        for (const std::string& target : find_all(match[2].str(), link))
-            rows[id].push_back(page.parent_path() / target);
+        const std::string links = match[2].str();
+        for (auto it = std::sregex_iterator(links.begin(), links.end(), link); it != std::sregex_iterator(); ++it)
+            rows[id].push_back({(*it)[1].str(), (page.parent_path() / (*it)[2].str()).lexically_normal()});
     }
     return rows;
 }
@@ -78,12 +84,61 @@ TEST(HardReadme, EveryRowLeadsToTestsThatNameItsId) {
     EXPECT_GT(rows.size(), 100u);
     for (const auto& [id, files] : rows) {
         EXPECT_FALSE(files.empty()) << id << " has no test";
-        for (const fs::path& file : files) {
-            const auto found = ids_by_file().find(file.lexically_normal());
+        for (const auto& [filter, file] : files) {
+            const auto found = ids_by_file().find(file);
             ASSERT_NE(found, ids_by_file().end()) << id << ": there is no " << file;
             EXPECT_TRUE(found->second.contains(id)) << file << " does not name " << id;
         }
     }
+}
+
+/// Names of the tests in a text, as GoogleTest has them. Parameters that have an ID in their names stand behind their
+/// fixture; other parameters, and the tests of fixtures that another file has, are left out.
+std::set<std::string> list_tests(const std::string& text) {
+    static const std::regex test(R"re(\bTEST(_[FP])?\(\s*(\w+),\s*(\w+)\s*\))re"),
+        instance(R"re(\bINSTANTIATE_TEST_SUITE_P\(\s*(\w+),\s*(\w+))re"), parameter(R"re("([A-Z0-9]+_\w+)")re");
+    std::multimap<std::string, std::string> prefixes;  // by fixture
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), instance); it != std::sregex_iterator(); ++it)
+        prefixes.emplace((*it)[2].str(), (*it)[1].str() + "/");
+    std::set<std::string> names;
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), test); it != std::sregex_iterator(); ++it) {
+        const std::string fixture = (*it)[2].str(), name = fixture + "." + (*it)[3].str();
+        if ((*it)[1].str() != "_P") names.insert(name);
+        const auto [first, last] = prefixes.equal_range(fixture);
+        for (auto prefix = first; prefix != last; ++prefix) names.insert(prefix->second + name + "/0");
+    }
+    for (const auto& [fixture, prefix] : prefixes)
+        for (const std::string& name : find_all(text, parameter)) names.insert(prefix + fixture + "./" + name);
+    return names;
+}
+
+/// Returns whether a filter of GoogleTest has a name: * stands for any text.
+bool matches(const std::string& filter, const std::string& name) {
+    std::string pattern;
+    for (const char c : filter) pattern += c == '*' ? ".*" : c == '.' ? "\\." : std::string(1, c);
+    return std::regex_match(name, std::regex(pattern));
+}
+
+TEST(HardReadme, EveryFilterHasATestOfItsFile) {
+    std::map<fs::path, std::set<std::string>> tests;
+    for (const auto& [id, links] : read_rows(source_folder() / "tests/HAZARDS.md")) {
+        for (const auto& [filter, file] : links) {
+            if (filter.empty() || file.extension() != ".cpp") continue;
+            if (!tests.contains(file)) tests[file] = list_tests(read_bytes(file));
+            EXPECT_TRUE(std::ranges::any_of(tests[file], [&](const auto& name) { return matches(filter, name); }))
+                << id << ": no test of " << file << " has the filter " << filter;
+        }
+    }
+}
+
+TEST(HardReadme, TestsWithParametersHaveTheirPrefix) {
+    const std::string macro = "TE";  // apart, so that this file has no such tests
+    const std::set<std::string> names = list_tests(
+        macro + "ST(A, KF01_B) {}\n" + macro + "ST_P(C, KF02_D) {}\nINSTANTIATE_" + macro + "ST_SUITE_P(All, C, x);");
+    EXPECT_EQ(names, (std::set<std::string>{"A.KF01_B", "All/C.KF02_D/0"}));
+    EXPECT_TRUE(matches("A.*KF01*", "A.KF01_B"));
+    EXPECT_FALSE(matches("C.*KF02*", "All/C.KF02_D/0"));
+    EXPECT_TRUE(matches("*C.*KF02*", "All/C.KF02_D/0"));
 }
 
 bool is_text(const fs::path& path) {
@@ -124,6 +179,43 @@ TEST(House, PagesThatAreCitedExist) {
     };
     for (const char* folder : folders) for_each_file(folder, check);
     for (const char* file : {"CMakeLists.txt", "README.md"}) check(file);
+}
+
+/// Names in the first column of tables of files or folders, such as `scene_options.*` and `explain/`.
+std::set<std::string> find_listed_files(const std::string& text) {
+    static const std::regex name(R"re(`([^`]+)`)re");
+    std::set<std::string> listed;
+    std::istringstream lines(text);
+    bool in_table = false, lists_files = false;
+    for (std::string line; std::getline(lines, line);) {
+        const bool is_head = !in_table;
+        in_table = line.starts_with('|');
+        if (is_head) lists_files = line.starts_with("| file") || line.starts_with("| folder");
+        if (!lists_files || !in_table) continue;
+        for (const std::string& each : find_all(line.substr(0, line.find('|', 1)), name)) listed.insert(each);
+    }
+    return listed;
+}
+
+TEST(House, FilesThatReadmesListExist) {
+    std::size_t found = 0;
+    const auto check = [&](const fs::path& page) {
+        if (page.filename() != "README.md") return;
+        const fs::path folder = source_folder() / page.parent_path();
+        for (const std::string& name : find_listed_files(read_bytes(source_folder() / page))) {
+            ++found;
+            std::error_code ignored;
+            const fs::path path = (folder / name).lexically_normal();
+            const bool exists =
+                fs::exists(path) ||
+                std::ranges::any_of(fs::directory_iterator(path.parent_path(), ignored), [&](const auto& entry) {
+                    return matches(path.filename().string(), entry.path().filename().string());
+                });
+            EXPECT_TRUE(exists) << page << " lists " << name;
+        }
+    };
+    for (const char* folder : {"engine", "motion", "perception", "render", "tests"}) for_each_file(folder, check);
+    EXPECT_GT(found, 200u);
 }
 
 TEST(House, CitedPagesAreFound) {

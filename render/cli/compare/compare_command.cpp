@@ -1,10 +1,13 @@
 // `aleph compare`: the difference of two pictures or sequences as a table or JSON, and as the exit code.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "render/cli/commands.h"
 #include "render/cli/compare/compare_command.h"
 
@@ -26,6 +29,14 @@ void check_numbers(const CompareSettings& s) {
     }
 }
 
+/// @throws InputError (the option) for a file of another ending, in any case
+void require_ending(const char* option, const std::string& file, std::initializer_list<std::string_view> endings) {
+    if (file.empty() || std::ranges::find(endings, lower_extension(file)) != endings.end()) return;
+    throw InputError(
+        "", option,
+        fmt::format("'{}': expected a name that ends in {}", printable(file, 400), fmt::join(endings, " or ")));
+}
+
 int compare(CompareOptions options) {
     check_numbers(options.settings);
     if (!options.seen.empty() && options.settings.standard_errors)
@@ -42,7 +53,13 @@ int compare(CompareOptions options) {
             fmt::format("'{}' is a sequence and '{}' one picture", printable(sequence, 400), printable(picture, 400)));
     }
     if (!first && !options.cuts.empty()) throw InputError("", "--cuts", "applies to sequences only");
-    return compare_frames(options);
+    require_ending("--diff", options.difference, {".png"});
+    require_ending("--seen-out", options.seen_out, {".png", ".exr"});
+    try {
+        return compare_frames(options);
+    } catch (const OutputError& e) {
+        throw InputError("", "", e.what());  // 1 says that the pictures differ
+    }
 }
 
 void add_limits(CLI::App& app, CompareSettings& s) {
@@ -57,7 +74,9 @@ void add_limits(CLI::App& app, CompareSettings& s) {
 }
 
 constexpr const char* compare_footer =
-    "Exit code: 0 the same; 1 different, or a NaN or infinity in either; 2 unreadable, or other sizes or channels.\n"
+    "Exit code: 0 the same; 1 different, or a NaN or infinity in either; 2 unreadable, or other sizes or channels, or "
+    "a\n"
+    "file that cannot be written.\n"
     "variance.Y and error are compared only if --channels names them; samples.Y, records.Y, invalid.Y, cache.count "
     "and\n"
     "cache.radius only if both pictures have them.\n\n"
@@ -108,7 +127,8 @@ void add_compare_command(CLI::App& app, Command& command) {
     add_text(*compare_app, "--junit", "FILE.xml", options->junit,
              "write the result as JUnit's XML, a test case for each frame, for CI services");
     compare_app->add_flag("--json", options->json, "print JSON in place of the table");
-    compare_app->add_flag("-q,--quiet", options->quiet, "print nothing; the exit code is the result");
+    compare_app->add_flag("-q,--quiet", options->quiet,
+                          "print nothing but what --json asks for; the exit code is the result");
     compare_app->footer(compare_footer);
     compare_app->callback([options, &command] { command = [options] { return compare(*options); }; });
 }

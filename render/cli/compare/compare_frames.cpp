@@ -45,9 +45,15 @@ void check_partners(const CompareOptions& options, const FrameFiles& first, cons
 }
 
 /// The maps of every frame; a single file serves a sequence of one frame. Nothing without the option.
-FrameFiles find_maps(const std::string& argument, const std::string& option, const FrameFiles& first) {
+FrameFiles find_maps(const CompareOptions& options, const std::string& argument, const std::string& option,
+                     const FrameFiles& first) {
     if (argument.empty()) return {};
-    if (names_sequence(argument)) return find_frames(argument, option);
+    if (names_sequence(argument)) {
+        if (names_sequence(options.first)) return find_frames(argument, option);
+        throw InputError("", option,
+                         fmt::format("'{}' is a sequence of maps and '{}' one picture: name the file of its maps",
+                                     printable(argument, 400), printable(options.first, 400)));
+    }
     if (first.size() > 1) {
         throw InputError("", option,
                          "one file cannot serve several frames: give a pattern or a folder of `aleph maps`");
@@ -64,7 +70,7 @@ std::string output_file(const CompareOptions& options, const std::string& patter
     return insert_number(pattern, *field, static_cast<int>(frame));
 }
 
-/// No frame's picture replaces a file of any frame.
+/// No frame's picture replaces a file of any frame, and all can be written: their folders are made.
 void check_outputs(const CompareOptions& options, const std::vector<const FrameFiles*>& inputs) {
     std::vector<std::filesystem::path> read;
     for (const FrameFiles* files : inputs) {
@@ -77,6 +83,9 @@ void check_outputs(const CompareOptions& options, const std::vector<const FrameF
     }
     outputs.push_back({options.junit, "--junit"});
     refuse_overwriting(read, outputs);
+    for (const OutputFile& output : outputs) {
+        if (!output.path.empty()) try_output(output.path);
+    }
 }
 
 /// The table follows, so a log needs no lines of progress.
@@ -157,8 +166,8 @@ bool names_sequence(const std::string& argument) {
 int compare_frames(const CompareOptions& options) {
     const bool is_sequence = names_sequence(options.first);
     const FrameFiles first = find_frames(options.first, "first"), second = find_frames(options.second, "second");
-    const FrameFiles thresholds = find_maps(options.threshold, "--threshold", first);
-    const FrameFiles seen = find_maps(options.seen, "--seen", first);
+    const FrameFiles thresholds = find_maps(options, options.threshold, "--threshold", first);
+    const FrameFiles seen = find_maps(options, options.seen, "--seen", first);
     check_partners(options, first, second, thresholds, seen);
     check_outputs(options, {&first, &second, &thresholds, &seen});
     SequenceComparison sequence(options.settings, parse_cuts(options.cuts), [&](const VisibleMaps& visible) {

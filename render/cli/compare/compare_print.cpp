@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "engine/image/image_file.h"
 #include "render/output/sheet.h"
 
@@ -245,7 +246,7 @@ void print_sequence(const CompareOptions& options, const std::vector<FrameCompar
 }
 
 void write_seen(const std::filesystem::path& path, const VisibleMaps& maps) {
-    if (path.extension() == ".exr") {
+    if (lower_extension(path) == ".exr") {
         write_exr(path, {{{"seen.Y", maps.seen}, {"flicker.Y", maps.flicker}, {"lasting.Y", maps.lasting}}, {}});
         return;
     }

@@ -138,13 +138,14 @@ void add_explain_command(CLI::App& app, Command& command) {
     const auto options = std::make_shared<ExplainOptions>();
     add_scene_argument(*explain_app, options->scene);
     explain_app->add_flag("--json", options->json, "print everything as JSON");
-    explain_app->add_flag(
+    CLI::Option* const fingerprint = explain_app->add_flag(
         "--fingerprint", options->fingerprint,
         "print what pictures of the scene depend on, as JSON: SHA-1 of the program and of the content of all files "
         "that it reads, and the settings that `aleph render` has with these options");
     CLI::Option* at =
         add_value(*explain_app, "--at", options->at,
                   "print world matrix, visibility, bounds and points of every object at this time (s) as JSON");
+    at->excludes(fingerprint);
     add_value(*explain_app, "--objects", options->objects, "number of objects that the text lists; 0: all");
     add_text(*explain_app, "--camera", "NAME", options->camera,
              "name of a camera or of its node; default: the scene's choice");

@@ -1,10 +1,14 @@
 // `aleph farm`: frames and studies divided into tasks for a scheduler.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <ranges>
+#include <regex>
 #include <tuple>
 
 #include "engine/base/atomic_file.h"
@@ -67,8 +71,8 @@ void refuse_other_options(const FarmOptions& options, const std::string& command
         {"--load-memory", scene.limits.memory != LoadLimits().memory, "render, maps"},
         {"--stats", !scene.stats.empty(), "render, maps"},
         {"--cache", !options.cache.empty(), "render"},
-        {"--checkpoint", !options.checkpoint.empty(), "render"},
         {"--aovs", options.aovs, "render"},
+        {"--checkpoint", !options.checkpoint.empty(), "render"},
         {"--importance", scene.importance, "maps"},
     };
     for (const auto& [option, is_given, commands] : given) {
@@ -94,6 +98,47 @@ int run_words(const std::vector<std::string>& words) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_failed);
 }
 
+/// The parts of a study: of each task what --shard takes.
+std::vector<std::string> divide_study(int tasks) {
+    std::vector<std::string> parts;
+    for (int i = 1; i <= tasks; ++i) parts.push_back(fmt::format("{}/{}", i, tasks));
+    return parts;
+}
+
+/// The command of a job's study, with the threads of its tasks: runs are found by these.
+std::vector<std::string> study_words(const FarmJob& job) {
+    std::vector<std::string> words{this_program(), "study"};
+    words.insert(words.end(), job.arguments.begin(), job.arguments.end());
+    words.insert(words.end(), {"-o", job.output});
+    if (job.resources.cpus > 0 && std::ranges::find(words, "--threads") == words.end())
+        words.insert(words.end(), {"--threads", fmt::format("{}", job.resources.cpus)});
+    return words;
+}
+
+/// Counts what is finished of a job's study. @return the exit code, 1 if some is missing
+int print_study_status(const FarmJob& job) {
+    std::vector<std::string> words = study_words(job);
+    words.push_back("--status");
+    return run_words(words);
+}
+
+/// Requests that the scheduler would refuse, or misunderstand.
+/// @throws InputError (the option)
+void check_resources(const FarmResources& resources) {
+    static const std::regex time(R"(\d+(:\d+){0,2}|\d+-\d+(:\d+){0,2})"), memory(R"(\d+[KMGT]?)", std::regex::icase);
+    const auto require = [](bool good, const char* option, const std::string& given, const char* expected) {
+        if (!good) throw InputError("", option, fmt::format("'{}': expected {}", printable(given), expected));
+    };
+    require(resources.time.empty() || std::regex_match(resources.time, time), "--time", resources.time,
+            "MINUTES, MINUTES:SECONDS, HOURS:MINUTES:SECONDS, or DAYS-HOURS with :MINUTES and :SECONDS behind it");
+    require(resources.memory.empty() || std::regex_match(resources.memory, memory), "--memory", resources.memory,
+            "a whole number of MB, or with K, M, G or T behind it, such as 4G");
+    require(resources.cpus >= 0, "--cpus", fmt::format("{}", resources.cpus), "0 (the cluster's default) or more");
+    require(resources.jobs >= 1, "--jobs", fmt::format("{}", resources.jobs), "1 or more");
+    require(std::ranges::find(resources.hosts, "") == resources.hosts.end(), "--hosts",
+            fmt::format("{}", fmt::join(resources.hosts, ",")), "names of hosts, such as one,two");
+}
+
 /// The parts of a study, or of the frames, with everything checked that a task would refuse.
 std::vector<std::string> prepare_job(const FarmOptions& options, FarmJob& job) {
     job.output = options.scene.output;
@@ -107,9 +152,7 @@ std::vector<std::string> prepare_job(const FarmOptions& options, FarmJob& job) {
         if (!options.scene.frames.empty())
             job.arguments.insert(job.arguments.end(), {"--frames", options.scene.frames});
         job.folder = fs::absolute(job.output) / "farm";
-        std::vector<std::string> parts;
-        for (int i = 1; i <= options.tasks; ++i) parts.push_back(fmt::format("{}/{}", i, options.tasks));
-        return parts;
+        return divide_study(options.tasks);
     }
     if (job.output.empty()) throw InputError("", "--output", "name the files of the frames, or their folder");
     job.frames = options.scene.frames;
@@ -124,6 +167,7 @@ std::vector<std::string> prepare_job(const FarmOptions& options, FarmJob& job) {
 int write_job(const FarmOptions& options, const std::string& scheduler) {
     if (options.tasks < 1 || options.tasks > most_tasks)
         throw InputError("", "--tasks", fmt::format("expected 1 to {}", most_tasks));
+    check_resources(options.resources);
     FarmJob job;
     job.scheduler = scheduler;
     job.resources = options.resources;
@@ -140,31 +184,30 @@ int write_job(const FarmOptions& options, const std::string& scheduler) {
 int print_farm_status(const std::string& folder) {
     const FarmJob job = read_farm_job(folder);
     fs::current_path(job.working);
-    if (job.command == "study") {
-        std::cout << "a study: `aleph farm collate` makes what is missing and compares\n";
-        return exit_done;
-    }
+    if (job.command == "study") return print_study_status(job);
     const FarmStatus status = find_status(job, false);
     print_status(status, std::cout);
     return status.left().empty() ? exit_done : exit_failed;
+}
+
+/// Writes a round of tasks and submits it. @return the exit code
+int submit_parts(FarmJob& job, const std::vector<std::string>& parts) {
+    return run_words({"bash", write_farm_scripts(job, parts, this_program()).string()});
 }
 
 int collate(const std::string& folder, bool submit) {
     FarmJob job = read_farm_job(folder);
     fs::current_path(job.working);
     if (job.command == "study") {
-        std::vector<std::string> words{this_program(), "study"};
-        words.insert(words.end(), job.arguments.begin(), job.arguments.end());
-        words.insert(words.end(), {"-o", job.output});
-        return run_words(words);
+        const int state = submit ? print_study_status(job) : static_cast<int>(exit_done);
+        return state == exit_failed ? submit_parts(job, divide_study(job.tasks)) : run_words(study_words(job));
     }
     const FarmStatus status = find_status(job, true);
     print_status(status, std::cout);
     join_statistics(job, status);
     if (status.left().empty()) return exit_done;
     if (!submit) return exit_failed;
-    const fs::path script = write_farm_scripts(job, divide_frames(status.left(), job.tasks), this_program());
-    return run_words({"bash", script.string()});
+    return submit_parts(job, divide_frames(status.left(), job.tasks));
 }
 
 /// Told to all schedulers.
@@ -208,9 +251,15 @@ void add_parallel(CLI::App& farm, Command& command) {
     CLI::App* parallel = farm.add_subcommand("parallel", "the same for GNU parallel, on this host or on several");
     const auto options = std::make_shared<FarmOptions>();
     add_job_options(*parallel, *options);
-    add_text(*parallel, "--hosts", "HOST,...", options->resources.hosts,
-             "hosts, such as one,two, which have this program, the scene and the output under the same paths")
-        ->delimiter(',');
+    const auto read_hosts = [&hosts = options->resources.hosts](const std::string& text) {
+        hosts.clear();
+        for (const auto& part : std::views::split(text, ',')) hosts.emplace_back(part.begin(), part.end());
+    };
+    parallel
+        ->add_option_function<std::string>(
+            "--hosts", read_hosts,
+            "hosts, such as one,two, which have this program, the scene and the output under the same paths")
+        ->type_name("HOST,...");
     add_value(*parallel, "--jobs", options->resources.jobs, "tasks at a time on each host");
     parallel->footer(
         "Examples:\n"
@@ -233,11 +282,13 @@ void add_farm_command(CLI::App& app, Command& command) {
         return sub;
     };
     add("status",
-        "say which frames are finished, missing, damaged or of something else; exit code 1 if any is not finished")
+        "say which frames are finished, missing, damaged or of something else, or how many references and runs of a "
+        "study are finished; exit code 1 if any is not finished")
         ->callback([folder, &command] { command = [folder] { return print_farm_status(*folder); }; });
     CLI::App* collated =
         add("collate", "the same, with every file decoded, and join the statistics; of a study: finish it");
-    collated->add_flag("--submit", *submit, "submit what is left again");
+    collated->add_flag("--submit", *submit,
+                       "submit what is left again; of a study: where something is left, all parts");
     collated->callback(
         [folder, submit, &command] { command = [folder, submit] { return collate(*folder, *submit); }; });
     farm->footer(

@@ -1,10 +1,12 @@
 #include "render/cli/support/image_viewer.h"
 
+#include <arpa/inet.h>
 #include <netdb.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <memory>
 #include <string_view>
 
@@ -45,16 +47,30 @@ bool send_to(const addrinfo& address, const std::string& packet) {
     return is_sent;
 }
 
+/// Files are named by their paths, which mean others on other machines.
+bool is_this_machine(const std::string& host) {
+    in_addr address{};
+    if (::inet_pton(AF_INET, host.c_str(), &address) == 1) return ntohl(address.s_addr) >> 24 == 127;
+    return host == "localhost" || host == "::1";
+}
+
 }  // namespace
 
 ImageViewer::ImageViewer(const std::string& address) {
     const std::size_t colon = address.rfind(':');
     if (colon != std::string::npos && colon > 0) {
         host_ = address.substr(0, colon);
+        if (host_.starts_with('[') && host_.ends_with(']')) host_ = host_.substr(1, host_.size() - 2);
         port_ = address.substr(colon + 1);
     }
-    if (port_.empty() || port_.size() > 5 || port_.find_first_not_of("0123456789") != std::string::npos)
-        throw InputError("", "--viewer", "'" + printable(address) + "': expected HOST:PORT, such as 127.0.0.1:14158");
+    const auto refuse = [&](const std::string& reason) {
+        throw InputError("", "--viewer", "'" + printable(address) + "': " + reason);
+    };
+    int port = 0;
+    const auto [end, error] = std::from_chars(port_.data(), port_.data() + port_.size(), port);
+    if (error != std::errc() || end != port_.data() + port_.size() || port < 1 || port > 65535)
+        refuse("expected HOST:PORT, such as 127.0.0.1:14158, with a port of 1 to 65535");
+    if (!is_this_machine(host_)) refuse("the viewer is on this machine: localhost, 127.0.0.1 or [::1]");
 }
 
 void ImageViewer::show(const std::filesystem::path& file) {

@@ -13,7 +13,7 @@ namespace aleph {
 class ImageViewer {
   public:
     /// @param address  "HOST:PORT"
-    /// @throws InputError (--viewer) for other text
+    /// @throws InputError (--viewer) for other text, a port outside 1 to 65535 or a host that is not this one
     explicit ImageViewer(const std::string& address);
 
     /// Has it show a file. Does nothing where no viewer listens; waits a second at most for one that does not answer.

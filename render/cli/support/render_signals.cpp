@@ -1,5 +1,7 @@
 #include "render/cli/support/render_signals.h"
 
+#include "render/cli/support/options.h"
+
 namespace aleph {
 
 namespace {
@@ -44,9 +46,10 @@ int RenderSignals::received() const {
     return received_signal;
 }
 
-void RenderSignals::stop_if_asked() const {
-    if (received() != 0)
-        throw Stopped(received() == SIGINT ? "stopped by SIGINT" : "stopped by SIGTERM", 128 + received());
+void RenderSignals::stop_if_asked(const std::string& state, bool goes_on) const {
+    if (received() == 0) return;
+    throw Stopped((received() == SIGINT ? "stopped by SIGINT" : "stopped by SIGTERM") + state,
+                  goes_on ? static_cast<int>(exit_again) : 128 + received());
 }
 
 bool RenderSignals::take_status_request() {

@@ -29,8 +29,10 @@ class RenderSignals {
 
     /// SIGTERM or SIGINT, whichever arrived first, or 0.
     int received() const;
-    /// @throws Stopped with the exit code of a program that the signal ended, if one has arrived
-    void stop_if_asked() const;
+    /// @param state    the end of the message: what is finished, and how to go on
+    /// @param goes_on  the same command goes on from there
+    /// @throws Stopped if one has arrived, with the exit code 75 or that of a program that the signal ended
+    void stop_if_asked(const std::string& state = "", bool goes_on = false) const;
     /// Returns whether SIGUSR1 has arrived since this was called last.
     bool take_status_request();
 

@@ -84,6 +84,14 @@ TEST_F(SilentFiles, MeshesWithoutAnArea) {
     expect_one_warning(several, "mesh \"mesh0.0\" and 1 more", "no triangle has an area");
 }
 
+TEST_F(SilentFiles, RC09_SomeTrianglesWithoutAnArea) {
+    GltfDraft draft = quiet_draft(folder_);
+    draft.primitive()["indices"] = draft.add_accessor<std::uint16_t>({0, 1, 2, 1, 1, 1, 0, 2, 2}, "SCALAR", 1);
+    expect_one_warning(draft, "mesh \"mesh0\"", "2 of the triangles have no area");
+    draft.json["meshes"][0]["primitives"].push_back(draft.primitive());
+    expect_one_warning(draft, "mesh \"mesh0.0\" and 1 more", "4 of the triangles have no area");
+}
+
 TEST_F(SilentFiles, SmallOrThinOrMovingMeshesAreNoReasonToWarn) {
     for (const std::vector<float>& corners :
          {std::vector<float>{0, 0, 0, 1e-20f, 0, 0, 0, 1e-20f, 0}, {0, 0, 0, 1, 0, 0, 1, 1e-6f, 0}}) {

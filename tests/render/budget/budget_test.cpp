@@ -217,7 +217,13 @@ TEST_F(Budgets, WrongOnesAreRefused) {
 }
 
 TEST_F(Budgets, ChooseTheErrorAlone) {
-    for (const Words& beside : {Words{"--error", "1"}, {"--set", "error=1"}, {"--cache", file("light")}}) {
+    for (const Words& beside : {Words{"--error", "1"},
+                                {"--set", "error=1"},
+                                {"--cache", file("light")},
+                                {"--spp", "4"},
+                                {"--sampling", "uniform"},
+                                {"--gather", "64"},
+                                {"--set", "accuracy=0.1"}}) {
         EXPECT_EQ(run(joined({"--frames", "0", "-o", file("a.exr"), "--budget", "5"}, beside)), exit_bad_input)
             << beside.front();
         EXPECT_THAT(errors, HasSubstr("give one of the two"));

@@ -215,5 +215,17 @@ TEST(CommandLine, DT09_NumbersDoNotFollowTheLocale) {
     EXPECT_EQ(std::get<double>(read_image(inside).metadata.at("exposure")), 0.5);
 }
 
+/// Options that could not both have their way.
+class TwoOptions : public ProgramTest {};
+
+TEST_F(TwoOptions, OfWhichOneWouldBeIgnoredAreRefused) {
+    const std::string model = folder_ / "cornell.glb", scene = (source_folder() / "scenes/cornell/scene.json").string();
+    expect_answer(run({"explain", scene, "--at", ".5", "--json", "--fingerprint"}), 2, "--fingerprint excludes --at");
+    ASSERT_EQ(run({"export", scene, "-q", "--bake", "-o", model}).code, 0);
+    expect_answer(run({"export", model, "--bake", "-o", folder_ / "bake.json"}), 2,
+                  "--bake: a .json includes other files");
+    EXPECT_EQ(run({"export", model, "-q", "-o", folder_ / "bake.json"}).code, 0);
+}
+
 }  // namespace
 }  // namespace aleph

@@ -64,6 +64,11 @@ TEST(CompareFrames, ResultsAsJunit) {
     EXPECT_EQ(run_command({"compare"}, {s.a + "/new.0008.exr", s.b + "/old.0008.exr", "-q", "--junit", file}).code, 0);
     EXPECT_THAT(read_bytes(file), HasSubstr("tests=\"1\" failures=\"0\""));
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--junit", s.a + "/new.0008.exr"}).code, 2) << "an input";
+    // Folders are made, and a file that cannot be written is no difference.
+    EXPECT_EQ(run_command({"compare"}, {s.b, s.b, "-q", "--junit", s.folder / "new/folder/results.xml"}).code, 0);
+    EXPECT_TRUE(fs::exists(s.folder / "new/folder/results.xml"));
+    expect_answer(run_command({"compare"}, {s.b, s.b, "--junit", file + "/below.xml"}), 2, "below.xml");
+    expect_answer(run_command({"compare"}, {s.b, s.b, "--diff", file + "/below.####.png"}), 2, "below.0008.png");
     // A speck on one pixel, which a viewer sees.
     ChannelImage speck = grey(0.9f);
     for (Channel& channel : speck.channels) channel.values(3, 2) = 0.1f;
@@ -122,6 +127,11 @@ TEST(CompareFrames, WrongKindsAreRefused) {
         {{s.a, s.b, "--diff", s.folder / "diff.png"}, "diff.####.png"},
         {{s.a, s.b, "--seen", s.maps, "--seen-out", s.folder / "seen.png"}, "--seen-out"},
         {{s.a, s.b, "--seen-out", s.folder / "seen.####.png"}, "needs --seen"},
+        {{picture, picture, "--diff", s.folder / "where.exr"}, "expected a name that ends in .png"},
+        {{picture, picture, "--seen", maps, "--seen-out", s.folder / "seen.jpg"}, "ends in .png or .exr"},
+        {{picture, picture, "--seen", maps, "--seen-out", s.folder / "seen"}, "ends in .png or .exr"},
+        {{picture, picture, "--seen", s.maps}, "one picture: name the file of its maps"},
+        {{picture, picture, "--threshold", s.pattern_maps}, "one picture: name the file of its maps"},
         {{s.a, s.b, "--cuts", "x"}, "--cuts"},
         {{picture, picture, "--cuts", "2"}, "--cuts"},
         {{s.a, s.folder / "none.####.exr"}, "no file fits"},

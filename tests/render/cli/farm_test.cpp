@@ -72,8 +72,10 @@ class FarmTest : public ProgramTest {
                                     quote_words({out_ / "farm" / ("task." + round + ".sh")}) + " >/dev/null 2>&1";
         return WEXITSTATUS(std::system(command.c_str()));
     }
-    std::string status(const std::string& verb = "status") const {
-        const std::string command = quote_words({program_path("aleph"), "farm", verb, out_.string()}) + " >" +
+    std::string status(const std::string& verb = "status") const { return ask({verb, out_.string()}); }
+    /// @param words  what follows `aleph farm`
+    std::string ask(const Words& words) const {
+        const std::string command = quote_words(joined({program_path("aleph"), "farm"}, words)) + " >" +
                                     quote_words({folder_ / "status"}) + " 2>&1";
         code_ = WEXITSTATUS(std::system(command.c_str()));
         return read_bytes(folder_ / "status");
@@ -130,22 +132,42 @@ TEST_F(FarmTest, MapsAndStudiesAreDividedToo) {
     const fs::path file = folder_ / "study.json", study = folder_ / "study";
     std::ofstream(file) << R"({"scenes": [{"scene": ")" << scene_.string() << R"(", "frames": "1,2"}], "size": "16x12",
         "reference": {"passes": 2, "spp": 1}, "sweep": {"spp": [1, 2]}})";
-    ASSERT_EQ(run({"farm", "slurm", file, "-o", study, "--tasks", "3", "-t", "1"}).code, 0);
+    ASSERT_EQ(run({"farm", "slurm", file, "-o", study, "--tasks", "3", "--cpus", "1"}).code, 0);
+    EXPECT_EQ(ask({"status", study}), "references: 0 of 2 finished\nruns: 0 of 2 finished\n");
+    EXPECT_EQ(code_, 1);
     for (const int task : {2, 1, 0}) {
-        const std::string command = "bash " + (study / "farm/task.1.sh").string() + " " + std::to_string(task);
+        const std::string command =
+            "SLURM_CPUS_PER_TASK=1 bash " + (study / "farm/task.1.sh").string() + " " + std::to_string(task);
         EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << task;
     }
     EXPECT_EQ(names_in(study / "runs").size(), 6u) << "two runs with two pictures each";
     EXPECT_FALSE(fs::exists(study / "study.json"));
-    const std::string collated = quote_words({program_path("aleph"), "farm", "collate", study.string()});
-    EXPECT_EQ(WEXITSTATUS(std::system((collated + " >/dev/null 2>&1").c_str())), 0);
+    EXPECT_EQ(ask({"status", study}), "references: 2 of 2 finished\nruns: 2 of 2 finished\n");
+    EXPECT_EQ(code_, 0);
+    EXPECT_THAT(ask({"collate", study}), HasSubstr("0 runs made, 2 found finished"));
+    EXPECT_EQ(code_, 0);
     EXPECT_TRUE(fs::exists(study / "report.html"));
+    fs::remove(study / "runs" / names_in(study / "runs").front());
+    EXPECT_THAT(ask({"status", study}), HasSubstr("runs: 1 of 2 finished\n"));
+    EXPECT_EQ(code_, 1);
+    ask({"collate", study, "--submit"});
+    EXPECT_TRUE(fs::exists(study / "farm/submit.2.sh"));
 }
 
 TEST_F(FarmTest, SlurmWritesLogsInFoldersOfAnyName) {
     ASSERT_EQ(run(with({"farm", "slurm"}, {"-o", out_ / "50%a/", "--tasks", "2"})).code, 0);
     EXPECT_THAT(read_bytes(out_ / "50%a/farm/task.1.sh"), HasSubstr("/50%%a/farm/task.1-%a.log"));
     EXPECT_THAT(read_bytes(out_ / "50%a/farm/submit.1.sh"), HasSubstr("/50%%a/farm/collate.1.log"));
+}
+
+TEST_F(FarmTest, RequestsAreAsSlurmReadsThem) {
+    for (const char* time : {"90", "90:30", "2:00:00", "1-12", "1-12:30", "1-12:30:00"}) {
+        const Words words =
+            with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "2", "--time", time, "--memory", "4G"});
+        EXPECT_EQ(run(words).code, 0) << time;
+    }
+    EXPECT_THAT(read_bytes(out_ / "farm/task.6.sh"), HasSubstr("#SBATCH --time=1-12:30:00\n"));
+    EXPECT_THAT(read_bytes(out_ / "farm/task.6.sh"), HasSubstr("#SBATCH --mem=4G\n"));
 }
 
 TEST_F(FarmTest, WhatCannotBeDividedIsRefused) {
@@ -161,6 +183,16 @@ TEST_F(FarmTest, WhatCannotBeDividedIsRefused) {
             "--aovs: `aleph maps` has no such option, only render");
     refused(with({"farm", "slurm"}, {"-o", out_ / "a\nb/", "--tasks", "2"}), "a name has a line break");
     refused(with({"farm", "slurm"}, {"-o", out_ / "a\xff/", "--tasks", "2"}), "a name or a path is not UTF-8");
+    const Words to_slurm = with({"farm", "slurm"}, {"-o", out_ / "", "--tasks", "2"}),
+                to_parallel = with({"farm", "parallel"}, {"-o", out_ / "", "--tasks", "2"});
+    for (const char* time : {"2h", "1:2:3:4", "1-", "-1", "1-2:3:4:5", "2:00:00 "})
+        refused(joined(to_slurm, {"--time", time}), "--time: '");
+    for (const char* memory : {"4GB", "4.5G", "-1", "G"})
+        refused(joined(to_slurm, {"--memory", memory}), "--memory: '");
+    refused(joined(to_slurm, {"--cpus", "-1"}), "--cpus: '-1': expected 0");
+    refused(joined(to_parallel, {"--jobs", "0"}), "--jobs: '0': expected 1 or more");
+    for (const char* hosts : {"", ",", "one,,two", "one,"})
+        refused(joined(to_parallel, {"--hosts", hosts}), "--hosts: ");
     refused({"farm"}, "commands: slurm, parallel, status, collate; aleph farm --help describes them");
     refused({"farm", "status", folder_.path().string()}, "there is no job of `aleph farm` in this folder");
     fs::create_directories(out_ / "farm");

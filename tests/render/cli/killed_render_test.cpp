@@ -204,6 +204,22 @@ TEST_F(KilledRender, TwoProcessesDivideTheFramesOrRefuse) {
     for (const std::string& name : names_in(folder_ / "out")) EXPECT_FALSE(name.starts_with('.')) << name;
 }
 
+TEST_F(KilledRender, AStudyThatIsStoppedGoesOn) {
+    fs::create_directories(folder_ / "study/references");
+    const Words study{"study", folder_ / "scene.json", "--frames", "1",  "--size",          "16x12", "--sweep",
+                      "spp=1", "--reference-passes",   "100",      "-o", folder_ / "study", "-q",    "-t",
+                      "1",     "--reference-spp",      "1"};
+    FolderEvents events(folder_ / "study/references");
+    StartedProgram program(study, folder_ / "log");
+    ASSERT_TRUE(events.wait(IN_MOVED_TO, 1, program)) << "no pass was finished";
+    program.send(SIGTERM);
+    expect_answer(program.wait(), 75, "stopped by SIGTERM: finished passes and runs are kept; the same command goes");
+    EXPECT_EQ(names_in(folder_ / "study/references").size(), 1u);
+    EXPECT_EQ(run(joined(study, {"--status"})).code, 1);
+    EXPECT_EQ(run(study).code, 0);
+    EXPECT_EQ(run(joined(study, {"--status"})).code, 0);
+}
+
 TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
     // Later options count. The frame takes seconds, in which it is asked how far it is, stopped, killed and finished.
     const auto long_frame = [&](const fs::path& output, const Words& more) {
@@ -220,7 +236,7 @@ TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
         while (!fs::exists(folder_ / "out/f.partial.exr")) ASSERT_TRUE(events.wait(IN_MOVED_TO, 1, program));
         program.send(SIGTERM);
         const Ended ended = program.wait();
-        EXPECT_EQ(ended.code, 75);
+        EXPECT_EQ(ended.code, 143) << "without --resume the same command begins anew";
         EXPECT_THAT(ended.err, HasSubstr("0 of 1 frames are finished; frame 7: shade"));
         EXPECT_EQ(names_in(folder_ / "out"), (Words{".f.exr.checkpoint", "f.partial.exr"}));
         EXPECT_EQ(read_image(folder_ / "out/f.partial.exr").channels.size(), 3u);

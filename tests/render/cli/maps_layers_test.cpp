@@ -276,5 +276,11 @@ TEST(MapsImages, AGapIsRefusedWhereFramesOfBothSidesAreAsked) {
     EXPECT_THROW(refuse_gaps(files, {}, {4}), InputError);
 }
 
+TEST(MapsOfAScene, HaveNoLayers) {
+    for (const char* option : {"--layer", "--motion-layer", "--depth-layer"})
+        expect_answer(run_command({"maps", (source_folder() / "scenes/cornell/scene.json").string(), option, "x"}), 2,
+                      std::string(option) + ": a scene has no layers");
+}
+
 }  // namespace
 }  // namespace aleph

@@ -65,6 +65,19 @@ TEST_F(Preview, TheSheetAloneNeedsNoFfmpeg) {
     EXPECT_TRUE(names[0].ends_with(".preview.png")) << names[0];
 }
 
+TEST_F(Preview, AStopLeavesNothingAndOffersNothing) {
+    const fs::path frames = folder_ / "out/.p.mp4.frames";
+    fs::create_directory(frames);
+    FolderEvents events(frames);
+    StartedProgram program({"preview", folder_ / "scene.json", "-o", folder_ / "out/p.mp4"}, folder_ / "log");
+    ASSERT_TRUE(events.wait(IN_MOVED_TO, 1, program));
+    program.send(SIGTERM);
+    const Ended ended = program.wait();
+    expect_answer(ended, 143, "stopped by SIGTERM: ");
+    EXPECT_THAT(ended.err, Not(HasSubstr("--resume")));
+    EXPECT_EQ(names_in(folder_ / "out"), Words{});
+}
+
 TEST_F(Preview, MotionIsDrawnOnTheFrames) {
     // 2500 frames of the way in one: the box moves by pixels.
     std::string text = read_bytes(folder_ / "scene.json");
@@ -118,6 +131,23 @@ TEST(Sheet, PanelsStandInRowsBelowTheirCaptions) {
                 expect_color(pixel_of(sheet, i % 2 * 40 + x, i / 2 * (30 + caption) + caption + y), colors[i]);
     const Rgb empty = pixel_of(sheet, 60, 30 + 2 * caption + 15);
     expect_color(empty, Rgb(0.10f));  // the ground, as the fourth place has no panel
+}
+
+TEST(Sheet, APanelReachesNoOther) {
+    const ScratchFolder folder;
+    for (const auto& [width, height] : {std::pair(1, 1), {2, 1}, {3, 3}, {1, 64}, {80, 60}, {101, 2}, {140, 10}}) {
+        SCOPED_TRACE(width);
+        const Panel plain{"a caption that is long", Image<Rgb>(width, height, Rgb(0.5f))};
+        const Panel map = map_panel("threshold, cd/m2", Image<float>(width, height, 1.0f), {0.1, 100.0, true});
+        write_sheet(folder / "plain.png", {plain, plain}, 2, width);
+        write_sheet(folder / "map.png", {plain, map}, 2, width);
+        const ChannelImage plain_sheet = read_image(folder / "plain.png"), sheet = read_image(folder / "map.png");
+        ASSERT_EQ(sheet.find("R")->width, 2 * width);
+        int different = 0;
+        for (int y = 0; y < sheet.find("R")->height; ++y)
+            for (int x = 0; x < width; ++x) different += pixel_of(sheet, x, y) != pixel_of(plain_sheet, x, y) ? 1 : 0;
+        EXPECT_EQ(different, 0);
+    }
 }
 
 TEST(Sheet, ColoursAreClampedAndInvalidOnesBlack) {

@@ -188,8 +188,10 @@ TEST_F(Watch, AChangeEndsTheRenderThatIsUnderWay) {
 }
 
 TEST_F(Watch, WrongOptionsEndItAtOnce) {
-    for (const Words& wrong : {Words{"--frames", "never"}, Words{"-o", folder_ / "x.jpg"}, Words{"--fps", "x"},
-                               Words{"--viewer", "14158"}, Words{"--viewer", "here:14158x"}}) {
+    for (const Words& wrong :
+         {Words{"--frames", "never"}, Words{"-o", folder_ / "x.jpg"}, Words{"--fps", "x"}, Words{"--viewer", "14158"},
+          Words{"--viewer", "here:14158x"}, Words{"--viewer", "127.0.0.1:0"}, Words{"--viewer", "127.0.0.1:65536"},
+          Words{"--viewer", "192.0.2.1:14158"}}) {
         EXPECT_EQ(start(wrong).wait().code, 2) << wrong[0];
     }
 }

@@ -137,6 +137,22 @@ TEST(Determinism, DT05_FirstHitsOfTilesAreThoseOfTheWholePicture) {
     }
 }
 
+TEST(Determinism, DT05_ShadedTilesAreThoseOfTheWholePicture) {
+    RenderSettings settings;
+    set_size(settings, 90, 70);
+    settings = traced_reference_settings(settings);
+    settings.sampling.spp = 3;
+    const PartSamples samples{settings.seed, settings.sampling.spp};
+    const Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
+    const Image<Rgb> whole = Sequence(scene, settings).render(3).shaded.color;
+    for (const int size : {8, 16, 64, 3}) {
+        const PicturePart part = choose_part(whole.width, whole.height, 2, size);
+        const Image<Rgb> tiles = Sequence(scene, settings).render_part(3, part, std::span(&samples, 1)).front();
+        for (std::size_t i = 0; i < whole.size(); ++i)
+            ASSERT_EQ(tiles.pixels[i], part.pixels[i] != 0 ? whole.pixels[i] : Rgb(0.0f)) << size << " " << i;
+    }
+}
+
 constexpr const char* scene_text = R"({
   "aleph": 1, "fps": "30000/1001", "frames": [0, 4], "exposure": 1.5,
   "settings": {"accuracy": 0.375, "size": "40x30", "gather": 16, "spp": 1},

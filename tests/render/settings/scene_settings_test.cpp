@@ -177,5 +177,15 @@ TEST(SceneSettings, WhatTheRendererWritesComesBackThroughAFile) {
     EXPECT_EQ(again, settings);
 }
 
+TEST(SceneSettings, NumbersOfTheSceneHaveALimitThatIsTold) {
+    for (const auto& [key, limit] : {std::pair("viewing.display_white", "at most 1e+18"),
+                                     {"exposure", "at most 1e+18"},
+                                     {"viewing.persistence", "at most 1"}}) {
+        Scene scene;
+        SettingMap settings{{key, 1e30}};
+        expect_refusal([&] { set_scene_numbers(scene, settings, "--set"); }, "--set", key, limit);
+    }
+}
+
 }  // namespace
 }  // namespace aleph
