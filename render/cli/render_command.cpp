@@ -135,7 +135,7 @@ void add_render_command(CLI::App& app, Command& command) {
             "--checkpoint",
             [options](const std::string& text) { options->scene.checkpoint = parse_seconds(text, "--checkpoint"); },
             "while a frame is made, keep its records and samples in a file every so many seconds, and when a signal "
-            "stops it: --resume goes on from there")
+            "stops it: --resume goes on from there. --cache keeps the light of lighting keyframes, which come before")
         ->type_name("SECONDS");
     add_text(*render_app, "--budget", "SECONDS", options->budget,
              "seconds of a clock, with the threads given, that all the frames asked for may take, loading and choosing "

@@ -183,7 +183,10 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         "output files: name.####.exr or .png (#### is the frame number), or a folder; missing folders are made; "
         "name.mp4, .mov, .webm or .gif: a film, made by the program ffmpeg; default: SCENE.####.exr, or "
         "SCENE-maps.####.exr, in the current folder");
-    add_text(app, "--fps", "N", options.fps, "frames per second, such as 30 or 30000/1001; default: the scene's");
+    add_text(
+        app, "--fps", "N", options.fps,
+        "frames per second, such as 30 or 30000/1001; range, cuts and changes of camera keep their times; default: the "
+        "scene's");
     add_text(app, "--stats", "FILE.json", options.stats,
              "write counts and times of every frame as JSON; while frames are made, the file has the finished ones");
     app.add_flag("--resume", options.resume,

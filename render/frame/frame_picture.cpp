@@ -119,7 +119,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
             make_effect_picture(prepared.centers.hits, plan.input.facts, plan.effects, shading.instances.size());
     }
     out.hits = prepared.centers.hits;
-    s.rendered = true;
+    s.rendered = frame;
     stats.traced = s.traced() - before;
     s.motion.end_edited();
     stats.plan = plan.effects;

@@ -112,7 +112,10 @@ void Sequence::edit(const std::function<void(Scene&)>& change) {
     auto made = std::make_unique<SequenceState>(std::move(scene), old.shot.settings, shots);
     made->shot.exposure = made->shot.scene.film.exposure.value_or(old.shot.exposure);
     std::optional<PosedView> before = old.motion.end_edited();
-    if (old.rendered) before = old.here.posed();
+    if (old.rendered) {
+        old.here.pose(*old.rendered);  // plans and parts of other frames have moved it
+        before = old.here.posed();
+    }
     if (before) made->motion.begin_edited(std::move(*before));
     state_ = std::move(made);
 }
@@ -160,7 +163,6 @@ PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::
         times.parts.push_back({out.shaded.fill_seconds, out.shaded.shade_seconds, counts.samples, counts.records});
         if (times.parts.size() < settings.size() && !go_on(times)) break;
     }
-    s.rendered = true;
     return times;
 }
 
@@ -177,7 +179,6 @@ LightTime Sequence::time_light(std::int64_t frame) {
     shade_prepared(s, first, prepared, carried.get(), options);
     LightTime time{.fill = prepared.out.shaded.fill_seconds};
     for (const KeyframeStatistics& keyframe : filled) time.keyframes += keyframe.seconds;
-    s.rendered = true;
     return time;
 }
 
@@ -198,7 +199,6 @@ std::vector<Image<Rgb>> Sequence::render_part(std::int64_t frame, const PictureP
         shade_prepared(s, first, prepared, nullptr, options);
         made.push_back(std::move(prepared.out.shaded.color));
     }
-    s.rendered = true;
     return made;
 }
 
@@ -209,7 +209,6 @@ FrameOutput Sequence::find_motion(std::int64_t frame) {
     PreparedFrame prepared = prepare_frame(
         s, s.here, {.frame = s.static_spans.find_first(frame), .perceive = true, .maps = true, .motion_only = true});
     prepared.out.hits = std::move(prepared.centers.hits);
-    s.rendered = true;
     return std::move(prepared.out);
 }
 

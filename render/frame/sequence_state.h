@@ -38,7 +38,7 @@ struct SequenceState {
     FrameMotion motion;
     FrameScene shutter;                                         ///< the scene while the shutter is open
     std::optional<NoiseVisibility> lasting_noise, fresh_noise;  ///< made when first needed
-    bool rendered = false;                                      ///< a frame, which `here` shows
+    std::optional<std::int64_t> rendered;                       ///< the last frame, for an edit
 };
 
 /// How the samples of a prepared frame are taken. Refers to its plan.

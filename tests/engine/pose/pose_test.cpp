@@ -175,6 +175,27 @@ TEST(FrameRange, SpansTheKeysRoundedInwards) {
     EXPECT_EQ(frame_range(scene), (FrameRange{5, 6}));
 }
 
+TEST(Pose, AFilmKeepsItsTimesAtAnotherRate) {
+    Film film;
+    film.frame_rate = {30, 1};
+    film.range = FrameRange{-3, 89};
+    film.cuts = {30, 31, 33};
+    film.camera_keys = {{0, "a"}, {30, "b"}, {31, "c"}};
+    Film faster = film, slower = film;
+    change_frame_rate(faster, {60, 1});
+    EXPECT_EQ(faster.range, (FrameRange{-6, 178}));
+    EXPECT_EQ(faster.cuts, (std::vector<std::int64_t>{60, 62, 66}));
+    EXPECT_EQ(faster.camera_keys, (std::vector<CameraKey>{{0, "a"}, {60, "b"}, {62, "c"}}));
+    // Frames 31 and 33 lie at 15.5 and 16.5: their shots begin with the frames after.
+    change_frame_rate(slower, {15, 1});
+    EXPECT_EQ(slower.range, (FrameRange{-1, 44}));
+    EXPECT_EQ(slower.cuts, (std::vector<std::int64_t>{15, 16, 17}));
+    EXPECT_EQ(slower.camera_keys, (std::vector<CameraKey>{{0, "a"}, {15, "b"}, {16, "c"}}));
+    change_frame_rate(film, {2, 1});
+    EXPECT_EQ(film.cuts, (std::vector<std::int64_t>{2, 3}));
+    EXPECT_EQ(film.camera_keys, (std::vector<CameraKey>{{0, "a"}, {2, "b"}, {3, "c"}}));
+}
+
 TEST(FrameRange, TakesTheNoiseOfSinglePrecisionTimes) {
     Scene scene;
     scene.nodes = {child_of(no_index)};

@@ -205,6 +205,17 @@ TEST(SequenceEdit, MotionLeadsFromTheFrameRenderedLast) {
     for (const glm::dvec2& way : again.displacement.pixels) ASSERT_EQ(way, glm::dvec2(0.0)) << "no edit since";
 }
 
+TEST(SequenceEdit, MotionLeadsFromTheFrameThatWasRenderedNotFromOneThatWasPlanned) {
+    const auto move_after = [](bool plans) {
+        Sequence sequence(make_moving_scene(), quick_settings(40, 30));
+        sequence.render(5, maps_only);
+        if (plans) sequence.plan(2);
+        sequence.edit([](Scene& scene) { scene.nodes[0].transform.scale = glm::dvec3(1.5); });
+        return sequence.render(6, maps_only).motion.displacement.pixels;
+    };
+    EXPECT_TRUE(move_after(true) == move_after(false));
+}
+
 TEST(SequenceEdit, ThePictureIsThatOfANewSequence) {
     RenderSettings settings = quick_settings(40, 30);
     settings.perception.guide = Guide::none;  // the map depends on motion
