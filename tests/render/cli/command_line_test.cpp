@@ -152,7 +152,7 @@ TEST(CommandLine, CS14_AnUnlikelyUnitOfLightGivesAWarning) {
     }
 }
 
-TEST(CommandLine, OU05_FullDiskIsExitCode1AndLeavesNothing) {
+TEST(CommandLine, OU05_FullDiskIsAnErrorAndLeavesNothing) {
     const ScratchFolder folder;
     ChannelImage a = grey_image(300, 200, 0.5f);
     RandomStream random({.seed = 3});
@@ -165,7 +165,7 @@ TEST(CommandLine, OU05_FullDiskIsExitCode1AndLeavesNothing) {
     const std::string command =
         fmt::format("(ulimit -f 40; '{0}' compare -q '{1}/a.exr' '{1}/b.exr' --diff '{2}' 2>&1)", program_path("aleph"),
                     folder.path().string(), picture);
-    EXPECT_EQ(output_of(command + "; [ $? = 1 ]"),
+    EXPECT_EQ(output_of(command + "; [ $? = 2 ]"),
               fmt::format("aleph: error: {}: cannot write: File too large\n", picture));
     for (const auto& entry : fs::directory_iterator(folder.path())) {
         EXPECT_EQ(entry.path().extension(), ".exr") << entry.path();
@@ -190,8 +190,10 @@ TEST(CommandLine, OU05_ResultsThatCannotBePrintedAreAnErrorProgressThatIsLostIsN
 
 TEST(CommandLine, OU06_DifferenceIntoAMissingFolder) {
     const TwoPictures files(0.25f);
-    expect_one_error_line(run_command({"compare", "-q", files.a, files.b, "--diff", files.folder / "no/diff.png"}), 1,
-                          "does not exist");
+    EXPECT_EQ(run_command({"compare", "-q", files.a, files.b, "--diff", files.folder / "no/diff.png"}).code, 1);
+    EXPECT_TRUE(fs::exists(files.folder / "no/diff.png"));
+    expect_one_error_line(run_command({"compare", "-q", files.a, files.b, "--diff", files.a + "/diff.png"}), 2,
+                          "cannot create its folder");
 }
 
 TEST(CommandLine, DT09_NumbersDoNotFollowTheLocale) {
