@@ -31,8 +31,16 @@ bool are_weights_on(const Deformation& deformation) {
     });
 }
 
-std::partial_ordering compare_components(const glm::vec3& a, const glm::vec3& b) {
-    return std::tie(a.x, a.y, a.z) <=> std::tie(b.x, b.y, b.z);
+/// Compares vectors rounded to multiples of a unit. Generators compute both ends of a seam, which differ by rounding.
+std::partial_ordering compare_rounded(const glm::vec3& a, const glm::vec3& b, float unit) {
+    const glm::vec3 m = glm::round(a / unit), n = glm::round(b / unit);
+    return std::tie(m.x, m.y, m.z) <=> std::tie(n.x, n.y, n.z);
+}
+
+float find_largest(const std::vector<glm::vec3>& points) {
+    float largest = 1e-30f;
+    for (const glm::vec3& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return largest;
 }
 
 bool are_weights_animated(const Deformation& deformation) {
@@ -43,15 +51,19 @@ bool are_weights_animated(const Deformation& deformation) {
 /// a seam of the texture, those are one point that are together at every sample.
 std::vector<std::uint32_t> group_normals(const PointCache& cache, const Mesh& mesh) {
     const std::vector<std::uint32_t>& points = mesh.deformation.vertex_points;
+    const float unit = 1e-6f * find_largest(mesh.positions);
+    constexpr float normal_unit = 1e-4f;
     const auto compare_points = [&](std::uint32_t a, std::uint32_t b) -> std::partial_ordering {
         if (!points.empty()) return points[a] <=> points[b];
-        for (const std::vector<glm::vec3>& sample : cache.positions)
-            if (sample[a] != sample[b]) return compare_components(sample[a], sample[b]);
+        for (const std::vector<glm::vec3>& sample : cache.positions) {
+            const std::partial_ordering order = compare_rounded(sample[a], sample[b], unit);
+            if (order != 0) return order;
+        }
         return std::partial_ordering::equivalent;
     };
     const auto comes_before = [&](std::uint32_t a, std::uint32_t b) {
-        const glm::vec3 &m = mesh.normals[a], &n = mesh.normals[b];
-        return (m == n ? compare_points(a, b) : compare_components(m, n)) < 0;
+        const std::partial_ordering order = compare_rounded(mesh.normals[a], mesh.normals[b], normal_unit);
+        return (order == 0 ? compare_points(a, b) : order) < 0;
     };
     std::map<std::uint32_t, std::uint32_t, decltype(comes_before)> known(comes_before);
     std::vector<std::uint32_t> groups(mesh.positions.size());

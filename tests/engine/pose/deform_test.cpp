@@ -112,6 +112,8 @@ TEST(Deform, NormalsStaySmoothAcrossSeams) {
     mesh.positions = {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
     mesh.triangles = {{2, 0, 1}, {2, 1, 3}, {4, 6, 7}, {4, 7, 5}};
     mesh.normals.assign(8, glm::vec3(0.0f, 0.0f, 1.0f));
+    mesh.positions[4].x = -1e-8f;  // as computed from an angle of a full turn
+    mesh.normals[4].x = 1e-7f;
     scene.meshes = {mesh};
     const auto stand_up = [](const glm::vec3& p, std::size_t sample) {
         return sample == 1 && p.x > 0.0f ? glm::vec3(0.0f, p.y, 1.0f) : p;
