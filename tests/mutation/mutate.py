@@ -24,7 +24,7 @@ PROGRAMS = {
                "test_alembic"],
     "motion": ["test_motion", "test_pose", "test_render"],
     "perception": ["test_perception", "test_gratings"],
-    "cache": ["test_render", "test_cache", "test_lighting_keyframes", "test_sequence"],
+    "cache": ["test_render", "test_cache", "test_records", "test_materials", "test_lighting_keyframes", "test_sequence"],
 }
 OPERATOR = re.compile(r"(?<=[\w)\]}]) (<=|>=|==|!=|<|>|\+|-|\*|/)(?= |$)")
 # Where an operator is no expression of values: preprocessor, templates, declarations of operators, static assertions.
