@@ -53,6 +53,27 @@ TEST(RecordIndex, CellsEndAtTheDeepestLevel) {
     EXPECT_EQ(cells_of(point).at(0).half_size, 0.5e-6f);
 }
 
+TEST(RecordIndex, CellsKnowTheirRecordsBounds) {
+    RecordIndex index = make_index();
+    index.add({2.5f, 0.5f, 3.5f}, {0.9f, 5.0f}, 1.0f);
+    index.add({2.6f, 0.6f, 3.6f}, {0.3f, 8.0f}, 1.0f);  // two levels below
+    std::vector<Cell> cells = cells_of(index);
+    ASSERT_EQ(cells.size(), 2u);
+    EXPECT_EQ(cells[0].most.radius, 0.9f);
+    EXPECT_EQ(cells[0].most.spread, 8.0f);
+    EXPECT_EQ(cells[0].min_radius, 0.3f);
+    EXPECT_EQ(cells[1].most.radius, 0.3f);
+    EXPECT_EQ(cells[1].first_record, 1);
+    index.lower_radius({2.5f, 0.4f, 3.5f}, 0.2f);  // beside the second level's cell
+    cells = cells_of(index);
+    EXPECT_EQ(cells[0].min_radius, 0.2f);
+    index.lower_radius({2.6f, 0.6f, 3.4f}, 0.1f);
+    cells = cells_of(index);
+    EXPECT_EQ(cells[0].min_radius, 0.1f);
+    EXPECT_EQ(cells[1].min_radius, 0.1f);
+    EXPECT_EQ(cells[0].most.radius, 0.9f);
+}
+
 TEST(RecordIndex, DistanceToACellIsZeroInside) {
     Cell cell;
     cell.center = {1.0f, 2.0f, 3.0f};
