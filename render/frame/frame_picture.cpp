@@ -51,7 +51,7 @@ SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const Fr
     options.lens = open.lens;
     options.blended = s.shot.blended;
     if (!open.shutter) return options;
-    options.light_lasts = !s.light_breaks.changes(open.shutter->open, open.shutter->close);
+    options.light_lasts = !plan.input.shutter.light_changes;
     const double shift = RandomStream({plan.settings.seed ^ shutter_seed_mask, s.shot.noise_key(frame), 0, 0}).next();
     options.at_sample = [&s, &plan, frame, shutter = *open.shutter, shift](int sample, int pixel_class) {
         const double at = place_in_shutter(shutter, sample, pixel_class, shift);
