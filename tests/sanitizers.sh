@@ -22,7 +22,7 @@ case $kind in
     # damaged scene files. Slow readings of image and raster motion are arithmetic; their other tests run here.
     filter='-HostileSceneFile.*:DamagedSceneFile.*:SceneJsonWrite.KF24*:SceneJsonWrite.ManyNames*:SceneJsonWrite.DT09*'
     filter+=':SceneJsonWrite.LoadOfSaveIsTheSameScene:Gltf.S13_5_KF24*:ImageMotion.EqualsTheSlowReadingOfTheModel'
-    filter+=':GuidedRefused.MoreWorkThanSeconds:Output.OU07_KilledWhile*:Raster.ShowsTheTriangleThatRaysHit'
+    filter+=':CageMotion.FastTurnsTakeNoMoreMemory:GuidedRefused.MoreWorkThanSeconds:Output.OU07_KilledWhile*:Raster.ShowsTheTriangleThatRaysHit'
     # Pyramids, cache, sampling and materials. Left out: what checks statistics, memory or a growth of work in millions.
     rows=()
     [ "$kind" = readers ] || rows=(test_perception test_records test_materials test_paths test_lighting_keyframes)
@@ -74,4 +74,5 @@ code=0
 rm -rf "$build/results"
 run_filtered "$filter" "${programs[@]}" || code=1
 [ ${#rows[@]} = 0 ] || run_filtered "$row_filter" "${rows[@]}" || code=1
+summarize "$build" || code=1
 exit "$code"
