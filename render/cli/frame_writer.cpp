@@ -159,7 +159,8 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
         waited = 0.0;
         return true;
     };
-    if (options_.checkpoint > 0.0 || (options_.resume && std::filesystem::exists(checkpoint_file(file))))
+    if (options_.checkpoint > 0.0 || options_.time_limit > 0.0 ||
+        (options_.resume && std::filesystem::exists(checkpoint_file(file))))
         checkpoint.emplace(checkpoint_file(file), fingerprint, is_due);
     bool wants_picture = false;
     FrameRequest watched = request_;

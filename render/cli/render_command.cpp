@@ -49,6 +49,7 @@ constexpr const char* render_footer =
     "  aleph render scenes/pool/scene.json --error 1 --verify 60 -o out/             and how much is really seen\n"
     "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
     "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json --resume   go on after a stop\n"
+    "  aleph render scenes/pool/scene.json -o out/ --resume --time-limit 3600        an hour of it at a time\n"
     "  aleph render scenes/pool/scene.json -o pool.mp4 --resume                      a film\n"
     "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png --watch  while the scene is edited\n"
     "  aleph render scenes/pool/scene.json --frames 20 --guide none --spp 16 -o unguided.exr  the baseline\n"
@@ -137,6 +138,14 @@ void add_render_command(CLI::App& app, Command& command) {
             "while a frame is made, keep its records and samples in a file every so many seconds, and when a signal "
             "stops it: --resume goes on from there. --cache keeps the light of lighting keyframes, which come before")
         ->type_name("SECONDS");
+    render_app
+        ->add_option_function<std::string>(
+            "--time-limit",
+            [options](const std::string& text) { options->scene.time_limit = parse_seconds(text, "--time-limit"); },
+            "stop after so many seconds of a clock, loading included, and keep the state of the unfinished frame as "
+            "--checkpoint does; the exit code is 75, and the same command goes on")
+        ->type_name("SECONDS")
+        ->needs("--resume");
     add_text(*render_app, "--budget", "SECONDS", options->budget,
              "seconds of a clock, with the threads given, that all the frames asked for may take, loading and choosing "
              "included: picks the smallest error (--error, .1 to 10) that is predicted to fit; --spp, --sampling, "

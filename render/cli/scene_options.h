@@ -21,6 +21,7 @@ struct SceneOptions {
     LoadLimits limits;
     bool quiet = false;
     double checkpoint = 0.0;      ///< s between two states of an unfinished frame; 0: none is kept
+    double time_limit = 0.0;      ///< s until the command stops and keeps the state of its frame; 0: none
     bool resume = false;          ///< frames that are finished are kept
     bool has_resume = true;       ///< the command has --resume
     bool keeps_to_error = false;  ///< without a setting that chooses the work, an error of 1 is asked for

@@ -67,6 +67,7 @@ void run_maybe_watched(const WatchOptions& asked, SceneOptions& options, const s
     // is loaded.
     std::optional<RenderSignals> signals;
     if (asked.watch || options.resume) signals.emplace();
+    if (options.time_limit > 0.0) signals->stop_after(options.time_limit);
     if (!asked.watch) return run();
     SceneWatch watch(options.scene, asked.viewer);
     options.watch = &watch;

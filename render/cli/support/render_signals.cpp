@@ -1,5 +1,8 @@
 #include "render/cli/support/render_signals.h"
 
+#include <algorithm>
+#include <chrono>
+
 #include "render/cli/support/options.h"
 
 namespace aleph {
@@ -9,6 +12,9 @@ namespace {
 constexpr std::array taken{SIGTERM, SIGINT, SIGUSR1};
 volatile std::sig_atomic_t received_signal = 0, status_requests = 0;
 int objects = 0;  // that exist
+
+using Clock = std::chrono::steady_clock;
+Clock::time_point time_limit = Clock::time_point::max();
 
 extern "C" void note_signal(int signal) {
     if (signal == SIGUSR1) {
@@ -27,6 +33,7 @@ RenderSignals::RenderSignals() {
     if (objects++ == 0) {
         received_signal = 0;
         status_requests = 0;
+        time_limit = Clock::time_point::max();
     }
     struct sigaction action {};
     action.sa_handler = note_signal;
@@ -42,14 +49,21 @@ RenderSignals::~RenderSignals() {
     for (std::size_t i = 0; i < taken.size(); ++i) ::sigaction(taken[i], &before_[i], nullptr);
 }
 
+void RenderSignals::stop_after(double seconds) {
+    const std::chrono::duration<double> left(std::min(seconds, 1e9));
+    time_limit = Clock::now() + std::chrono::duration_cast<Clock::duration>(left);
+}
+
 int RenderSignals::received() const {
-    return received_signal;
+    if (received_signal != 0) return received_signal;
+    return Clock::now() < time_limit ? 0 : SIGALRM;
 }
 
 void RenderSignals::stop_if_asked(const std::string& state, bool goes_on) const {
-    if (received() == 0) return;
-    throw Stopped((received() == SIGINT ? "stopped by SIGINT" : "stopped by SIGTERM") + state,
-                  goes_on ? static_cast<int>(exit_again) : 128 + received());
+    const int by = received();
+    if (by == 0) return;
+    const char* const name = by == SIGINT ? "SIGINT" : by == SIGTERM ? "SIGTERM" : "--time-limit";
+    throw Stopped(std::string("stopped by ") + name + state, goes_on ? static_cast<int>(exit_again) : 128 + by);
 }
 
 bool RenderSignals::take_status_request() {

@@ -1,5 +1,6 @@
 #pragma once
-// Signals while frames are made: SIGTERM and SIGINT end it in good order, SIGUSR1 asks how far it is.
+// What ends a command in good order while it makes frames: SIGTERM, SIGINT, or a limit of time. SIGUSR1 asks how far it
+// is.
 
 #include <array>
 #include <csignal>
@@ -27,7 +28,9 @@ class RenderSignals {
     RenderSignals(const RenderSignals&) = delete;
     RenderSignals& operator=(const RenderSignals&) = delete;
 
-    /// SIGTERM or SIGINT, whichever arrived first, or 0.
+    /// Ends the command so many seconds from now, whatever object is asked then.
+    void stop_after(double seconds);
+    /// SIGTERM or SIGINT, whichever arrived first, SIGALRM at the limit of time, or 0.
     int received() const;
     /// @param state    the end of the message: what is finished, and how to go on
     /// @param goes_on  the same command goes on from there

@@ -74,6 +74,25 @@ TEST_F(KilledRender, ASignalBeforeTheFirstFrameIsResumedToo) {
     }
 }
 
+TEST_F(KilledRender, ATimeLimitStopsItAndTheFrameGoesOn) {
+    const Words frame{"render", folder_ / "scene.json", "--frames", "1",     "--size", "32x24", "-q", "--integrator",
+                      "path",   "--light-samples",      "1",        "--spp", "6000"};
+    ASSERT_EQ(run(joined(frame, {"-o", folder_ / "whole/f.exr"})).code, 0);
+    const Words limited = joined(frame, {"-o", folder_ / "out/f.exr", "--resume", "--time-limit"});
+    bool was_kept = false;
+    for (double seconds = 0.2; seconds < 1000.0; seconds *= 2.0) {
+        const Ended ended = run(joined(limited, {fmt::format("{}", seconds)}));
+        if (ended.code == 0) break;
+        expect_answer(ended, 75, "stopped by --time-limit: 0 of 1 frames are finished; the same command goes on");
+        EXPECT_FALSE(fs::exists(folder_ / "out/f.exr"));
+        was_kept = fs::exists(folder_ / "out/.f.exr.checkpoint");
+    }
+    EXPECT_TRUE(was_kept);
+    expect_whole();
+    expect_answer(run(joined(frame, {"-o", folder_ / "out/g.exr", "--time-limit", "1"})), 2, "--resume");
+    expect_answer(run(joined(limited, {"0"})), 2, "--time-limit");
+}
+
 TEST_F(KilledRender, ASecondInterruptEndsItAtOnce) {
     FolderEvents events(folder_ / "out");
     // The frame takes longer than the test: one stage of a million samples.
