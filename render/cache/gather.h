@@ -70,7 +70,7 @@ struct IrradianceGradients {
 
 /// Indirect irradiance at a point with its gradients (Ward and Heckbert 1992, "Irradiance Gradients").
 struct IrradianceSample {
-    /// Of reflected light, without light straight from the lights; with GatherOptions::material, weighed by it.
+    /// Irradiance by reflected light, not straight from the lights; with GatherOptions::material, weighed by it.
     Rgb irradiance{0.0f};
     IrradianceGradients gradients{};
     /// m, to the nearest surface met, the point's own left out; infinite if no ray hit anything.

@@ -38,14 +38,14 @@ bool is_shown_white(const PixelSamples& pixel, double white);
 /// @param silent  1 for pixels that do not count; empty: none
 Image<float> deviations_around(const Image<PixelSamples>& pixels, const Image<std::uint8_t>& silent, int reach);
 
-/// What the 24 pixels around (x, y) tell. Only those count that have an outline as it has, or have none as it has none:
-/// beside an outline the noise is another. Where there is no such pixel, all of them tell; where it is alone, the
-/// pixel itself.
+/// Estimates a pixel's mean and noise from the 24 pixels around (x, y). Only those count that have an outline as it
+/// has, or have none as it has none: beside an outline the noise is another. Where there is no such pixel, all of them
+/// tell; where it is alone, the pixel itself.
 /// @param silent  1 for pixels that never count; it and the outlines may be empty
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
                            const Image<std::uint8_t>& silent, int x, int y);
 
-/// The same, as the pixel's own samples tell it.
+/// The same from the pixel's own samples.
 MeanEstimate estimate_own_mean(const PixelSamples& pixel);
 
 /// Returns whether a rule stops at this estimate.

@@ -84,7 +84,7 @@ class PixelSamples {
     /// Keeps the mean as it is now, the first time: samples that follow are taken because of those so far.
     void keep_mean();
     bool has_kept_mean() const { return kept_mean_.has_value(); }
-    /// What the mean has lost since it was kept; 0 where it was not.
+    /// Light that the mean has lost since it was kept; 0 where it was not.
     Rgb lost() const { return kept_mean_ ? *kept_mean_ - mean() : Rgb(0.0f); }
     /// Nothing where no sample is valid.
     void add_to_mean(const Rgb& light) { radiance_ += static_cast<double>(valid_) * glm::dvec3(light); }

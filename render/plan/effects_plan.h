@@ -83,7 +83,7 @@ struct LensFacts {
     double circle = 0.0;  ///< pixels: largest diameter of the circle of confusion
 };
 
-/// What is known of a frame when its plan is made.
+/// Facts of a frame that are known when its plan is made.
 struct PlanInput {
     FrameFacts facts;
     ShutterFacts shutter;

@@ -15,7 +15,7 @@ namespace {
 constexpr double before_cut = 1.0 / 2048.0;
 constexpr double least_jump = 4.0;  // of what the camera moves in the frame before and in the one after
 
-/// What a camera's move from one time to another changes: place, direction, and lens.
+/// Changes of a camera from one time to another: place, direction, and lens.
 std::array<double, 3> measure_move(const CameraValues& a, const CameraValues& b) {
     double turn = 0.0;
     for (int i = 0; i < 3; ++i) turn += glm::distance(a.axes[i], b.axes[i]);

@@ -1,6 +1,5 @@
 #pragma once
-// What ends a command in good order while it makes frames: SIGTERM, SIGINT, or a limit of time. SIGUSR1 asks how far it
-// is.
+// Signals while frames are made: SIGTERM, SIGINT and a limit of time end it in good order, SIGUSR1 asks how far it is.
 
 #include <array>
 #include <csignal>

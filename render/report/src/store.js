@@ -1,4 +1,4 @@
-// What the reader has chosen on the page, with listeners for changes.
+// The reader's choices on the page, with listeners for changes.
 
 /** A store of named values. Listeners run once per frame of the screen, after one of their values changed. */
 export function createStore(initial) {

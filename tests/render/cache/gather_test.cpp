@@ -61,7 +61,7 @@ TEST(Gather, DiscOverheadIsSineSquared) {
     }
 }
 
-/// Of a ceiling that is seen up to an angle of 1 - cosine = m, (1 - c)^5 of Schlick integrates to m^6 / 6 - m^7 / 7.
+/// Schlick's (1 - c)^5, integrated over a ceiling that is seen up to an angle of 1 - cosine = m: m^6 / 6 - m^7 / 7.
 TEST(Gather, RaysCountByWhatEntersTheLambertLayer) {
     SurfaceMaterial plastic;
     plastic.gloss.f0_max = 0.04f;

@@ -21,7 +21,7 @@ RenderSettings make_settings(int light_step) {
     return settings;
 }
 
-/// What each seed adds to the mean of all: luminance of blocks, over the noise of single pixels that goes unseen.
+/// Difference of each seed from the mean of all: luminance of blocks, over the noise of single pixels that goes unseen.
 std::vector<Image<double>> find_block_noise(const Scene& scene, RenderSettings settings, int frame) {
     std::vector<Image<double>> noise;
     Image<double> mean(width / block, height / block);
