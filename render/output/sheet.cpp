@@ -42,20 +42,24 @@ void draw_scale(Image<Rgb>& picture, const Panel& panel) {
     library.draw_text(picture, bar_right + 5, 18, false, panel.high, 12);
 }
 
+constexpr int largest_letters = 15, readable_letters = 9, smallest_letters = 7;
+
 /// Size of a caption's letters, so that it fits into so many pixels.
 int caption_size(const std::string& caption, int room) {
-    int size = 15;
-    while (size > 7 && image_library().text_width(caption, size) > room) --size;
+    int size = largest_letters;
+    while (size > smallest_letters && image_library().text_width(caption, size) > room) --size;
     return size;
 }
 
-/// A panel with its caption above it, and the scale where that has room. It is a picture of its own, which cuts what
+/// A panel with its caption above it, and the scale where both have room. It is a picture of its own, which cuts what
 /// does not fit, so that nothing reaches other panels.
 Image<Rgb> draw_panel(const Panel& panel, int width, int height) {
     Image<Rgb> picture(width, height + caption_height, sheet_color);
     paste(picture, image_library().resize(panel.display, width, height), 0, caption_height);
-    const bool has_scale = !panel.low.empty() && width >= scale_room;
-    const int room = width - 16 - (has_scale ? scale_room : 0);
+    const int beside_scale = width - 16 - scale_room;
+    const bool has_scale =
+        !panel.low.empty() && image_library().text_width(panel.caption, readable_letters) <= beside_scale;
+    const int room = has_scale ? beside_scale : width - 16;
     image_library().draw_text(picture, 8, 19, false, panel.caption, caption_size(panel.caption, room));
     if (has_scale) draw_scale(picture, panel);
     return picture;

@@ -16,8 +16,7 @@ namespace aleph {
 struct Panel {
     std::string caption;
     Image<Rgb> display;
-    std::string low{},
-        high{};  ///< of the colour scale beside the caption of a panel of 136 pixels or more; empty: none
+    std::string low{}, high{};  ///< ends of the colour scale, beside captions that leave room for it; empty: none
 };
 
 Panel color_panel(const std::string& caption, const Image<Rgb>& linear);

@@ -150,6 +150,22 @@ TEST(Sheet, APanelReachesNoOther) {
     }
 }
 
+TEST(Sheet, AScaleDoesNotCoverTheCaption) {
+    const ScratchFolder folder;
+    for (const int width : {140, 160, 200, 320}) {
+        SCOPED_TRACE(width);
+        const Panel map = map_panel("threshold, cd/m2", Image<float>(width, 2, 1.0f), {0.1, 100.0, true});
+        const Panel name{map.caption, map.display};
+        write_sheet(folder / "map.png", {map, name}, 2, width);
+        const ChannelImage sheet = read_image(folder / "map.png");
+        // The caption fits beside the scale, or it is all there is.
+        int different = 0;
+        for (int y = 0; y < caption; ++y)
+            for (int x = 0; x < width; ++x) different += pixel_of(sheet, x, y) != pixel_of(sheet, width + x, y) ? 1 : 0;
+        EXPECT_EQ(different > 0, width >= 320);
+    }
+}
+
 TEST(Sheet, ColoursAreClampedAndInvalidOnesBlack) {
     Image<Rgb> picture(3, 1);
     picture(0, 0) = Rgb(7.0f, -2.0f, 0.5f);
