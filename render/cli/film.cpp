@@ -175,7 +175,7 @@ void finish_film(const FrameJob& job, const SceneOptions& options) {
     }
     const FilmFrames frames = list_frames(job, options);
     {
-        Progress progress("film", 1.0, progress_look(options.quiet));
+        Progress progress("film", 1.0, progress_look(options.quiet, options.progress));
         encode(options, frames, fingerprint, [&](double done) {
             stop_if_asked();
             progress.update(done, "ffmpeg");

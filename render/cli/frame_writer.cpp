@@ -104,7 +104,7 @@ void FrameWriter::make_all() {
     RenderSignals signals;
     const char* const title = request_.frame ? "render" : "maps";
     Progress progress(job_.title != nullptr ? job_.title : title, static_cast<double>(output_.frames.size()),
-                      progress_look(options_.quiet));
+                      progress_look(options_.quiet, options_.progress));
     std::vector<std::size_t> left(output_.frames.size());
     std::iota(left.begin(), left.end(), 0);
     while (!left.empty()) {

@@ -162,7 +162,8 @@ PreviewFrames make_film(PreparedScene& prepared, const SceneOptions& options, bo
 PreviewFrames make_sheet_alone(PreparedScene& prepared, const SceneOptions& options, bool motion) {
     prepared.frames = choose_for_sheet(prepared.frames);
     PreviewFrames frames(prepared, options.camera, motion);
-    Progress progress("preview", static_cast<double>(prepared.frames.size()), progress_look(options.quiet));
+    Progress progress("preview", static_cast<double>(prepared.frames.size()),
+                      progress_look(options.quiet, options.progress));
     FrameRequest request = preview_request;
     const RenderSignals signals;
     request.progress = [&](double, const char*) {

@@ -175,6 +175,7 @@ void add_shot_options(CLI::App& app, SceneOptions& options, const std::string& o
     add_value(app, "-t,--threads", options.threads,
               "number of threads, 0 to 4096; 0: all processors, or those of a Slurm task (SLURM_CPUS_PER_TASK)");
     app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");
+    add_progress_form(app, options.progress);
 }
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {

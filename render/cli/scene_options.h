@@ -20,6 +20,7 @@ struct SceneOptions {
     int threads = 0;
     LoadLimits limits;
     bool quiet = false;
+    std::string progress = "auto";
     double checkpoint = 0.0;      ///< s between two states of an unfinished frame; 0: none is kept
     double time_limit = 0.0;      ///< s until the command stops and keeps the state of its frame; 0: none
     bool resume = false;          ///< frames that are finished are kept

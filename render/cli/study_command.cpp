@@ -29,7 +29,7 @@ namespace aleph {
 namespace {
 
 struct StudyCommandOptions {
-    std::string file, frames, size, output, part;
+    std::string file, frames, size, output, part, progress = "auto";
     std::vector<std::string> sweeps, sets, viewers, judges, pictures;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0, candidates = 0;
     bool effects = false, search = false, quiet = false, markdown = false, status = false;
@@ -188,7 +188,7 @@ int run(const StudyCommandOptions& options) {
     const std::filesystem::path folder =
         options.output.empty() ? study_folder(options.file) : std::filesystem::path(options.output);
     if (options.status) return print_count(prepared, folder);
-    std::optional<Progress> progress(std::in_place, "study", 1.0, progress_look(options.quiet));
+    std::optional<Progress> progress(std::in_place, "study", 1.0, progress_look(options.quiet, options.progress));
     const auto show = [&](double share, const std::string& what) {
         signals.stop_if_asked(": finished passes and runs are kept; the same command goes on", true);
         progress->update(share, what);
@@ -268,6 +268,7 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
                    "only count the references and runs that are finished; exit code 1 if some are missing");
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");
     study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");
+    add_progress_form(study, options.progress);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ VerifiedStatistics verify_frames(Scene scene, const PreparedScene& prepared, con
     Prober prober(std::move(scene), prepared.settings, options.camera, {prepared.frames.begin(), prepared.frames.end()},
                   pictures);
     std::vector<ProbeResult> probes;
-    Progress progress("verify", wanted, progress_look(options.quiet));
+    Progress progress("verify", wanted, progress_look(options.quiet, options.progress));
     while (probes.size() < least_probes || seconds < wanted) {
         probes.push_back(prober.measure(probes.size()));
         clock.add_to(seconds);

@@ -156,6 +156,14 @@ template CLI::Option* add_value<int>(CLI::App&, const std::string&, int&, const 
 template CLI::Option* add_value<std::uint32_t>(CLI::App&, const std::string&, std::uint32_t&, const std::string&);
 template CLI::Option* add_value<double>(CLI::App&, const std::string&, double&, const std::string&);
 
+void add_progress_form(CLI::App& app, std::string& form) {
+    add_text(app, "--progress", "auto|json", form,
+             "how progress is shown on standard error: a bar or lines (auto), or an object of JSON a line, for other "
+             "programs: progress, share (0 to 1), elapsed and remaining (seconds), what (json)")
+        ->check(CLI::IsMember({"auto", "json"}))
+        ->capture_default_str();
+}
+
 double parse_seconds(const std::string& text, const std::string& option) {
     const double seconds = parse_value<double>(text, option);
     if (!(seconds > 0.0)) throw InputError(option, printable(text), "expected seconds above 0");

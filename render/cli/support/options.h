@@ -41,6 +41,9 @@ CLI::Option* add_text(CLI::App& app, const std::string& option, const char* type
     return app.add_option(option, value, help)->type_name(type);
 }
 
+/// Adds --progress, which fills the form of progress_look.
+void add_progress_form(CLI::App& app, std::string& form);
+
 /// A time of a clock.
 /// @throws CLI::ConversionError for what is no number, InputError (the option) for one that is not above 0
 double parse_seconds(const std::string& text, const std::string& option);

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 namespace aleph {
@@ -28,8 +30,9 @@ void write(const std::string& text, std::FILE* out) {
 
 }  // namespace
 
-ProgressLook progress_look(bool quiet) {
+ProgressLook progress_look(bool quiet, const std::string& form) {
     if (quiet) return {};
+    if (form == "json") return {ProgressStyle::json, false, 80};
     const char* terminal = std::getenv("TERM");
     if (!::isatty(STDERR_FILENO) || !terminal || std::string_view(terminal) == "dumb") {
         return {ProgressStyle::lines, false, 80};
@@ -81,21 +84,27 @@ void Progress::update(double done, const std::string& what) {
     show();
 }
 
-std::string Progress::times() const {
-    const double elapsed = clock_() - start_;
-    const double remaining = state_.done > 0.0 ? elapsed * (total_ - state_.done) / state_.done : -1.0;
-    return fmt::format("({}|{})", format_duration(elapsed), format_duration(remaining));
-}
-
 void Progress::show() {
     shown_ = true;
     pending_ = false;
-    const double share = state_.done / total_;
-    if (look_.style == ProgressStyle::lines) {
-        write(fmt::format("{} {:3.0f}% {} {}\n", title_, 100.0 * share, times(), state_.what), out_);
+    const double share = state_.done / total_, elapsed = clock_() - start_;
+    const double remaining =
+        state_.done > 0.0 ? elapsed * (total_ - state_.done) / state_.done : std::nan("");  // null in JSON
+    if (look_.style == ProgressStyle::json) {
+        const nlohmann::ordered_json line{{"progress", title_},
+                                          {"share", share},
+                                          {"elapsed", elapsed},
+                                          {"remaining", remaining},
+                                          {"what", state_.what}};
+        write(line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", out_);
         return;
     }
-    const std::string tail = fmt::format(" {:3.0f}% {} {}", 100.0 * share, times(), state_.what);
+    const std::string times = fmt::format("({}|{})", format_duration(elapsed), format_duration(remaining));
+    if (look_.style == ProgressStyle::lines) {
+        write(fmt::format("{} {:3.0f}% {} {}\n", title_, 100.0 * share, times, state_.what), out_);
+        return;
+    }
+    const std::string tail = fmt::format(" {:3.0f}% {} {}", 100.0 * share, times, state_.what);
     const int room = look_.columns - static_cast<int>(title_.size() + tail.size()) - 5;
     const int width = std::clamp(room, 0, 40), filled = static_cast<int>(share * width);
     std::string line = title_ + " ";

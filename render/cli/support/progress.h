@@ -12,6 +12,7 @@ enum class ProgressStyle {
     none,
     lines,  ///< plain lines at growing intervals: logs, pipes
     bar,    ///< one line that is drawn again: terminals
+    json,   ///< lines at the same intervals, each a JSON object: other programs
 };
 
 /// Form of the output.
@@ -21,8 +22,9 @@ struct ProgressLook {
     int columns = 80;
 };
 
-/// For standard error: none if quiet, a bar on a terminal (without colour if NO_COLOR is set), lines elsewhere.
-ProgressLook progress_look(bool quiet);
+/// For standard error: none if quiet, JSON if the form (--progress) is "json", else a bar on a terminal (without colour
+/// if NO_COLOR is set), lines elsewhere.
+ProgressLook progress_look(bool quiet, const std::string& form = "auto");
 
 /// "3.2s", "1m05s", "2h03m".
 std::string format_duration(double seconds);
@@ -49,7 +51,6 @@ class Progress {
 
   private:
     void show();
-    std::string times() const;
 
     const std::string title_;
     const double total_;

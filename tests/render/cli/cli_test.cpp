@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "render/cli/commands.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/support/progress.h"
@@ -221,6 +223,16 @@ TEST(Progress, PlainLinesComeAtGrowingIntervalsAndEndComplete) {
               "render 100% (10.0s|0.0s) frame 9\n");
 }
 
+TEST(Progress, LinesOfJsonAreObjects) {
+    std::stringstream text(progress_text({ProgressStyle::json, false, 80}));
+    std::vector<nlohmann::json> lines;
+    for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::json::parse(line));
+    ASSERT_EQ(lines.size(), 6u);
+    EXPECT_EQ(lines[3], nlohmann::json::parse(R"({"progress": "render", "share": 0.5, "elapsed": 5.0, "remaining": 5.0,
+                                                  "what": "frame 4"})"));
+    EXPECT_EQ(lines.back().at("share"), 1.0);
+}
+
 TEST(Progress, BarIsDrawnOnOneLineAndFits) {
     const std::string text = progress_text({ProgressStyle::bar, false, 60});
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
@@ -242,6 +254,8 @@ TEST(Progress, BarIsDrawnOnOneLineAndFits) {
 TEST(Progress, LookFollowsTheSituation) {
     EXPECT_EQ(progress_look(true).style, ProgressStyle::none);
     EXPECT_NE(progress_look(false).style, ProgressStyle::none);
+    EXPECT_EQ(progress_look(false, "json").style, ProgressStyle::json);
+    EXPECT_EQ(progress_look(true, "json").style, ProgressStyle::none);
 }
 
 }  // namespace
