@@ -69,6 +69,34 @@ void add_default_error(const SettingMap& scene, SettingMap& given) {
     if (!chooses_work(scene) && !chooses_work(given)) given["error"] = 1.0;
 }
 
+std::vector<SettingOrigin> list_origins(const SettingMap& scene, const SettingMap& given) {
+    SettingMap options = given;
+    std::erase_if(options, [](const auto& option) {
+        return std::ranges::find(setting_table(), option.first, &Setting::key) == setting_table().end();
+    });
+    const bool has_error = options.contains("error");
+    add_default_error(scene, options);
+    RenderSettings settings;
+    std::map<std::string, std::string> from;
+    for (const auto& [map, name] : {std::pair(&scene, "scene"), {&options, "option"}}) {
+        const SettingMap before = setting_map(settings);
+        apply_settings(settings, *map, "");
+        for (const auto& [key, value] : setting_map(settings)) {
+            if (map->contains(key)) {
+                from[key] = key == "error" && map == &options && !has_error ? "default" : name;
+            } else if (value != before.at(key)) {
+                from[key] = "error";
+            }
+        }
+    }
+    std::vector<SettingOrigin> origins;
+    for (const Setting& setting : setting_table()) {
+        const auto found = from.find(setting.key);
+        origins.push_back({setting.key, setting.get(settings), found == from.end() ? "default" : found->second});
+    }
+    return origins;
+}
+
 RenderSettings traced_reference_settings(const RenderSettings& settings) {
     RenderSettings out;
     out.picture = settings.picture;

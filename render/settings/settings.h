@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "engine/scene/scene.h"
 #include "perception/perception_settings.h"
@@ -151,6 +152,18 @@ void apply_settings(RenderSettings& settings, const SettingMap& map, const std::
 
 /// Asks for an error of 1 where neither the scene's settings nor those given choose the work.
 void add_default_error(const SettingMap& scene, SettingMap& given);
+
+/// A setting, and where its value comes from.
+struct SettingOrigin {
+    std::string key;
+    SettingValue value;
+    std::string from;  ///< "scene", "option", "error" if it follows from that, "default"
+};
+
+/// All settings in the order of the table, as `aleph render` has them.
+/// @param scene  those of the scene file
+/// @param given  those of the command line; keys that are no settings do not count
+std::vector<SettingOrigin> list_origins(const SettingMap& scene, const SettingMap& given);
 
 /// Settings with which a picture is made to an error in thresholds, above 0: records that leave most of the error to
 /// samples, no lighting keyframes, 16 bounces, and as many samples as their noise needs to go unseen, 4,096 at most.

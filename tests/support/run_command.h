@@ -18,7 +18,8 @@ inline Ran run_command(std::vector<std::string> words) {
     CLI::App app{"aleph"};
     Command command;
     app.require_subcommand(0, 1);
-    for (const auto add : {add_render_command, add_maps_command, add_compare_command, add_study_command})
+    for (const auto add :
+         {add_render_command, add_maps_command, add_compare_command, add_study_command, add_explain_command})
         add(app, command);
     words.insert(words.begin(), "aleph");
     std::vector<const char*> argv;

@@ -103,6 +103,15 @@ Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
     }
 }
 
+ordered_json describe_settings(const std::vector<SettingOrigin>& settings) {
+    ordered_json list = ordered_json::array();
+    for (const SettingOrigin& setting : settings) {
+        list.push_back({{"key", setting.key}, {"value", nullptr}, {"from", setting.from}});
+        std::visit([&](const auto& value) { list.back()["value"] = value; }, setting.value);
+    }
+    return list;
+}
+
 /// Names that are not UTF-8 are written with replacement characters.
 void print_json(const ordered_json& object) {
     std::cout << object.dump(1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
@@ -114,7 +123,7 @@ int explain(const ExplainOptions& options) {
         print_json(explain_moment(scene, options.at));
         return exit_done;
     }
-    const RenderSettings settings = join_settings(scene, options.settings, options.fingerprint);
+    const RenderSettings settings = join_settings(scene, options.settings, true);
     std::vector<int> frames = options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);
     std::ranges::sort(frames);
     if (options.fingerprint) {
@@ -122,7 +131,8 @@ int explain(const ExplainOptions& options) {
                   << "\n";
         return exit_done;
     }
-    const ordered_json explained = explain_scene(scene, settings, options.camera, frames);
+    ordered_json explained = explain_scene(scene, settings, options.camera, frames);
+    explained["settings"] = describe_settings(list_origins(scene.source.settings, options.settings));
     if (options.json) {
         print_json(explained);
     } else {
@@ -157,6 +167,9 @@ void add_explain_command(CLI::App& app, Command& command) {
         "The effects plan says which effects a frame is rendered with, why, and how much those that are left out can "
         "change: --force and --forbid override it, --plan off simulates everything. `aleph study --effects` measures "
         "what each costs and what a viewer would miss without it.\n"
+        "The settings are those of `aleph render` with the same options: the text has those that an option (option), "
+        "the "
+        "scene file (scene) or the error that is asked for (error) sets, and that error; the JSON has all of them.\n"
         "If files that the scene names are missing, all of them are listed.\n"
         "Paths of more than 256 bytes are shortened in the middle, where the hash of the whole path tells them apart; "
         "the text indents 32 levels.\n\n"

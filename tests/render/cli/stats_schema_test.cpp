@@ -67,5 +67,24 @@ TEST_F(StatsSchema, RefusesKeysThatItDoesNotDescribe) {
     EXPECT_NE(mismatch(without), "");
 }
 
+/// `aleph explain` describes what `aleph render` does with the same options.
+TEST_F(StatsSchema, ExplainHasTheSettingsAndThePlanOfTheFile) {
+    for (const Words& more :
+         {Words{}, Words{"--error", "2", "--spp", "64"}, Words{"--light-step", "2", "--spp", "2"}}) {
+        SCOPED_TRACE(testing::PrintToString(more));
+        const Words frame = joined({"--frames", "2"}, more);
+        const Json stats = run_for_stats("render", frame);
+        const Ran explained =
+            run_command(joined({"explain", folder_ / "scene.json", "--json", "--size", "12x9"}, frame));
+        ASSERT_EQ(explained.code, 0);
+        const Json description = Json::parse(explained.out);
+        for (const Json& setting : description.at("settings"))
+            EXPECT_EQ(setting.at("value"), stats.at("settings").at(setting.at("key"))) << setting;
+        Json plan = description.at("plan");
+        for (Json& effect : plan) effect.erase("frames");
+        EXPECT_EQ(plan, stats.at("frames")[0].at("plan"));
+    }
+}
+
 }  // namespace
 }  // namespace aleph

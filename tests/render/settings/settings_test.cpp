@@ -111,6 +111,32 @@ TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     EXPECT_EQ(refusal("error", "much"), "expected a number from 0 to 1000");
 }
 
+TEST(Settings, KnowWhereTheyComeFrom) {
+    const auto from = [](const SettingMap& scene, const SettingMap& given) {
+        std::map<std::string, std::string> texts;
+        for (const SettingOrigin& origin : list_origins(scene, given))
+            texts[origin.key] = setting_text(origin.value) + " " + origin.from;
+        EXPECT_EQ(texts.size(), setting_table().size());
+        return texts;
+    };
+    // Nothing chooses the work: an error of 1 does.
+    auto texts = from({{"guide", std::string("none")}}, {{"seed", 5.0}, {"exposure", 2.0}});
+    EXPECT_EQ(texts["guide"], "none scene");
+    EXPECT_EQ(texts["seed"], "5 option");
+    EXPECT_EQ(texts["error"], "1 default");
+    EXPECT_EQ(texts["bounces"], "16 error");
+    EXPECT_EQ(texts["filter"], "blackman-harris default");
+    // An option's error overrides what the scene file says, and options beside it override the error.
+    texts = from({{"bounces", 3.0}, {"error", 4.0}}, {{"error", 2.0}, {"spp", 64.0}});
+    EXPECT_EQ(texts["error"], "2 option");
+    EXPECT_EQ(texts["bounces"], "16 error");
+    EXPECT_EQ(texts["spp"], "64 option");
+    texts = from({{"bounces", 3.0}}, {{"spp", 8.0}});
+    EXPECT_EQ(texts["error"], "0 default");
+    EXPECT_EQ(texts["bounces"], "3 scene");
+    EXPECT_EQ(texts["accuracy"], "0.15 default");
+}
+
 TEST(Settings, FieldsReceiveWhatKeysSay) {
     RenderSettings s;
     apply_settings(s, SettingMap(other_values().begin(), other_values().end()), "test");
