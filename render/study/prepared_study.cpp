@@ -7,7 +7,6 @@
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
-#include "engine/scene/scene_hash.h"
 #include "render/compare/compare_luminance.h"
 #include "render/settings/frame_list.h"
 #include "render/study/effects_ledger.h"
@@ -22,7 +21,6 @@ PreparedStudyScene prepare_scene(const StudyScene& given) {
     PreparedStudyScene scene;
     scene.name = name_scene(given.file);
     scene.scene = load_scene(given.file.string());
-    scene.identity = hash_scene(scene.scene);
     if (given.frames.empty()) {
         const FrameRange range = frame_range(scene.scene);
         scene.frames = {static_cast<int>(range.first + (range.last - range.first) / 2)};

@@ -266,6 +266,18 @@ TEST_F(RunStudy, MakesAgainWhatIsMissingOrOfOtherSettings) {
     EXPECT_NE(find_refusal([&] { run(); }).file, "") << "damaged runs";
 }
 
+TEST_F(RunStudy, AnotherExposureOrDisplayHasReferencesOfItsOwn) {
+    study.sweep = {{"noise", {1.0}}};
+    run();
+    for (const char* key : {"exposure", "viewing.display_white"}) {
+        study.settings[key] = 30.0;
+        const ScratchFolder fresh;
+        const StudyResults expected = run_study(prepare_study(study), fresh.path()), found = run();
+        EXPECT_EQ(numbers_of(found), numbers_of(expected)) << key;
+        EXPECT_EQ(found.frames[0].quality.percentile_99, expected.frames[0].quality.percentile_99) << key;
+    }
+}
+
 TEST_F(RunStudy, ChecksEverythingBeforeItRenders) {
     const auto expect = [&](const char* part, void (*change)(Study&)) {
         Study changed = study;

@@ -204,6 +204,7 @@ TEST(StudyFile, NamesWhatIsWrong) {
     expect(R"(, "sweep": {"spp": [1]}, "metrics": ["seed_flicker"])", "two seeds");
     expect(R"(, "viewers": [{"name": "A b", "settings": {}}])", "/viewers/0/name");
     expect(R"(, "seeds": [-1])", "/seeds/0");
+    expect(R"(, "seeds": [3, 3])", "/seeds: expected a list of different seeds");
     std::string values = "1";
     for (int i = 2; i <= 300; ++i) values += fmt::format(",{}", i);
     expect(fmt::format(R"(, "sweep": {{"spp": [{0}], "gather": [{0}], "bounces": [{0}]}})", values), "more than 10000");
