@@ -70,8 +70,11 @@ void check(const PreparedStudy& prepared) {
             if (find_noise(variant.settings, variant.name)) continue;
             with_settings_of(scene, prepared.study, variant.settings);
         }
-        for (const StudyViewer& viewer : prepared.study.viewers)
+        for (const StudyViewer& viewer : prepared.study.viewers) {
             with_settings_of(scene, prepared.study, viewer.settings);
+            if (std::ranges::count(prepared.study.viewers, viewer.name, &StudyViewer::name) > 1)
+                throw InputError("", viewer.name, "two viewers of the study have this name");
+        }
         with_settings_of(scene, prepared.study, prepared.study.reference.settings);
     }
     for (const StudyVariant& candidate : prepared.candidates) {

@@ -290,6 +290,7 @@ TEST_F(RunStudy, ChecksEverythingBeforeItRenders) {
     expect("one size", [](Study& changed) { changed.variants.push_back({"large", {{"size", "64x48"}}}); });
     expect("seeds", [](Study& changed) { changed.variants.push_back({"other noise", {{"seed", 3.0}}}); });
     expect("vision", [](Study& changed) { changed.viewers.push_back({"bad", {{"vision", "cat"}}}); });
+    expect("two viewers", [](Study& changed) { changed.viewers.push_back({"own", {}}); });
     expect("two scenes", [](Study& changed) { changed.scenes.push_back(changed.scenes[0]); });
     expect("no/such.json", [](Study& changed) { changed.scenes[0].file = "no/such.json"; });
 }

@@ -210,5 +210,16 @@ TEST(StudyFile, NamesWhatIsWrong) {
     expect(fmt::format(R"(, "sweep": {{"spp": [{0}], "gather": [{0}], "bounces": [{0}]}})", values), "more than 10000");
 }
 
+TEST(StudyFiles, NumbersThatPeopleReadHaveNoExponent) {
+    EXPECT_EQ(brief(100.0, 2), "100");
+    EXPECT_EQ(brief(99.6, 2), "100");
+    EXPECT_EQ(brief(99.4, 2), "99");
+    EXPECT_EQ(brief(9.6, 1), "10");
+    EXPECT_EQ(brief(-1234.5, 3), "-1234");
+    EXPECT_EQ(brief(0.02345, 2), "0.023");
+    EXPECT_EQ(brief(1.5e12, 2), "1.5e+12");
+    EXPECT_EQ(brief(std::nan(""), 2), "nan");
+}
+
 }  // namespace
 }  // namespace aleph
