@@ -289,6 +289,9 @@ TEST_F(RunStudy, ChecksEverythingBeforeItRenders) {
     expect("spp", [](Study& changed) { changed.sweep[0].values.push_back(-4.0); });
     expect("one size", [](Study& changed) { changed.variants.push_back({"large", {{"size", "64x48"}}}); });
     expect("seeds", [](Study& changed) { changed.variants.push_back({"other noise", {{"seed", 3.0}}}); });
+    expect("seeds", [](Study& changed) { changed.settings["seed"] = 3.0; });
+    expect("one size", [](Study& changed) { changed.viewers.push_back({"small", {{"size", "10x10"}}}); });
+    expect("one size", [](Study& changed) { changed.reference = {"settings", 2, 4, {{"size", "10x10"}}}; });
     expect("vision", [](Study& changed) { changed.viewers.push_back({"bad", {{"vision", "cat"}}}); });
     expect("two viewers", [](Study& changed) { changed.viewers.push_back({"own", {}}); });
     expect("two scenes", [](Study& changed) { changed.scenes.push_back(changed.scenes[0]); });
