@@ -199,7 +199,7 @@ study=(--size 16x12 --frames 0 --reference-spp 2 --reference-passes 2)
 answers 2 'nothing to compare' aleph study first.json "${study[@]}"
 answers 2 'expected KEY=VALUE' aleph study first.json "${study[@]}" --sweep error
 answers 2 'did you mean "gather"' aleph study first.json "${study[@]}" --sweep gathr=1,2
-answers 2 'variants of a study have one size' aleph study first.json "${study[@]}" --sweep size=16x12,32x24
+answers 2 'pictures of a study have one size' aleph study first.json "${study[@]}" --sweep size=16x12,32x24
 answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 --repeats -1
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
 answers 2 'no file' aleph study first.json "${study[@]}" --sweep spp=1 --pictures other=none.####.exr

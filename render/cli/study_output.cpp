@@ -39,8 +39,8 @@ std::string head_of(const Metric& metric) {
 }
 
 std::string cell(const MeasuredValue& value) {
-    std::string text = fmt::format("{:.3g}", value.value);
-    if (value.error) text += fmt::format(" +- {:.1g}", *value.error);
+    std::string text = brief(value.value, 3);
+    if (value.error) text += " +- " + brief(*value.error, 1);
     return text;
 }
 
@@ -115,11 +115,12 @@ void print_best(const PreparedStudy& prepared, const SceneSearch& scene, std::os
     for (const double share : shares_seen) {
         if (const auto best = find_cheapest(points, share)) {
             const SearchedPoint& found = scene.front[*best];
-            fmt::print(out, "  at most {:.0f} % seen: {:.3g} s, {:.2g} % seen: {}: {}\n", share, found.point.cost,
-                       found.point.error, found.variant, printable(describe_settings(prepared, found.settings), 400));
+            fmt::print(out, "  at most {:.0f} % seen: {} s, {} % seen: {}: {}\n", share, brief(found.point.cost, 3),
+                       brief(found.point.error, 2), found.variant,
+                       printable(describe_settings(prepared, found.settings), 400));
         } else {
-            fmt::print(out, "  at most {:.0f} % seen: none; the best is {}: {:.3g} s, {:.2g} % seen: {}\n", share,
-                       scene.front.back().variant, points.back().cost, points.back().error,
+            fmt::print(out, "  at most {:.0f} % seen: none; the best is {}: {} s, {} % seen: {}\n", share,
+                       scene.front.back().variant, brief(points.back().cost, 3), brief(points.back().error, 2),
                        printable(describe_settings(prepared, scene.front.back().settings), 400));
         }
     }
@@ -127,19 +128,20 @@ void print_best(const PreparedStudy& prepared, const SceneSearch& scene, std::os
 
 void print_against(const AgainstFixed& against, std::ostream& out) {
     const CostPoint& own = against.own.point;
-    const double seconds = against.fixed.cost, times = seconds / std::max(own.cost, 1e-9);
-    fmt::print(out, "  {}: {:.3g} s, {:.2g} % seen; ", printable(against.own.variant, 80), own.cost, own.error);
+    const double times = against.fixed.cost / std::max(own.cost, 1e-9);
+    const std::string seconds = brief(against.fixed.cost, 3);
+    fmt::print(out, "  {}: {} s, {} % seen; ", printable(against.own.variant, 80), brief(own.cost, 3),
+               brief(own.error, 2));
     switch (against.fixed.bound) {
         case FrontCost::Bound::between:
-            fmt::print(out, "fixed settings take {:.3g} s for as much: {:.2f} times as long\n", seconds, times);
+            fmt::print(out, "fixed settings take {} s for as much: {:.2f} times as long\n", seconds, times);
             break;
         case FrontCost::Bound::at_most:
-            fmt::print(out, "all fixed settings that were kept show less: at most {:.3g} s, {:.2f} times as long\n",
+            fmt::print(out, "all fixed settings that were kept show less: at most {} s, {:.2f} times as long\n",
                        seconds, times);
             break;
         case FrontCost::Bound::more:
-            fmt::print(out,
-                       "no fixed settings that were kept show as little: more than {:.3g} s, {:.2f} times as long\n",
+            fmt::print(out, "no fixed settings that were kept show as little: more than {} s, {:.2f} times as long\n",
                        seconds, times);
             break;
     }
@@ -196,7 +198,7 @@ void print_ledger(const std::vector<SceneLedger>& ledgers, bool markdown, std::o
             rows.push_back({entry.effect, entry.decision, entry.seconds ? cell(*entry.seconds) : "-",
                             entry.seen ? cell(*entry.seen) : "-",
                             std::isfinite(entry.bound)
-                                ? entry.bound == 0.0 ? "0" : fmt::format("{:.2g} thresholds", entry.bound)
+                                ? entry.bound == 0.0 ? "0" : brief(entry.bound, 2) + " thresholds"
                                 : "not known"});
         }
         print_rows(rows, markdown, out);

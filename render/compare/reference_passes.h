@@ -9,8 +9,8 @@ namespace aleph {
 double reference_passes(const ChannelImage& reference);
 
 /// Adds a rendering, R, G and B, to a mean of others; variance.Y is the variance of the mean's luminance as their
-/// differences tell it, infinite of one rendering; noise.R, noise.G and noise.B are the mean with alternating signs, of
-/// an even number of renderings noise like the mean's own (read_noise).
+/// differences tell it, infinite of one rendering; noise.R, noise.G and noise.B are the mean with alternating signs,
+/// from which read_noise makes noise like the mean's own.
 void add_pass(ChannelImage& mean, const ChannelImage& pass);
 
 /// As it would be with the factor on radiance of another picture, if that has one.

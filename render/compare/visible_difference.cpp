@@ -79,7 +79,16 @@ ViewingSettings read_viewing(const ChannelImage& maps) {
 
 Image<Rgb> read_noise(const ChannelImage& reference) {
     const double passes = find_number(reference, "passes").value_or(1.0);
-    return std::fmod(passes, 2.0) == 0.0 ? join_channels(reference, "noise.") : Image<Rgb>();
+    if (passes < 2.0) return {};
+    Image<Rgb> noise = join_channels(reference, "noise.");
+    if (noise.empty() || std::fmod(passes, 2.0) == 0.0) return noise;
+    // One sign more than of the other kind: the mean takes what is common off. Of n renderings this leaves n - 1/n of
+    // the n squares.
+    const Image<Rgb> mean = linear_colour(reference);
+    const auto full = static_cast<float>(1.0 / std::sqrt(1.0 - 1.0 / (passes * passes)));
+    const auto share = static_cast<float>(1.0 / passes);
+    for (std::size_t i = 0; i < noise.size(); ++i) noise.pixels[i] = full * (noise.pixels[i] - share * mean.pixels[i]);
+    return noise;
 }
 
 void VisibleDifference::prepare(int width, int height) {

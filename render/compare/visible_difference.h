@@ -27,8 +27,8 @@ struct ViewingSettings {
 ViewingSettings read_viewing(const ChannelImage& maps);
 
 /// The noise of a reference that is a mean of renderings: half the difference of the means of both halves of them,
-/// which has the spectrum of the mean's own noise. Reads noise.R, noise.G and noise.B; nothing if there are none, or
-/// the number of renderings (`passes`) is odd.
+/// which has the spectrum of the mean's own noise, and its variance. Reads noise.R, noise.G and noise.B, and the number
+/// of renderings (`passes`); nothing if there are none, or one rendering.
 Image<Rgb> read_noise(const ChannelImage& reference);
 
 /// Two pictures of a frame.

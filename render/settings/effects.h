@@ -76,6 +76,7 @@ class EffectSet {
     bool contains(Effect effect) const { return (bits_ & bit(effect)) != 0; }
     bool empty() const { return bits_ == 0; }
     void add(Effect effect) { bits_ |= bit(effect); }
+    void add(EffectSet others) { bits_ |= others.bits_; }
     void remove(Effect effect) { bits_ &= ~bit(effect); }
     bool operator==(const EffectSet&) const = default;
 

@@ -47,11 +47,11 @@ Json to_json(const std::optional<MeasuredValue>& value) {
 }  // namespace
 
 std::vector<StudyVariant> list_ledger_variants(const std::vector<PreparedStudyScene>& scenes, const Study& study) {
-    EffectSet simulated, forbidden;
+    EffectSet simulated, allowed;
     for (const PreparedStudyScene& scene : scenes) {
         const SceneWithSettings own = with_settings_of(scene, study, {});
         for (const EffectName& effect : effect_list) {
-            if (own.settings.effects.forbid.contains(effect.id)) forbidden.add(effect.id);
+            if (!own.settings.effects.forbid.contains(effect.id)) allowed.add(effect.id);
         }
         Sequence sequence(own.scene, own.settings);
         for (const int frame : scene.frames) {
@@ -61,14 +61,14 @@ std::vector<StudyVariant> list_ledger_variants(const std::vector<PreparedStudySc
             }
         }
     }
-    std::string others;  // a variant's setting takes the place of the study's and the scene's
+    std::string others;  // that every scene forbids
     for (const EffectName& effect : effect_list) {
-        if (forbidden.contains(effect.id)) others += std::string(",") + effect.name;
+        if (!allowed.contains(effect.id)) others += std::string(",") + effect.name;
     }
     std::vector<StudyVariant> variants{{complete, {}}};
     for (const EffectName& effect : effect_list) {
-        if (simulated.contains(effect.id) && !forbidden.contains(effect.id))
-            variants.push_back({variant_without(effect.name), {{"forbid", effect.name + others}}});
+        if (simulated.contains(effect.id))
+            variants.push_back({variant_without(effect.name), {{"forbid", effect.name + others}}, {}, true});
     }
     return variants;
 }

@@ -7,7 +7,6 @@
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
-#include "engine/scene/scene_hash.h"
 #include "render/compare/compare_luminance.h"
 #include "render/settings/frame_list.h"
 #include "render/study/effects_ledger.h"
@@ -22,7 +21,6 @@ PreparedStudyScene prepare_scene(const StudyScene& given) {
     PreparedStudyScene scene;
     scene.name = name_scene(given.file);
     scene.scene = load_scene(given.file.string());
-    scene.identity = hash_scene(scene.scene);
     if (given.frames.empty()) {
         const FrameRange range = frame_range(scene.scene);
         scene.frames = {static_cast<int>(range.first + (range.last - range.first) / 2)};
@@ -36,11 +34,15 @@ bool has_consecutive_frames(const PreparedStudyScene& scene) {
     return std::ranges::adjacent_find(scene.frames, [](int a, int b) { return b == a + 1; }) != scene.frames.end();
 }
 
-/// All variants are compared pixel by pixel, and seeds are a study's own list.
+void refuse_seed(const SettingMap& settings, const std::string& place) {
+    if (settings.contains("seed")) throw InputError("", place, "the seeds of a study are its list `seeds`");
+}
+
+/// All pictures are compared pixel by pixel.
 void refuse(const SettingMap& settings, const std::string& place) {
     if (settings.contains("size"))
-        throw InputError("", place, "variants of a study have one size: `size` of the study");
-    if (settings.contains("seed")) throw InputError("", place, "the seeds of a study are its list `seeds`");
+        throw InputError("", place, "pictures of a study have one size: `size` of the study");
+    refuse_seed(settings, place);
 }
 
 /// Another program's pictures are of one scene, and there is one for each of its frames, of the study's size.
@@ -63,6 +65,8 @@ void check_pictures(const StudyVariant& variant, const PreparedStudy& prepared) 
 }
 
 void check(const PreparedStudy& prepared) {
+    refuse_seed(prepared.study.settings, "settings");
+    refuse(prepared.study.reference.settings, "reference");
     for (const StudyVariant& variant : prepared.variants) {
         if (!variant.pictures.empty()) check_pictures(variant, prepared);
     }
@@ -72,8 +76,12 @@ void check(const PreparedStudy& prepared) {
             if (find_noise(variant.settings, variant.name)) continue;
             with_settings_of(scene, prepared.study, variant.settings);
         }
-        for (const StudyViewer& viewer : prepared.study.viewers)
+        for (const StudyViewer& viewer : prepared.study.viewers) {
+            refuse(viewer.settings, viewer.name);
             with_settings_of(scene, prepared.study, viewer.settings);
+            if (std::ranges::count(prepared.study.viewers, viewer.name, &StudyViewer::name) > 1)
+                throw InputError("", viewer.name, "two viewers of the study have this name");
+        }
         with_settings_of(scene, prepared.study, prepared.study.reference.settings);
     }
     for (const StudyVariant& candidate : prepared.candidates) {

@@ -17,8 +17,7 @@ struct SceneWithSettings {
 };
 
 struct PreparedStudyScene {
-    std::string name;      ///< of its folder or file: "pool"
-    std::string identity;  ///< hash_scene and the file's settings
+    std::string name;  ///< of its folder or file: "pool"
     Scene scene;
     std::vector<int> frames;
 };

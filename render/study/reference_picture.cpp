@@ -14,22 +14,23 @@ namespace {
 
 constexpr std::uint32_t reference_seed = 0x70696374u;  // keeps references apart from all that they judge
 
-RenderSettings reference_settings(const RenderSettings& settings, const Study& study) {
-    if (study.reference.kind == "settings") return settings;
-    RenderSettings out = traced_reference_settings(settings);
-    if (study.settings.contains("bounces")) out.light.bounces = settings.light.bounces;
-    out.sampling.spp = study.reference.spp;
-    return out;
+SceneWithSettings reference_of(const PreparedStudyScene& scene, const Study& study) {
+    SceneWithSettings own = with_settings_of(scene, study, study.reference.settings);
+    if (study.reference.kind == "settings") return own;
+    const int bounces = own.settings.light.bounces;
+    own.settings = traced_reference_settings(own.settings);
+    if (study.settings.contains("bounces")) own.settings.light.bounces = bounces;
+    own.settings.sampling.spp = study.reference.spp;
+    return own;
 }
 
-/// By everything that the picture depends on.
-std::filesystem::path name_file(const PreparedStudyScene& scene, const RenderSettings& settings,
-                                const std::string& kind, std::int64_t frame) {
-    const std::string all = kind == "settings" ? name_settings(setting_map(settings)) : "";
-    const std::string what = fmt::format(
-        "{} {} {} {} {} {} {} {}", program_build(), scene.identity, settings.sampling.spp, settings.light.bounces,
-        settings.light.path_depth, settings.picture.subdivision_level, static_cast<int>(settings.picture.filter), all);
-    return fmt::format("{}-{}-{}x{}-{}-{}.exr", scene.name, frame, settings.picture.width, settings.picture.height,
+/// By everything that the picture and its metadata depend on: the scene has the study's exposure and viewing
+/// conditions.
+std::filesystem::path name_file(const std::string& name, const SceneWithSettings& own, const std::string& kind,
+                                std::int64_t frame) {
+    const std::string what =
+        fmt::format("{} {} {}", program_build(), hash_scene(own.scene), name_settings(setting_map(own.settings)));
+    return fmt::format("{}-{}-{}x{}-{}-{}.exr", name, frame, own.settings.picture.width, own.settings.picture.height,
                        kind, hash_bytes(what).substr(0, 16));
 }
 
@@ -71,14 +72,13 @@ ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const S
                                         const std::filesystem::path& folder, const ReferenceProgress& progress) {
     const StudyReference& wanted = study.reference;
     if (wanted.passes < 2) throw InputError("", "reference", "expected at least 2 passes: one has no variance");
-    const SceneWithSettings own = with_settings_of(scene, study, wanted.settings);
-    const RenderSettings settings = reference_settings(own.settings, study);
-    ReferencePicture reference{{}, folder / name_file(scene, settings, wanted.kind, frame)};
-    reference.picture = read_reference(reference.file, settings);
+    const SceneWithSettings own = reference_of(scene, study);
+    ReferencePicture reference{{}, folder / name_file(scene.name, own, wanted.kind, frame)};
+    reference.picture = read_reference(reference.file, own.settings);
     std::filesystem::create_directories(folder);
     for (double done = reference_passes(reference.picture); done < wanted.passes; ++done) {
         const auto show = [&](double fraction, const char*) { progress(done + fraction); };
-        const ChannelImage pass = render_pass(own.scene, settings, frame, done, show);
+        const ChannelImage pass = render_pass(own.scene, own.settings, frame, done, show);
         add_pass(reference.picture, done == 0.0 ? pass : with_exposure_of(pass, reference.picture));
         write_exr(reference.file, reference.picture);
     }
@@ -87,10 +87,9 @@ ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const S
 
 bool is_reference_finished(const PreparedStudyScene& scene, const Study& study, std::int64_t frame,
                            const std::filesystem::path& folder) {
-    const RenderSettings settings =
-        reference_settings(with_settings_of(scene, study, study.reference.settings).settings, study);
-    const std::filesystem::path file = folder / name_file(scene, settings, study.reference.kind, frame);
-    return reference_passes(read_reference(file, settings)) >= study.reference.passes;
+    const SceneWithSettings own = reference_of(scene, study);
+    const std::filesystem::path file = folder / name_file(scene.name, own, study.reference.kind, frame);
+    return reference_passes(read_reference(file, own.settings)) >= study.reference.passes;
 }
 
 }  // namespace aleph

@@ -106,7 +106,10 @@ class StudyRunner {
     std::filesystem::path reference_folder() const { return store_.folder() / "references"; }
 
     SceneWithSettings settings_of(std::size_t v, std::size_t s, std::uint32_t seed) const {
-        SceneWithSettings own = with_settings_of(prepared_.scenes[s], study_, prepared_.variants[v].settings);
+        const StudyVariant& variant = prepared_.variants[v];
+        SceneWithSettings own = with_settings_of(prepared_.scenes[s], study_, variant.settings);
+        if (variant.forbids_more)
+            own.settings.effects.forbid.add(with_settings_of(prepared_.scenes[s], study_, {}).settings.effects.forbid);
         own.settings.seed = seed;
         return own;
     }

@@ -34,6 +34,7 @@ struct StudyVariant {
     std::string name;
     SettingMap settings;  ///< or noise that is added to the reference (threshold_noise.h)
     std::map<std::int64_t, std::filesystem::path> pictures{};  ///< files by frame; empty: rendered
+    bool forbids_more = false;                                 ///< beside what a scene forbids, not in its place
 };
 
 /// For whom errors are visible: a model of vision with its viewing conditions.

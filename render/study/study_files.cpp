@@ -166,6 +166,12 @@ std::string study_date() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
 
+std::string brief(double value, int digits) {
+    const double size = std::abs(value);
+    return size >= std::pow(10.0, digits) - 0.5 && size < 1e9 ? fmt::format("{:.0f}", value)
+                                                              : fmt::format("{:.{}g}", value, digits);
+}
+
 std::string describe_reference(const PreparedStudy& prepared, const StudyResults& results) {
     const StudyReference& reference = prepared.study.reference;
     const std::string kind =
@@ -176,9 +182,9 @@ std::string describe_reference(const PreparedStudy& prepared, const StudyResults
         noise = std::max(noise, frame.quality.percentile_99);
     }
     return fmt::format(
-        "{}; mean of {} renderings with random numbers of their own; its standard error is {:.2g} visible thresholds "
-        "in the 99th percentile of the pixels, which alone puts {:.2g} % of them beyond one threshold",
-        kind, reference.passes, noise, share);
+        "{}; mean of {} renderings with random numbers of their own; its standard error is {} visible thresholds "
+        "in the 99th percentile of the pixels, which alone puts {} % of them beyond one threshold",
+        kind, reference.passes, brief(noise, 2), brief(share, 2));
 }
 
 Json study_json(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context) {

@@ -30,6 +30,10 @@ nlohmann::ordered_json study_json(const PreparedStudy& prepared, const StudyResu
 /// is not known is empty.
 std::string study_csv(const PreparedStudy& prepared, const StudyResults& results);
 
+/// A number with as many significant digits, or as a whole number where it has more digits before the point: 100, not
+/// 1e+02.
+std::string brief(double value, int digits);
+
 /// Describes the reference and its noise in a sentence.
 std::string describe_reference(const PreparedStudy& prepared, const StudyResults& results);
 

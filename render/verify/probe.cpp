@@ -50,6 +50,23 @@ double count(const Image<float>& image, double least) {
     return static_cast<double>(std::ranges::count_if(image.pixels, [&](float value) { return value >= least; }));
 }
 
+/// Of blocks and one more, which stands for those of a kind that none of them is.
+double upper_end(std::span<const BlockCount> blocks) {
+    double pixels = 0.0, counted = 0.0, largest = 0.0;
+    for (const BlockCount& block : blocks) {
+        pixels += block.pixels;
+        counted += block.counted;
+        if (block.pixels > 0.0) largest = std::max(largest, block.counted / block.pixels);
+    }
+    const auto n = static_cast<double>(blocks.size());
+    const BlockCount unseen{pixels / n, pixels / n * (largest > 0.0 ? std::sqrt(largest) : 1.0)};
+    const double share = (counted + unseen.counted) / (pixels + unseen.pixels);
+    double squares = std::pow(unseen.counted - share * unseen.pixels, 2.0);
+    for (const BlockCount& block : blocks) squares += std::pow(block.counted - share * block.pixels, 2.0);
+    const double deviation = std::sqrt(squares / n / (n + 1.0)) / unseen.pixels;
+    return std::min(1.0, share + student_95(blocks.size()) * deviation);
+}
+
 }  // namespace
 
 Prober::Prober(Scene scene, const RenderSettings& settings, const std::string& camera, std::vector<std::int64_t> frames,
@@ -100,22 +117,15 @@ double student_95(std::size_t freedom) {
 }
 
 VerifiedShare estimate_share(std::span<const BlockCount> blocks) {
-    double pixels = 0.0, counted = 0.0, largest = 0.0;
+    double pixels = 0.0, counted = 0.0;
+    std::vector<BlockCount> others;
     for (const BlockCount& block : blocks) {
         pixels += block.pixels;
         counted += block.counted;
-        if (block.pixels > 0.0) largest = std::max(largest, block.counted / block.pixels);
+        others.push_back({block.pixels, block.pixels - block.counted});
     }
     if (!(pixels > 0.0)) return {};
-    const auto n = static_cast<double>(blocks.size());
-    const double share = counted / pixels;
-    double squares = 0.0;
-    for (const BlockCount& block : blocks) squares += std::pow(block.counted - share * block.pixels, 2.0);
-    const double deviation = n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) / (pixels / n) : 1.0;
-    const double half = student_95(blocks.size() - 1) * deviation;
-    const double kinds = std::min(1.0, 3.0 / n);
-    const double missed = kinds * (counted > 0.0 ? largest : 1.0), spared = share * (1.0 - kinds);
-    return {share, std::max(0.0, std::min(share - half, spared)), std::min(1.0, std::max(share + half, missed))};
+    return {counted / pixels, 1.0 - upper_end(others), upper_end(blocks)};
 }
 
 VerifiedStatistics sum_up(std::span<const ProbeResult> probes, double error) {

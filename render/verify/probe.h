@@ -80,9 +80,10 @@ struct BlockCount {
 double student_95(std::size_t freedom);
 
 /// Blocks are clusters: pixels of one are alike. The interval is that of Student's t for the ratio of the blocks' sums
-/// (Cochran 1977, 6.3), within 0 to 1. Few blocks may all have missed what is rare: by the rule of three up to 3 / n of
-/// all blocks are of a kind that none of n is, so that the upper end is at least 3 / n of the largest share of a block;
-/// where nothing was counted at all, of 1. In the same way the lower end is that of 3 / n of the blocks without any.
+/// (Cochran 1977, 6.3), within 0 to 1. Few blocks may all have missed what is rare: the upper end is that of these
+/// blocks and one more, in which the square root of the largest share of a block is counted, midway in logarithms from
+/// that to all; where nothing was counted, all is, which comes to the rule of three. The lower end is likewise that of
+/// the pixels that are not counted.
 VerifiedShare estimate_share(std::span<const BlockCount> blocks);
 
 /// Shares of all pixels of all frames.

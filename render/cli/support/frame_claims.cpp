@@ -109,6 +109,10 @@ void FrameClaims::remove_leftovers() {
         fs::remove(entry.path(), error);
         release(found->second);
     }
+    for (const int frame : output_.frames) {  // of a process that was killed once the picture was there
+        const fs::path state = checkpoint_file(output_.file(frame));
+        if (fs::exists(state, error) && is_finished(frame)) fs::remove(state, error);
+    }
 }
 
 }  // namespace aleph

@@ -106,7 +106,7 @@ function specOf(study, values, { points, front, domains }, width) {
   const yTitle = withUnit(findMetric(study, values.y));
   const color = settingSpec(study, values.color, 'color', narrow);
   const same = values.color === values.shape;
-  const tooltip = [{ field: 'xText', title: x.title }, { field: 'yText', title: yTitle },
+  const tooltip = [{ field: 'label', title: 'variant' }, { field: 'xText', title: x.title }, { field: 'yText', title: yTitle },
     ...study.axes.map((axis, i) => ({ field: `setting${i}`, title: axis.setting }))];
   const bar = (axis, other) => ({
     mark: { type: 'rule', strokeWidth: 1.2, opacity: 0.7, tooltip: null },

@@ -77,7 +77,7 @@ function domainOf(metrics, log) {
 /** What the note below the chart says. */
 export function chartNote({ atEdge, missing }) {
   const notes = [];
-  if (atEdge > 0) notes.push(`${number(atEdge)} ${atEdge === 1 ? 'point is' : 'points are'} drawn near the lower edge: ${atEdge === 1 ? 'its' : 'their'} value is 0, which a logarithmic axis cannot show.`);
+  if (atEdge > 0) notes.push(`${number(atEdge)} ${atEdge === 1 ? 'point is' : 'points are'} drawn near the lower edge: ${atEdge === 1 ? 'its' : 'their'} value is 0 or less, which a logarithmic axis cannot show.`);
   if (missing > 0) notes.push(`${number(missing)} ${missing === 1 ? 'variant has' : 'variants have'} no value of these metrics.`);
   return notes.join(' ');
 }

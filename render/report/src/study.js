@@ -12,8 +12,9 @@ export function readStudy(text) {
     variant.settings ??= {};
     variant.metrics ??= {};
     variant.frames ??= [];
-    const named = (varied.length > 0 ? varied : study.axes).filter(axis => axis.setting in variant.settings);
-    variant.label = named.map(axis => `${axis.setting} ${settingText(variant.settings[axis.setting])}`).join(', ') || variant.id;
+    const name = (axes, between) => axes.map(axis => `${axis.setting}${between}${settingText(variant.settings[axis.setting])}`);
+    variant.swept = study.axes.length > 0 && name(study.axes, '=').join(',') === variant.id;
+    variant.label = variant.swept ? name(varied.length > 0 ? varied : study.axes, ' ').join(', ') : variant.id;
   }
   return study;
 }

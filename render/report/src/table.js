@@ -6,9 +6,15 @@ import { settingText, withError, withUnit } from './format.js';
 import { select, selectionText, toggleSelected } from './selection.js';
 import { metricOf } from './study.js';
 
-/** Columns: settings first, then metrics. `of` gives what is compared when sorting. */
+const variantColumn = { key: 'variant', title: 'variant', of: variant => variant.label, text: variant => variant.label };
+
+/**
+ * Columns: the variant where it has a name of its own, then settings, then metrics. `of` gives what is compared when
+ * sorting.
+ */
 function columnsOf(study) {
   return [
+    ...study.variants.some(variant => !variant.swept) ? [variantColumn] : [],
     ...study.axes.map(axis => ({
       key: `setting:${axis.setting}`, title: axis.setting, of: variant => variant.settings[axis.setting],
       text: variant => settingText(variant.settings[axis.setting]),
@@ -111,7 +117,8 @@ export function showTable(study, store) {
 }
 
 /** The table as CSV (RFC 4180): settings, then each metric and its standard error, in full precision. */
-function tableText(study, columns, over) {
+function tableText(study, shown, over) {
+  const columns = shown.filter(column => column !== variantColumn);
   const quote = value => /[",\n\r]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value;
   const plain = value => value === undefined || value === null ? '' : settingText(value);
   const names = ['id', ...columns.flatMap(column => column.name ? [column.title, `${column.title}: standard error`] : [column.title])];

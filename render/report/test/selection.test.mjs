@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { brushAll, choose, selectedRows, shownPanes, waitForPanes, waitForTooltip } from './browser.mjs';
-import { all, id, openPage, study } from './fixture.mjs';
+import { all, id, openPage, size, study } from './fixture.mjs';
+import { makeStudy } from './sample.mjs';
 
 describe('selection', () => {
   it('begins with the ends of the front, and their frames are drawn', async () => {
@@ -67,6 +68,19 @@ describe('selection', () => {
 });
 
 describe('table', () => {
+  it('names variants that are none of the sweep', async () => {
+    const data = makeStudy(size);
+    Object.assign(data.study.variants[1], { id: 'fixed 3', settings: { error: 0, spp: 8 } });
+    Object.assign(data.study.variants[2], { id: 'old', settings: { error: 1, guide: 'none' } });
+    const page = await openPage({}, data);
+    const names = await page.$$eval('td[data-column="variant"]', nodes => nodes.map(node => node.textContent.replace('front', '')));
+    assert.deepEqual(names.slice(0, 4), ['error 0.5, guide none', 'fixed 3', 'old', 'error 1, guide saliency']);
+    await page.click('tr[data-variant="fixed 3"]');
+    assert.match(await page.$eval('#selection', node => node.textContent), /1 of 6 selected: fixed 3$/);
+    const swept = await openPage();
+    assert.equal(await swept.$('td[data-column="variant"]'), null, 'its settings name each');
+  });
+
   it('sorts by a metric, both ways', async () => {
     const page = await openPage();
     const seconds = () => page.$$eval('td[data-column="metric:processor_seconds"]', nodes => nodes.map(node => Number(node.dataset.value)));

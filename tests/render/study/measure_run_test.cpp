@@ -1,8 +1,12 @@
 // Errors of pictures whose differences are known, and references as means of passes. The ledger of effects.
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "render/compare/visible_difference.h"
 #include "render/study/effects_ledger.h"
 #include "render/study/measure_run.h"
 #include "render/study/reference_picture.h"
@@ -108,6 +112,31 @@ TEST(ReferencePicture, IsTheMeanOfItsPassesWithItsVariance) {
     EXPECT_NEAR(mean.find("noise.B")->pixels[1], 0.0, 1e-6);
 }
 
+TEST(ReferencePicture, NoiseOfAnyNumberOfPassesIsLikeThatOfTheMean) {
+    constexpr std::size_t pixels = 10000;
+    std::mt19937 generator(4);
+    std::normal_distribution<float> normal(10.0f, 1.0f);
+    ChannelImage mean;
+    for (int count = 1; count <= 5; ++count) {
+        std::vector<float> pass(pixels);
+        std::ranges::generate(pass, [&] { return normal(generator); });
+        add_pass(mean, grey_picture(pass));
+        const Image<Rgb> noise = read_noise(mean);
+        if (count == 1) {
+            EXPECT_TRUE(noise.empty()) << "one pass does not tell";
+            continue;
+        }
+        ASSERT_EQ(noise.size(), pixels) << count;
+        double squares = 0.0, products = 0.0;
+        for (std::size_t i = 0; i < pixels; ++i) {
+            squares += std::pow(noise.pixels[i].y, 2.0) / pixels;
+            products += noise.pixels[i].y * (mean.find("G")->pixels[i] - 10.0) / pixels;
+        }
+        EXPECT_NEAR(squares * count, 1.0, 5.0 * std::sqrt(2.0 / pixels)) << count;
+        EXPECT_NEAR(products * count, 0.0, 5.0 * std::sqrt(1.0 / pixels)) << count << ": it is no part of the mean";
+    }
+}
+
 TEST(ReferencePicture, FollowsTheExposure) {
     ChannelImage mean;
     for (const float value : {1.0f, 3.0f}) add_pass(mean, grey_picture({value}));
@@ -183,6 +212,31 @@ TEST(EffectsLedger, TellsWhatEachEffectThatASceneCallsForBrings) {
     EXPECT_EQ(of_indirect["seen"]["value"], indirect.seen->value);
     EXPECT_EQ(of_indirect["seconds"]["value"], indirect.seconds->value);
     EXPECT_TRUE(json[0]["effects"][static_cast<std::size_t>(Effect::textures)]["seen"].is_null());
+}
+
+TEST(EffectsLedger, WhatASceneForbidsIsNotMissedInAnother) {
+    const ScratchFolder folder;
+    std::ifstream file(source_folder() / "scenes/cornell/scene.json");
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    text.insert(text.find("\"aleph\": 1"), R"("settings": {"forbid": "indirect_diffuse"}, )");
+    std::ofstream(folder / "dark.json") << text;
+    const Study alone = ledger_study();
+    Study both = alone;
+    both.scenes.push_back({folder / "dark.json", "3"});
+    const auto ledgers_of = [&](const Study& study) {
+        const PreparedStudy prepared = prepare_study(study);
+        return make_ledger(prepared, run_study(prepared, folder.path()));
+    };
+    const SceneLedger expected = ledgers_of(alone).front();
+    const std::vector<SceneLedger> ledgers = ledgers_of(both);
+    for (const Effect effect : {Effect::indirect_diffuse, Effect::area_shadows, Effect::motion}) {
+        ASSERT_TRUE(entry_of(ledgers[0], effect).seen.has_value()) << describe(effect).name;
+        EXPECT_EQ(entry_of(ledgers[0], effect).seen->value, entry_of(expected, effect).seen->value)
+            << describe(effect).name;
+    }
+    EXPECT_FALSE(entry_of(ledgers[1], Effect::indirect_diffuse).seen.has_value()) << "it is forbidden there";
+    EXPECT_EQ(entry_of(ledgers[1], Effect::motion).seen->value, ledgers[1].seen.value)
+        << "still without indirect light";
 }
 
 TEST(EffectsLedger, KeepsWhatTheStudyForbids) {

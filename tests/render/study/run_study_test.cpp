@@ -266,6 +266,18 @@ TEST_F(RunStudy, MakesAgainWhatIsMissingOrOfOtherSettings) {
     EXPECT_NE(find_refusal([&] { run(); }).file, "") << "damaged runs";
 }
 
+TEST_F(RunStudy, AnotherExposureOrDisplayHasReferencesOfItsOwn) {
+    study.sweep = {{"noise", {1.0}}};
+    run();
+    for (const char* key : {"exposure", "viewing.display_white"}) {
+        study.settings[key] = 30.0;
+        const ScratchFolder fresh;
+        const StudyResults expected = run_study(prepare_study(study), fresh.path()), found = run();
+        EXPECT_EQ(numbers_of(found), numbers_of(expected)) << key;
+        EXPECT_EQ(found.frames[0].quality.percentile_99, expected.frames[0].quality.percentile_99) << key;
+    }
+}
+
 TEST_F(RunStudy, ChecksEverythingBeforeItRenders) {
     const auto expect = [&](const char* part, void (*change)(Study&)) {
         Study changed = study;
@@ -277,7 +289,11 @@ TEST_F(RunStudy, ChecksEverythingBeforeItRenders) {
     expect("spp", [](Study& changed) { changed.sweep[0].values.push_back(-4.0); });
     expect("one size", [](Study& changed) { changed.variants.push_back({"large", {{"size", "64x48"}}}); });
     expect("seeds", [](Study& changed) { changed.variants.push_back({"other noise", {{"seed", 3.0}}}); });
+    expect("seeds", [](Study& changed) { changed.settings["seed"] = 3.0; });
+    expect("one size", [](Study& changed) { changed.viewers.push_back({"small", {{"size", "10x10"}}}); });
+    expect("one size", [](Study& changed) { changed.reference = {"settings", 2, 4, {{"size", "10x10"}}}; });
     expect("vision", [](Study& changed) { changed.viewers.push_back({"bad", {{"vision", "cat"}}}); });
+    expect("two viewers", [](Study& changed) { changed.viewers.push_back({"own", {}}); });
     expect("two scenes", [](Study& changed) { changed.scenes.push_back(changed.scenes[0]); });
     expect("no/such.json", [](Study& changed) { changed.scenes[0].file = "no/such.json"; });
 }

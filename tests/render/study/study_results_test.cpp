@@ -204,9 +204,21 @@ TEST(StudyFile, NamesWhatIsWrong) {
     expect(R"(, "sweep": {"spp": [1]}, "metrics": ["seed_flicker"])", "two seeds");
     expect(R"(, "viewers": [{"name": "A b", "settings": {}}])", "/viewers/0/name");
     expect(R"(, "seeds": [-1])", "/seeds/0");
+    expect(R"(, "seeds": [3, 3])", "/seeds: expected a list of different seeds");
     std::string values = "1";
     for (int i = 2; i <= 300; ++i) values += fmt::format(",{}", i);
     expect(fmt::format(R"(, "sweep": {{"spp": [{0}], "gather": [{0}], "bounces": [{0}]}})", values), "more than 10000");
+}
+
+TEST(StudyFiles, NumbersThatPeopleReadHaveNoExponent) {
+    EXPECT_EQ(brief(100.0, 2), "100");
+    EXPECT_EQ(brief(99.6, 2), "100");
+    EXPECT_EQ(brief(99.4, 2), "99");
+    EXPECT_EQ(brief(9.6, 1), "10");
+    EXPECT_EQ(brief(-1234.5, 3), "-1234");
+    EXPECT_EQ(brief(0.02345, 2), "0.023");
+    EXPECT_EQ(brief(1.5e12, 2), "1.5e+12");
+    EXPECT_EQ(brief(std::nan(""), 2), "nan");
 }
 
 }  // namespace

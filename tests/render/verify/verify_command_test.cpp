@@ -65,13 +65,14 @@ TEST(ShareInterval, HasStudentsPercentiles) {
     EXPECT_NEAR(student_95(1000000), 1.960, 1e-3);
 }
 
-TEST(ShareInterval, IsStudentsOfTheBlocksShares) {
-    // Shares .1, .2, .3, .4: mean .25, standard deviation .1291, of the mean .06455, times 3.182.
+TEST(ShareInterval, IsStudentsOfTheBlocksSharesAndOneMore) {
+    // Shares .1, .2, .3, .4 and the square root of .4: mean .3265, deviation of the mean .09138, times 2.776. Those not
+    // counted, .9, .8, .7, .6 and the square root of .9: mean .7897, deviation of the mean .06387.
     const std::vector<BlockCount> blocks = {{100, 10}, {100, 20}, {100, 30}, {100, 40}};
     const VerifiedShare share = estimate_share(blocks);
     EXPECT_NEAR(share.share, 0.25, 1e-12);
-    EXPECT_NEAR(share.low, 0.25 - 0.2054, 1e-3);
-    EXPECT_NEAR(share.high, 0.25 + 0.2054, 1e-3);
+    EXPECT_NEAR(share.low, 1.0 - 0.7897 - 0.1773, 2e-4);
+    EXPECT_NEAR(share.high, 0.3265 + 0.2537, 2e-4);
 }
 
 TEST(ShareInterval, WeighsBlocksByTheirPixels) {
@@ -80,18 +81,23 @@ TEST(ShareInterval, WeighsBlocksByTheirPixels) {
 }
 
 TEST(ShareInterval, WhereNothingWasFoundIsThatOfTheRuleOfThree) {
-    const std::vector<BlockCount> blocks(30, {256, 0});
-    const VerifiedShare share = estimate_share(blocks);
-    EXPECT_EQ(share.share, 0.0);
-    EXPECT_EQ(share.low, 0.0);
-    EXPECT_NEAR(share.high, 0.1, 1e-12);
+    for (const std::size_t count : {4, 10, 30, 300}) {
+        const VerifiedShare none = estimate_share(std::vector<BlockCount>(count, {256, 0}));
+        EXPECT_EQ(none.share, 0.0);
+        EXPECT_NEAR(none.low, 0.0, 1e-12);
+        EXPECT_NEAR(none.high * static_cast<double>(count), 3.0, 0.07) << count;
+        const VerifiedShare all = estimate_share(std::vector<BlockCount>(count, {256, 256}));
+        EXPECT_NEAR(all.low, 1.0 - none.high, 1e-12) << "few blocks do not say that it is everywhere";
+        EXPECT_EQ(all.high, 1.0);
+    }
     EXPECT_EQ(estimate_share(std::vector<BlockCount>(2, {256, 0})).high, 1.0);
 }
 
-TEST(ShareInterval, WhereAllWasSeenFewBlocksDoNotSayThatItIsEverywhere) {
-    EXPECT_NEAR(estimate_share(std::vector<BlockCount>(4, {256, 256})).low, 0.25, 1e-12);
-    EXPECT_NEAR(estimate_share(std::vector<BlockCount>(30, {256, 256})).low, 0.9, 1e-12);
-    EXPECT_EQ(estimate_share(std::vector<BlockCount>(30, {256, 256})).high, 1.0);
+TEST(ShareInterval, OnePixelThatIsFoundDoesNotSayThatBlocksHaveNoMore) {
+    std::vector<BlockCount> blocks(10, {256, 0});
+    blocks[3].counted = 1;
+    EXPECT_GT(estimate_share(blocks).high, 0.015) << "Student's t alone has .0013";
+    EXPECT_LT(estimate_share(blocks).high, estimate_share(std::vector<BlockCount>(10, {256, 0})).high);
 }
 
 TEST(ShareInterval, OfOneBlockOrNoneSaysNothing) {
@@ -108,24 +114,29 @@ TEST(ShareInterval, StaysWithinTheShares) {
     EXPECT_LE(share.high, 1.0);
 }
 
-/// A share of the blocks has errors, in an even share of 0 to .4 of their pixels.
-TEST(ShareInterval, HoldsTheTrueShareAboutAsOftenAsItSays) {
-    for (const double affected : {1.0, 0.5, 0.2}) {
-        for (const int count : {12, 40}) {
-            std::mt19937 random(7);
-            std::uniform_real_distribution<double> unit;
+/// Errors of some blocks, and errors of which a few blocks have most.
+TEST(ShareInterval, HoldsTheTrueShareAsOftenAsItSays) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit;
+    std::normal_distribution<double> normal;
+    const auto expect = [&](const char* what, double truth, const auto& draw) {
+        for (const int count : {4, 12, 40}) {
             int held = 0;
             constexpr int trials = 2000;
             for (int trial = 0; trial < trials; ++trial) {
                 std::vector<BlockCount> blocks;
-                for (int i = 0; i < count; ++i)
-                    blocks.push_back({256, unit(random) < affected ? std::round(256.0 * 0.4 * unit(random)) : 0.0});
+                for (int i = 0; i < count; ++i) blocks.push_back({256, std::round(256.0 * draw())});
                 const VerifiedShare share = estimate_share(blocks);
-                if (share.low <= 0.2 * affected && 0.2 * affected <= share.high) ++held;
+                if (share.low <= truth && truth <= share.high) ++held;
             }
-            EXPECT_GE(held, 0.85 * trials) << affected << " of " << count;
+            EXPECT_GE(held, 0.95 * trials) << what << ", " << count << " blocks";
         }
-    }
+    };
+    for (const double affected : {1.0, 0.5, 0.2})
+        expect("some blocks", 0.2 * affected, [&] { return unit(random) < affected ? 0.4 * unit(random) : 0.0; });
+    // The mean of exp(normal(m, s)) is exp(m + s^2 / 2); what is cut at 1 is .0001 of it.
+    expect("skewed", std::exp(-5.0 + 0.5), [&] { return std::min(1.0, std::exp(-5.0 + normal(random))); });
+    expect("more skewed", 0.0205, [&] { return std::min(1.0, std::exp(-5.0 + 1.5 * normal(random))); });
 }
 
 }  // namespace
