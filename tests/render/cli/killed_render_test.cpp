@@ -253,6 +253,9 @@ TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
     EXPECT_NE(read_bytes(state), first) << "it went on";
     EXPECT_EQ(run(resumed).code, 0);
     expect_whole();
+    std::ofstream(state, std::ios::binary) << first;  // killed between the frame's file and the end
+    EXPECT_EQ(run(resumed).code, 0);
+    expect_whole();
 }
 
 TEST_F(KilledRender, APictureOfSomebodyElseIsKept) {
