@@ -80,6 +80,7 @@ void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_nod
     read_nodes(reader);
     read_skins(reader);
     read_animations(reader, animations);
+    free_skinned_meshes(reader);
     warn_of_invisible_meshes(reader);
     append_part(scene, std::move(reader.part), parent_node, include_index);
 }

@@ -86,6 +86,9 @@ void read_meshes(GltfReader& reader);
 void read_cameras_and_lights(GltfReader& reader);
 void read_nodes(GltfReader& reader);
 void read_skins(GltfReader& reader);
+/// Skinned meshes below a node that is flat at some time get a node of their own: they follow their joints alone, but
+/// what a flat transform did to them cannot be undone. Comes after read_animations.
+void free_skinned_meshes(GltfReader& reader);
 /// @param names  of the animations that are read; null: all
 void read_animations(GltfReader& reader, const std::vector<std::string>* names);
 

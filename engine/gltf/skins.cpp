@@ -1,12 +1,15 @@
 // glTF reader: skins and their joints.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "engine/base/errors.h"
 #include "engine/gltf/reader.h"
+#include "engine/scene/transforms.h"
 
 namespace aleph {
 
@@ -64,6 +67,17 @@ int use_skin(GltfReader& reader, std::size_t skin) {
         reader.part.skins.emplace_back();
     }
     return index;
+}
+
+/// Returns whether a node's own transform is flat at a key, or mirrors from one key to the next.
+bool can_flatten(const LocalTransform& transform) {
+    const Track<glm::dvec3>& scale = transform.scale;
+    const glm::dvec3 first = key_value(scale, 0);
+    for (std::size_t i = 0; i < scale.key_count(); ++i) {
+        const glm::dvec3& key = key_value(scale, i);
+        if (!has_full_rank(glm::scale(glm::dmat4(1.0), key)) || glm::sign(key) != glm::sign(first)) return true;
+    }
+    return transform.matrix && !has_full_rank(key_value(*transform.matrix, 0));  // glTF does not animate it
 }
 
 }  // namespace
@@ -133,6 +147,22 @@ void read_skins(GltfReader& reader) {
         }
         skin.inverse_binds = read_inverse_binds(reader, raw, skin.joints.size(), place);
         reader.part.skins[reader.skin_of[i]] = std::move(skin);
+    }
+}
+
+void free_skinned_meshes(GltfReader& reader) {
+    std::vector<Node>& nodes = reader.part.nodes;
+    const auto is_skinned = [&](int mesh) { return reader.part.meshes[mesh].deformation.skin != no_index; };
+    std::vector<bool> can_be_flat;
+    for (const Node& node : nodes)
+        can_be_flat.push_back(can_flatten(node.transform) || (node.parent != no_index && can_be_flat[node.parent]));
+    for (std::size_t i = 0; i < can_be_flat.size(); ++i) {
+        if (!can_be_flat[i] || std::ranges::none_of(nodes[i].meshes, is_skinned)) continue;
+        Node own{.name = nodes[i].name + ".skin", .parent = static_cast<int>(i)};
+        own.inherits = Track<double>(0.0);
+        own.meshes = std::move(nodes[i].meshes);  // a mesh of glTF is skinned as a whole
+        nodes[i].meshes.clear();
+        nodes.push_back(std::move(own));
     }
 }
 

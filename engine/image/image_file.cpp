@@ -65,4 +65,13 @@ ChannelImage read_image(const std::filesystem::path& path) {
     return decode_image(read_bytes(path), display_name(path));
 }
 
+bool can_read_image(const std::filesystem::path& path) {
+    try {
+        read_image(path);
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
 }  // namespace aleph

@@ -61,6 +61,9 @@ std::optional<std::string> read_picture_text(const std::filesystem::path& path, 
 /// @throws InputError
 ChannelImage read_image(const std::filesystem::path& path);
 
+/// Returns whether read_image reads the file: no part of it is damaged.
+bool can_read_image(const std::filesystem::path& path);
+
 /// One of the two images is filled: `bytes` for PNG and JPEG, else `floats`. Components: R, G, B, A.
 struct DecodedTexture {
     Image<glm::u8vec4> bytes;

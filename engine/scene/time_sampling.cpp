@@ -69,7 +69,7 @@ SampleSpan find_samples(const TimeSampling& sampling, std::size_t count, double 
 
 std::size_t nearest_sample(const TimeSampling& sampling, std::size_t count, double seconds) {
     const SampleSpan span = find_samples(sampling, count, seconds);
-    return span.fraction > 0.5 ? span.ceil : span.floor;
+    return span.fraction > 0.5 + snap_fraction ? span.ceil : span.floor;
 }
 
 void validate(const TimeSampling& sampling, std::size_t count, const std::string& file, const std::string& place) {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "render/cache/gather.h"
 #include "render/cache/gather_at.h"
 
@@ -22,7 +23,9 @@ constexpr int max_reviews = 16;             // passes over all pixels after the 
 /// A record may reach so much farther than expected: candidates within that wait.
 constexpr float waiting_reach = 1.2f;
 constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
-constexpr std::size_t checkpoint_gathers = 256;
+/// Gathers between two reports of progress.
+constexpr std::size_t checkpoint_gathers = 256;  // with a checkpoint, whatever the number of threads
+constexpr std::size_t thread_gathers = 64;       // per thread
 
 /// A pixel whose sample is not covered yet.
 struct Candidate {
@@ -173,35 +176,39 @@ void restore_gathers(const FrameCheckpoint::Gathers& saved, std::span<Gathered> 
     ALEPH_CHECK(results.is_good() && results.at_end(), fmt::format("{} gathers", gathered.size()));
 }
 
-/// The same with a checkpoint: in pieces, of which those are taken from it that an earlier process has computed.
-std::vector<Gathered> gather_with_checkpoint(const IndirectContext& context, const FillPlaces& places,
-                                             std::span<const Candidate> candidates, RayCounts& counts) {
-    FrameCheckpoint& checkpoint = *context.checkpoint;
-    if (context.direct != nullptr)
-        checkpoint.set_shared_light([direct = context.direct] {
+/// The same in pieces, with a report of progress after each. With a checkpoint those are taken from it that an earlier
+/// process has computed.
+std::vector<Gathered> gather_in_pieces(const IndirectContext& context, const FillPlaces& places,
+                                       std::span<const Candidate> candidates, FrameCheckpoint* checkpoint,
+                                       RayCounts& counts) {
+    const std::size_t size =
+        checkpoint != nullptr ? checkpoint_gathers : thread_gathers * static_cast<std::size_t>(thread_count());
+    if (checkpoint != nullptr && context.direct != nullptr)
+        checkpoint->set_shared_light([direct = context.direct] {
             ByteWriter out;
             out.add(direct->save());
             return out.take();
         });
     std::vector<Gathered> all(candidates.size());
-    for (std::size_t begin = 0; begin < all.size(); begin += checkpoint_gathers) {
-        const std::span<Gathered> piece =
-            std::span(all).subspan(begin, std::min(checkpoint_gathers, all.size() - begin));
-        if (checkpoint.has_gathers()) {
-            const FrameCheckpoint::Gathers& saved = checkpoint.next_gathers();
+    for (std::size_t begin = 0; begin < all.size(); begin += size) {
+        const std::span<Gathered> piece = std::span(all).subspan(begin, std::min(size, all.size() - begin));
+        if (checkpoint != nullptr && checkpoint->has_gathers()) {
+            const FrameCheckpoint::Gathers& saved = checkpoint->next_gathers();
             restore_gathers(saved, piece, counts);
             // Before the first round that had not ended.
-            const bool is_last = !saved.found.empty() || !checkpoint.has_gathers();
+            const bool is_last = !saved.found.empty() || !checkpoint->has_gathers();
             if (!is_last || context.direct == nullptr) continue;
-            const std::string light = checkpoint.take_shared_light();
+            const std::string light = checkpoint->take_shared_light();
             if (!light.empty()) context.direct->restore(ByteReader(light).read_all<DirectGrid::Cell>());
             continue;
         }
         RayCounts own;
         std::ranges::move(gather_records(context, places, candidates.subspan(begin, piece.size()), own), piece.begin());
-        checkpoint.add_gathers(save_gathers(piece, own));
         counts += own;
-        checkpoint.offer();
+        if (checkpoint != nullptr) {
+            checkpoint->add_gathers(save_gathers(piece, own));
+            checkpoint->offer();
+        }
         if (context.progress) context.progress(0.0, "fill");
     }
     return all;
@@ -215,8 +222,8 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, F
         std::vector<Candidate> waiting = find_uncovered(cache, context, places.points, tiles, tally.counts);
         if (waiting.empty()) break;
         const std::vector<Candidate> accepted = accept_candidates(cache, context, places, waiting);
-        const bool keeps = context.checkpoint != nullptr && places.gathered == nullptr;
-        auto records = (keeps ? gather_with_checkpoint : gather_records)(context, places, accepted, tally.counts.rays);
+        FrameCheckpoint* const checkpoint = places.gathered == nullptr ? context.checkpoint : nullptr;
+        auto records = gather_in_pieces(context, places, accepted, checkpoint, tally.counts.rays);
         for (std::size_t i = 0; i < accepted.size(); ++i) {
             tally.records(accepted[i].x, accepted[i].y) += 1.0f;
             if (context.direct != nullptr) context.direct->insert(records[i].direct);
@@ -230,8 +237,7 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, F
         }
         tally.counts.records += accepted.size();
         ++tally.counts.cache.rounds;
-        if (keeps) context.checkpoint->end_round();
-        if (context.progress) context.progress(0.0, "fill");
+        if (checkpoint != nullptr) checkpoint->end_round();
         tiles.clear();
         for (const Candidate& candidate : waiting) tiles.push_back({candidate.x, candidate.y});
     }

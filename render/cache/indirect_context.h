@@ -67,7 +67,7 @@ inline IndirectContext make_places_context(const IndirectContext& frame, const I
             .accuracy = accuracy,
             .frame = frame.frame,
             .max_radius = frame.max_radius,
-            .progress = {},
+            .progress = frame.progress,
             .checkpoint = frame.checkpoint,
             .direct = frame.direct,
             .bright = frame.bright,

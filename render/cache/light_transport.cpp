@@ -14,9 +14,10 @@ namespace aleph {
 
 namespace {
 
-constexpr int most_links = 4;               // records that the irradiance of a hit is interpolated from
-constexpr int most_random_rays = 16;        // one after the other, until one hits a place with records around
-constexpr float negligible_change = 1e-5f;  // of any place's irradiance, by one bounce more
+constexpr int most_links = 4;                // records that the irradiance of a hit is interpolated from
+constexpr int most_random_rays = 16;         // one after the other, until one hits a place with records around
+constexpr float negligible_change = 1e-5f;   // of any place's irradiance, by one bounce more
+constexpr std::size_t reported_chunks = 64;  // per thread, between two reports of progress
 
 /// A share of the irradiance of a place.
 struct Link {
@@ -93,9 +94,19 @@ class LightTransport {
   private:
     /// Links what the rays of these places found to records.
     void link_places(std::size_t first) {
-        cast_parallel(places_.size() - first, 16, context_.lighting.rays, counts_, [&](int i, RayTask& task) {
-            link_place(places_[first + static_cast<std::size_t>(i)], unlinked_[i], task);
-        });
+        cast_in_pieces(places_.size() - first, 16,
+                       [&](std::size_t i, RayTask& task) { link_place(places_[first + i], unlinked_[i], task); });
+    }
+
+    /// cast_parallel, with reports of progress.
+    template <class Function>
+    void cast_in_pieces(std::size_t count, std::size_t grain, const Function& function) {
+        const std::size_t size = reported_chunks * grain * static_cast<std::size_t>(thread_count());
+        for (std::size_t begin = 0; begin < count; begin += size) {
+            cast_parallel(std::min(size, count - begin), grain, context_.lighting.rays, counts_,
+                          [&](int i, RayTask& task) { function(begin + static_cast<std::size_t>(i), task); });
+            if (context_.progress) context_.progress(0.0, "fill");
+        }
     }
 
     /// @param found  what its rays found; what has no link is left
@@ -169,7 +180,7 @@ class LightTransport {
         const GatherOptions options{
             .depth = std::max(0, context_.settings.light.path_depth - 2 - context_.bounces.before),
             .multi_bounce = context_.bounces.further};
-        cast_parallel(added.size(), 64, context_.lighting.rays, counts_, [&](int i, RayTask& task) {
+        cast_in_pieces(added.size(), 64, [&](std::size_t i, RayTask& task) {
             thread_local GatherScratch scratch;
             added[i].direct =
                 gather_irradiance(context_.lighting, task, lit[i]->place, {{}, lit[i]->key}, scratch, options)

@@ -238,8 +238,9 @@ void FrameWriter::print_files() const {
     if (!options_.stats.empty()) text += fmt::format(", statistics in {}", printable(options_.stats, 400));
     std::cerr << text << "\n";
     if (job_.claims.replaced() == 0) return;
-    std::cerr << fmt::format("aleph: replaced {} file{}: cut, or of another scene, other settings or another program\n",
-                             job_.claims.replaced(), job_.claims.replaced() == 1 ? "" : "s");
+    std::cerr << fmt::format(
+        "aleph: replaced {} file{}: damaged, or of another scene, other settings or another program\n",
+        job_.claims.replaced(), job_.claims.replaced() == 1 ? "" : "s");
 }
 
 }  // namespace aleph

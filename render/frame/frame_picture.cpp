@@ -96,7 +96,8 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
 FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameRequest& request) {
     TracedRays before = s.traced();
     StageClock total;
-    PreparedFrame prepared = s.prepare(frame, s.shot.needs_perception() || request.maps, request.maps);
+    PreparedFrame prepared =
+        s.prepare(frame, s.shot.needs_perception() || request.maps, request.maps, request.progress);
     FrameOutput& out = prepared.out;
     FrameStatistics& stats = out.statistics;
     const FramePlan& plan = prepared.plan;
@@ -105,7 +106,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
         total.add_to(stats.seconds.total);
         const TracedRays by_frame = s.traced() - before;
         std::unique_ptr<CarriedLight> carried;
-        if (options.light_lasts) carried = find_carried_light(s, frame, plan, stats.keyframes);
+        if (options.light_lasts) carried = find_carried_light(s, frame, plan, stats.keyframes, request.progress);
         before = s.traced() - by_frame;
         total = {};
         s.here.leave_out(plan.effects);

@@ -28,8 +28,13 @@ struct FrameWork {
     bool maps = false;         ///< every map
     bool motion_only = false;  ///< of what `perceive` says
     OtherFrame other = OtherFrame::none;
-    bool edited = false;  ///< motion leads from a frame before an edit
-    bool lasts = false;   ///< other frames have its noise too: copies of it, or those that read its light
+    bool edited = false;       ///< motion leads from a frame before an edit
+    bool lasts = false;        ///< other frames have its noise too: copies of it, or those that read its light
+    FrameProgress progress{};  ///< may be empty
+
+    void report(const char* stage) const {
+        if (progress) progress(0.0, stage);
+    }
 };
 
 /// Makes the effects plans of a shot's frames.

@@ -20,12 +20,15 @@ void perceive(SequenceState& s, const FrameScene& here, const FrameWork& work, S
     std::optional<EstimateNodes> nodes;
     if (shot.estimates_indirect_light(plan.settings.light.bounces))
         nodes = s.estimate_light.find_nodes(work.frame, here, frame.centers, counts);
+    work.report("estimate");
     const EstimateNodes* indirect = nodes ? &*nodes : nullptr;
     out.estimate = estimate_scene(shot, here, frame.centers, indirect, counts);
     note_estimate(out, sanitize_estimate(out.estimate), shot.scene.film.viewing);
     clock.add_to(out.statistics.seconds.estimate);
+    work.report("motion");
     s.motion.compute(work, here, s.estimate_light, clock, frame);
     if (work.maps) s.motion.compute_backward(work, here, frame);
+    work.report("vision");
     frame.swing = blur_frame_estimate({shot, work.frame, plan, here, s.shutter}, frame.centers, indirect, out.motion,
                                       out.estimate, counts);
     clock.add_to(out.statistics.seconds.estimate);
@@ -46,6 +49,7 @@ PreparedFrame prepare_frame(SequenceState& s, FrameScene& here, FrameWork work) 
     stats.frame = work.frame;
     work.other = work.perceive ? shot.other_frame(work.frame) : OtherFrame::none;
 
+    work.report("pose");
     StageClock clock;
     here.pose(work.frame);
     out.view = here.posed().view;
@@ -66,6 +70,7 @@ PreparedFrame prepare_frame(SequenceState& s, FrameScene& here, FrameWork work) 
     here.find_media_around(counts.primary);
     clock.add_to(stats.seconds.update);
 
+    work.report("first hits");
     frame.centers = cast_centers(here.rays(), out.view, &counts.primary);
     clock.add_to(stats.seconds.first_hits);
     if (work.motion_only) {

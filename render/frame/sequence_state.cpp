@@ -62,11 +62,11 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
                        shot.settings, !is_world_animated(shot.scene), !shot.can_change(), make_keyframe_source(*this));
 }
 
-PreparedFrame SequenceState::prepare(std::int64_t frame, bool perceive, bool maps) {
-    const bool is_edited = motion.is_edited();
-    const bool lasts = !is_edited && static_spans.find_first(frame + 1) == frame;
-    return prepare_frame(*this, here,
-                         {.frame = frame, .perceive = perceive, .maps = maps, .edited = is_edited, .lasts = lasts});
+PreparedFrame SequenceState::prepare(std::int64_t frame, bool perceive, bool maps, const FrameProgress& progress) {
+    FrameWork work{.frame = frame, .perceive = perceive, .maps = maps, .progress = progress};
+    work.edited = motion.is_edited();
+    work.lasts = !work.edited && static_spans.find_first(frame + 1) == frame;
+    return prepare_frame(*this, here, work);
 }
 
 const NoiseVisibility& SequenceState::noise(const FrameWork& work) {
@@ -79,9 +79,10 @@ const NoiseVisibility& SequenceState::noise(const FrameWork& work) {
 }
 
 std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t frame, const FramePlan& plan,
-                                                 std::vector<KeyframeStatistics>& filled) {
+                                                 std::vector<KeyframeStatistics>& filled,
+                                                 const FrameProgress& progress) {
     if (!s.shot_light || plan.skips(Effect::indirect_diffuse)) return nullptr;
-    return s.shot_light->at(frame, filled);
+    return s.shot_light->at(frame, filled, progress);
 }
 
 }  // namespace aleph

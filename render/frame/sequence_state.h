@@ -20,7 +20,7 @@ struct SequenceState {
     SequenceState(Scene given, const RenderSettings& settings, const std::vector<CameraShot>& shots);
 
     /// Prepares a frame in `here`.
-    PreparedFrame prepare(std::int64_t frame, bool perceive, bool maps);
+    PreparedFrame prepare(std::int64_t frame, bool perceive, bool maps, const FrameProgress& progress = {});
     TracedRays traced() const { return here.traced() + keyframe.traced() + motion.traced() + shutter.traced(); }
 
     /// How visible the noise of a frame is. It lasts where other frames have the same.
@@ -45,9 +45,11 @@ struct SequenceState {
 SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const FramePlan& plan);
 
 /// The light of the lighting keyframes around a frame; null if it reads none.
-/// @param filled  the keyframes that were computed for it are added
+/// @param filled    the keyframes that were computed for it are added
+/// @param progress  may be empty
 std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t frame, const FramePlan& plan,
-                                                 std::vector<KeyframeStatistics>& filled);
+                                                 std::vector<KeyframeStatistics>& filled,
+                                                 const FrameProgress& progress = {});
 
 /// Fills the cache, shades the picture and adds their times and counts to the frame's statistics.
 /// @param carried  light of lighting keyframes; may be null

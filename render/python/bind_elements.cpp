@@ -20,7 +20,8 @@ py::object copy_points(const std::vector<glm::vec3>& values) {
                               reinterpret_cast<const float*>(values.data()));
 }
 
-void set_positions(const Element<Mesh>& element, const py::array_t<float, py::array::c_style>& positions) {
+void set_positions(const Element<Mesh>& element,
+                   const py::array_t<float, py::array::c_style | py::array::forcecast>& positions) {
     Mesh& mesh = element.get();
     const auto count = static_cast<py::ssize_t>(mesh.positions.size());
     if (positions.ndim() != 2 || positions.shape(0) != count || positions.shape(1) != 3)

@@ -71,7 +71,7 @@ KeyframeRecords compute_records(const KeyframeInput& input, FrameCounts& counts)
                             .settings = input.settings,
                             .accuracy = view->accuracy,
                             .max_radius = scene_radius(lighting.shading),
-                            .progress = {},
+                            .progress = input.progress,
                             .direct = &direct,
                             .carried = input.carried,
                             .seen = view->frame == input.frame ? nullptr : &view->shading,

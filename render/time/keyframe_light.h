@@ -58,6 +58,7 @@ struct KeyframeInput {
     const CarriedLight* carried = nullptr;  ///< where it knows the light no records are needed; may be null
     const KeyframeLight* base = nullptr;    ///< its records hold at this keyframe too; may be null
     bool still = false;                     ///< nothing but the camera changes
+    FrameProgress progress{};               ///< may be empty
 };
 
 /// The records of a base keyframe, if there is one, and those computed at surfaces that they do not cover.

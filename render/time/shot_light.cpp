@@ -37,7 +37,7 @@ std::int64_t ShotLight::find_base(std::int64_t keyframe) const {
 
 KeyframeRecords ShotLight::compute(std::int64_t keyframe, const std::vector<std::int64_t>& frames,
                                    const CarriedLight* carried, const KeyframeLight* base,
-                                   std::vector<KeyframeStatistics>& filled) {
+                                   std::vector<KeyframeStatistics>& filled, const FrameProgress& progress) {
     KeyframeStatistics statistics;
     statistics.frame = keyframe;
     StageClock clock;
@@ -47,11 +47,12 @@ KeyframeRecords ShotLight::compute(std::int64_t keyframe, const std::vector<std:
         if (!view) {
             view = source_.look(frame);
             statistics.counts.rays += view->rays;
+            if (progress) progress(0.0, "fill");
         }
         views.push_back(view);
     }
     const LightingContext lighting = source_.light(keyframe);
-    const KeyframeInput input{keyframe, lighting, views, settings_, source_.cast, carried, base, still_};
+    const KeyframeInput input{keyframe, lighting, views, settings_, source_.cast, carried, base, still_, progress};
     KeyframeRecords records = compute_records(input, statistics.counts);
     clock.add_to(statistics.seconds);
     filled.push_back(statistics);
@@ -59,15 +60,16 @@ KeyframeRecords ShotLight::compute(std::int64_t keyframe, const std::vector<std:
 }
 
 void ShotLight::prepare(std::int64_t keyframe, const std::vector<std::int64_t>& views, const CarriedLight* carried,
-                        std::vector<KeyframeStatistics>& filled) {
+                        std::vector<KeyframeStatistics>& filled, const FrameProgress& progress) {
     std::shared_ptr<const KeyframeLight>& light = lights_[keyframe];
     if (light) return;
     std::optional<KeyframeRecords> records;
     if (store_) records = store_->find(keyframe);
     const std::int64_t base = find_base(keyframe);
     if (!records) {
-        if (base != keyframe) prepare(base, list_views(base), nullptr, filled);
-        records = compute(keyframe, views, carried, base == keyframe ? nullptr : lights_.at(base).get(), filled);
+        if (base != keyframe) prepare(base, list_views(base), nullptr, filled, progress);
+        records =
+            compute(keyframe, views, carried, base == keyframe ? nullptr : lights_.at(base).get(), filled, progress);
         if (store_) store_->keep(keyframe, *records);
     }
     light = std::make_shared<KeyframeLight>(make_keyframe_light(source_.pose(keyframe), *records));
@@ -78,13 +80,14 @@ std::unique_ptr<BlendedLight> ShotLight::blend(const KeyframePair& pair) const {
     return std::make_unique<BlendedLight>(lights_.at(pair.before), after, pair.weight, still_);
 }
 
-std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<KeyframeStatistics>& filled) {
+std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<KeyframeStatistics>& filled,
+                                            const FrameProgress& progress) {
     const KeyframePair pair = keyframes_around(frame);
     const std::vector<std::int64_t> ends{pair.before, pair.after};
     std::vector<std::int64_t> views, lights = ends;
     for (const std::int64_t keyframe : ends) {
         const std::vector<std::int64_t> own = list_views(keyframe);
-        prepare(keyframe, own, nullptr, filled);
+        prepare(keyframe, own, nullptr, filled, progress);
         views.insert(views.end(), own.begin(), own.end());
         lights.push_back(find_base(keyframe));
     }
@@ -93,7 +96,7 @@ std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<Keyf
     if (!still_ && middle != pair.before) {
         const std::unique_ptr<BlendedLight> at_middle =
             blend({pair.before, pair.after, find_keyframes(keyframes_, middle).weight});
-        prepare(middle, ends, at_middle.get(), filled);
+        prepare(middle, ends, at_middle.get(), filled, progress);
         lights.push_back(middle);
         light->set_finer(blend(find_half(pair, middle, frame)));
     }

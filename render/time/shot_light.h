@@ -44,7 +44,9 @@ class ShotLight {
 
     /// The light that a frame reads. Computes the lighting keyframes around the frame, unless they are kept from
     /// before.
-    std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<KeyframeStatistics>& filled);
+    /// @param progress  may be empty
+    std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<KeyframeStatistics>& filled,
+                                     const FrameProgress& progress);
 
     /// Keeps the records of all keyframes there; those that it has need not be computed.
     void use(LightStore store) { store_.emplace(std::move(store)); }
@@ -56,9 +58,10 @@ class ShotLight {
     std::unique_ptr<BlendedLight> blend(const KeyframePair& pair) const;
     /// Finds the keyframe's light, or computes it at the surfaces of these views where `carried` does not know it.
     void prepare(std::int64_t keyframe, const std::vector<std::int64_t>& views, const CarriedLight* carried,
-                 std::vector<KeyframeStatistics>& filled);
+                 std::vector<KeyframeStatistics>& filled, const FrameProgress& progress);
     KeyframeRecords compute(std::int64_t keyframe, const std::vector<std::int64_t>& frames, const CarriedLight* carried,
-                            const KeyframeLight* base, std::vector<KeyframeStatistics>& filled);
+                            const KeyframeLight* base, std::vector<KeyframeStatistics>& filled,
+                            const FrameProgress& progress);
 
     LightingKeyframes keyframes_;
     const RenderSettings& settings_;

@@ -69,6 +69,15 @@ def test_a_mesh_may_have_no_material():
     assert mesh.material is None
 
 
+def test_points_of_any_kind_of_number():
+    scene = aleph.load(ROOT / "tests/assets/gltf/sparse.glb")
+    mesh = scene.meshes[0]
+    moved = mesh.positions.astype(np.float64) + 0.25
+    mesh.positions = moved
+    assert mesh.positions.dtype == np.float32
+    assert np.allclose(mesh.positions, moved)
+
+
 def test_materials_and_cameras(ball):
     red = ball.materials["red"]
     red.roughness, red.base_color = 0.25, aleph.Track(ball.seconds([0, 8]), [[1, 0, 0], [0, 1, 0]])

@@ -20,6 +20,7 @@ std::vector<GltfPropertyInfo> list_properties() {
         {node_visible, GltfOwner::node, "/nodes/{}/extensions/KHR_node_visibility/visible", "SCALAR", 0, 1},
         {camera_yfov, GltfOwner::camera, "/cameras/{}/perspective/yfov", "SCALAR", min_gltf_size,
          std::numbers::pi - min_gltf_size},
+        {camera_xmag, GltfOwner::camera, "/cameras/{}/orthographic/xmag", "SCALAR", min_gltf_size, no_limit},
         {camera_ymag, GltfOwner::camera, "/cameras/{}/orthographic/ymag", "SCALAR", min_gltf_size, no_limit},
         {light_color, GltfOwner::light, lights + "color", "VEC3", 0, no_limit},
         {light_intensity, GltfOwner::light, lights + "intensity", "SCALAR", 0, no_limit},

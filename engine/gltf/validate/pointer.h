@@ -18,6 +18,7 @@ enum class GltfProperty {
     node_weights,
     node_visible,
     camera_yfov,
+    camera_xmag,  ///< the picture has its own width: it is not read
     camera_ymag,
     light_color,
     light_intensity,

@@ -30,9 +30,13 @@ OrderedJson write_camera(GltfWriter& writer, const Camera& camera, const std::st
         written["type"] = "perspective";
         written["perspective"] = {{"yfov", first}, {"znear", camera.near_plane}};
     }
-    if (is_animated(track))
-        writer.animate(place + (camera.orthographic ? "/orthographic/ymag" : "/perspective/yfov"),
-                       writer.keys_of(track, place));
+    if (!is_animated(track)) return written;
+    WrittenKeys keys = writer.keys_of(track, place);
+    writer.animate(place + (camera.orthographic ? "/orthographic/ymag" : "/perspective/yfov"), keys);
+    if (camera.orthographic) {
+        for (float& value : keys.values) value *= static_cast<float>(picture_aspect);
+        writer.animate(place + "/orthographic/xmag", keys);
+    }
     return written;
 }
 

@@ -28,15 +28,6 @@ PreparedScene prepare_quietly(const FrameCommand& command) {
     return prepared;
 }
 
-bool decodes(const fs::path& file) {
-    try {
-        read_image(file);
-        return true;
-    } catch (const InputError&) {
-        return false;
-    }
-}
-
 void print_frames(const char* what, const std::vector<int>& frames, std::ostream& out) {
     if (!frames.empty()) out << fmt::format("{}: {} ({})\n", what, frames.size(), format_frame_list(frames));
 }
@@ -65,7 +56,7 @@ FarmStatus find_status(const FarmJob& job, bool decode) {
             status.damaged.push_back(frame);
         } else if (*print != prints.of(frame)) {
             status.other.push_back(frame);
-        } else if (decode && !decodes(file)) {
+        } else if (decode && !can_read_image(file)) {
             status.damaged.push_back(frame);
         } else {
             status.finished.push_back(frame);

@@ -70,10 +70,14 @@ FrameClaims::~FrameClaims() {
     }
 }
 
-bool FrameClaims::is_finished(int frame) const {
+bool FrameClaims::is_finished(int frame) {
     if (!output_.resume) return false;
-    return read_picture_text(output_.file(frame), fingerprint_key) == output_.fingerprint(frame) ||
-           (output_.is_used && output_.is_used());
+    if (finished_.contains(frame) || (output_.is_used && output_.is_used())) return true;
+    const fs::path file = output_.file(frame);
+    const bool is_whole =
+        read_picture_text(file, fingerprint_key) == output_.fingerprint(frame) && can_read_image(file);
+    if (is_whole) finished_.insert(frame);
+    return is_whole;
 }
 
 Claim FrameClaims::claim(int frame) {
@@ -95,23 +99,23 @@ void FrameClaims::release(int frame) {
 }
 
 void FrameClaims::remove_leftovers() {
-    std::map<std::string, int> frames;
+    std::map<std::string, int> frames, states;
     for (const int frame : output_.frames) {
-        for (const fs::path& file : {output_.file(frame), checkpoint_file(output_.file(frame))})
+        const fs::path state = checkpoint_file(output_.file(frame));
+        for (const fs::path& file : {output_.file(frame), state})
             frames[hidden_beside(file, "").filename().string()] = frame;
+        states[state.filename().string()] = frame;
     }
     const fs::path folder = output_.file(output_.frames.front()).parent_path();
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
-        const auto found = frames.find(without_process(entry.path().filename().string()));
-        if (found == frames.end()) continue;
-        if (output_.resume && !locks_.lock(found->second)) continue;  // being written
+        const std::string name = entry.path().filename().string();
+        const auto part = frames.find(without_process(name)), state = states.find(name);
+        if (part == frames.end() && (state == states.end() || !is_finished(state->second))) continue;
+        const int frame = part == frames.end() ? state->second : part->second;
+        if (output_.resume && !locks_.lock(frame)) continue;  // being written
         fs::remove(entry.path(), error);
-        release(found->second);
-    }
-    for (const int frame : output_.frames) {  // of a process that was killed once the picture was there
-        const fs::path state = checkpoint_file(output_.file(frame));
-        if (fs::exists(state, error) && is_finished(frame)) fs::remove(state, error);
+        release(frame);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,8 @@ enum class Claim {
 
 class FrameClaims {
   public:
-    /// Without `resume` all frames are ours from now on. Temporary files that killed processes have left are removed,
-    /// now and at the end.
+    /// Without `resume` all frames are ours from now on. Temporary files that killed processes have left, and states of
+    /// frames that are finished, are removed, now and at the end.
     /// @throws OutputError if another process makes one of them, or renders something else into the same files
     explicit FrameClaims(ClaimedOutput output);
     ~FrameClaims();
@@ -46,9 +47,10 @@ class FrameClaims {
     /// Ends a claim: the frame's file is written.
     void release(int frame);
 
-    bool is_finished(int frame) const;
+    /// The file of a frame is decoded once, so that damage anywhere in it is found.
+    bool is_finished(int frame);
     const ClaimedOutput& output() const { return output_; }
-    /// Frames with a file that was there before and could not be kept: cut, or of something else.
+    /// Frames with a file that was there before and could not be kept: damaged, or of something else.
     int replaced() const { return replaced_; }
 
   private:
@@ -56,6 +58,7 @@ class FrameClaims {
 
     const ClaimedOutput output_;
     FrameLocks locks_;
+    std::set<int> finished_;  ///< found whole
     int replaced_ = 0;
 };
 

@@ -31,6 +31,32 @@ TEST_F(GltfDeform, SkinsFollowTheSameJointsWithAnAddedCamera) {
               Track<glm::dvec3>(glm::dvec3(0.0, 1.0, 0.0)));
 }
 
+/// glTF 2.0, 3.7.3.3: only the joints place a skinned mesh, but its node still hides it.
+TEST_F(GltfDeform, SkinsIgnoreAFlatNode) {
+    const auto placed = [](const Scene& scene, double seconds) {
+        const ScenePose posed = pose(scene, seconds);
+        std::vector<glm::dvec3> points;
+        for (const glm::dvec3& p : posed.meshes[0].positions)
+            points.emplace_back(posed.world[posed.instances[0].node] * glm::dvec4(p, 1.0));
+        return points;
+    };
+    const std::vector<glm::dvec3> expected = placed(load(skin_draft()), 0.0);
+    GltfDraft flat = skin_draft();
+    flat.json["nodes"][0]["scale"] = {0, 0, 0};
+    EXPECT_EQ(placed(load(flat), 0.0), expected);
+    GltfDraft matrix = skin_draft();
+    matrix.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 4, 5, 6, 1};
+    EXPECT_EQ(placed(load(matrix), 0.0), expected);
+    GltfDraft above = skin_draft();  // a node above, which mirrors at 1 s
+    above.json["nodes"].push_back({{"children", {0}}});
+    above.json["scenes"][0]["nodes"] = {3, 1};
+    above.animate(3, "scale", {0, 2}, {1, 1, 1, -1, 1, 1});
+    for (const double seconds : {0.0, 1.0, 2.0}) EXPECT_EQ(placed(load(above), seconds), expected) << seconds;
+    above.json["nodes"][3]["extensions"]["KHR_node_visibility"]["visible"] = false;
+    above.json["extensionsUsed"] = {"KHR_node_visibility"};
+    EXPECT_EQ(pose(load(above), 0.0).shown[0], 0);
+}
+
 TEST_F(GltfDeform, CubicWeightsKeepTheirTangents) {
     GltfDraft draft = morph_draft();
     // Per key: in-tangents of both targets, values of both, out-tangents of both.

@@ -66,6 +66,14 @@ TEST_F(GltfPointerTest, NumbersOfCamerasLightsAndMaterials) {
             material(&Material::layers, &Layers::anisotropy_rotation));
 }
 
+TEST_F(GltfPointerTest, TheWidthOfAnOrthographicViewFollowsThePicture) {
+    GltfDraft draft = draft_with_everything();
+    draft.animate_pointer("/cameras/1/orthographic/xmag", {0, 2}, {0.25f, 0.75f});
+    const Scene scene = load(draft);
+    EXPECT_EQ(scene.cameras[1].half_height, Track<double>(1.0));
+    EXPECT_TRUE(scene.source.warnings.empty()) << scene.source.warnings[0];
+}
+
 TEST_F(GltfPointerTest, ColoursAndIor) {
     GltfDraft draft = draft_with_everything();
     draft.animate_pointer("/materials/0/pbrMetallicRoughness/baseColorFactor", {0, 1}, {0, 0, 0, 1, 1, 0.5f, 0, 0});

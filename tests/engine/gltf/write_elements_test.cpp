@@ -4,6 +4,7 @@
 #include "tests/support/cage_scenes.h"
 #include "tests/support/deforming_scenes.h"
 #include "tests/support/keyed_track.h"
+#include "tests/support/read_bytes.h"
 
 namespace aleph {
 namespace {
@@ -47,6 +48,25 @@ std::vector<double> times_between(double first, double last) {
     std::vector<double> times;
     for (int i = 0; i <= 24; ++i) times.push_back(first + (last - first) * i / 24.0);
     return times;
+}
+
+/// Programs that take the width beside the height would else stretch the picture.
+TEST(GltfWriteElements, BothSizesOfAnOrthographicViewMove) {
+    Scene scene;
+    Camera camera;
+    camera.name = "view";
+    camera.orthographic = true;
+    camera.half_height = keyed<double>({0.0, 2.0}, {1.0, 4.0});
+    scene.cameras.push_back(camera);
+    Node node;
+    node.name = "eye";
+    node.camera = 0;
+    scene.nodes.push_back(node);
+    const Exported files(scene, "write_view");
+    const std::string text = read_bytes(files.file);
+    for (const char* const size : {"/cameras/0/orthographic/xmag", "/cameras/0/orthographic/ymag"})
+        EXPECT_NE(text.find(size), std::string::npos) << size;
+    EXPECT_EQ(evaluate(files.after.cameras[0].half_height, 1.0), 2.5);
 }
 
 TEST(GltfWriteElements, EverythingThatCanMove) {

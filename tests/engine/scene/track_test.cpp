@@ -156,6 +156,15 @@ TEST(TimeSampling, NearestPrefersTheEarlierInATie) {
     EXPECT_EQ(nearest_sample(times, 3, 1.0), 1u);
     EXPECT_EQ(nearest_sample(times, 3, -9.0), 0u);
     EXPECT_EQ(nearest_sample(times, 3, 9.0), 2u);
+    // A frame in the middle of two keys at frames, whose times are rounded.
+    for (const double rate : {24.0, 25.0, 30.0, 60.0}) {
+        for (int frame = 1; frame < 500; ++frame) {
+            for (const int away : {1, 2, 5}) {
+                const TimeSampling keys = acyclic({(frame - away) / rate, (frame + away) / rate});
+                ASSERT_EQ(nearest_sample(keys, 2, frame / rate), 0u) << frame << " +- " << away << ", " << rate;
+            }
+        }
+    }
 }
 
 TEST(TimeSampling, RefusesWhatIsNot) {

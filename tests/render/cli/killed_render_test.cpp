@@ -272,9 +272,9 @@ TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
     EXPECT_NE(read_bytes(state), first) << "it went on";
     EXPECT_EQ(run(resumed).code, 0);
     expect_whole();
-    std::ofstream(state) << first;  // as after a kill between the picture and the removal of its state
+    std::ofstream(state, std::ios::binary) << first;  // killed between the frame's file and the end
     EXPECT_EQ(run(resumed).code, 0);
-    EXPECT_EQ(names_in(folder_ / "out"), (Words{"f.exr"}));
+    expect_whole();
 }
 
 TEST_F(KilledRender, APictureOfSomebodyElseIsKept) {
