@@ -6,6 +6,7 @@
 
 #include "engine/base/pixel_loops.h"
 #include "render/cache/gather.h"
+#include "render/light/seen_light_tree.h"
 
 namespace aleph {
 
@@ -208,6 +209,10 @@ Rgb estimate_radiance(const LightingContext& context, RayTask& task, const Pixel
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                             const EstimateOptions& options, RayCounts& counts) {
     const EstimateKind kind = options.kind;
+    LightTree seen;
+    if (kind == EstimateKind::direct) seen = make_seen_light_tree(context, view, centers, counts);
+    LightingContext lighting = context;
+    if (!seen.groups.empty()) lighting.seen = &seen;
     Image<Rgb> estimate(view.width, view.height);
     const float scale = static_cast<float>(options.exposure);
     Image<DiffuseSurface> surfaces;
@@ -223,7 +228,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
             }
             if (hit) {
                 const PixelSurface s = make_pixel_surface(context.shading, view, centers, x, y);
-                radiance = estimate_radiance(context, task, s, kind);
+                radiance = estimate_radiance(lighting, task, s, kind);
                 if (!surfaces.empty()) surfaces(x, y) = make_diffuse_surface(s);
             }
             estimate(x, y) = radiance * scale;

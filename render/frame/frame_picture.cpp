@@ -5,6 +5,7 @@
 #include "engine/base/pixel_loops.h"
 #include "render/frame/prepared_frame.h"
 #include "render/frame/sequence_state.h"
+#include "render/light/seen_light_tree.h"
 #include "render/plan/effect_table.h"
 #include "render/settings/measure.h"
 #include "render/shade/frame.h"
@@ -73,7 +74,9 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     std::optional<KeyframeRisk> risk;
     if (carried != nullptr) risk = find_risk(s, frame);
     if (risk) options.risk = &*risk;
-    const LightingContext lighting = s.here.lighting();
+    LightingContext lighting = s.here.lighting();
+    const LightTree seen = make_seen_light_tree(lighting, out.view, prepared.centers, out.statistics.counts.rays);
+    if (!seen.groups.empty()) lighting.seen = &seen;
     const IndirectContext context{.lighting = lighting,
                                   .view = out.view,
                                   .settings = prepared.plan.settings,

@@ -41,7 +41,7 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
                             const LightNumbers& numbers) {
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()};
     const LightCut cut = find_light_cut(context.lights, receiver);
-    const LightPick pick = pick_light(context.lights, cut, receiver, numbers.choice);
+    const LightPick pick = pick_light(cut, receiver, numbers.choice);
     if (pick.light == no_index) return without_light(cut);
     const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
     if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
@@ -54,7 +54,7 @@ ScatteredLight choose_lambert_light(const LightingContext& context, const Surfac
                                     const LightNumbers& numbers) {
     const Receiver receiver{place.ray_origin(), place.normal};
     const LightCut cut = find_light_cut(context.lights, receiver);
-    const LightPick pick = pick_light(context.lights, cut, receiver, numbers.choice);
+    const LightPick pick = pick_light(cut, receiver, numbers.choice);
     if (pick.light == no_index) return without_light(cut);
     const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
     const float cosine = glm::dot(place.normal, sample.direction);

@@ -14,6 +14,8 @@ struct LightingContext {
     const LightSet& lights;
     const RayScene& rays;
     Media around{};  ///< of the points that paths start from, such as the camera
+    /// The tree of the same lights for direct light of what the camera sees (seen_light_tree.h); null: LightSet::tree.
+    const LightTree* seen = nullptr;
 };
 
 /// Light of one light that a surface scatters towards its viewer, before its shadow ray is cast.

@@ -101,11 +101,12 @@ LightCut take_all_lights(const LightSet& lights, const Receiver& receiver) {
 
 }  // namespace
 
-LightCut find_light_cut(const LightSet& lights, const Receiver& receiver) {
+LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, const LightTree* tree) {
     LightCut cut;
     if (lights.count() == 0) return cut;
     if (lights.count() <= LightCut::few) return take_all_lights(lights, receiver);
-    const Candidates candidates = find_candidates(lights.tree, receiver);
+    cut.tree = tree != nullptr ? tree : &lights.tree;
+    const Candidates candidates = find_candidates(*cut.tree, receiver);
     for (int i = 0; i < candidates.size; ++i) {
         const float weight = candidates.estimates[i];
         cut.nodes[cut.size] = candidates.nodes[i];
@@ -117,7 +118,7 @@ LightCut find_light_cut(const LightSet& lights, const Receiver& receiver) {
     return cut;
 }
 
-LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver& receiver, float number) {
+LightPick pick_light(const LightCut& cut, const Receiver& receiver, float number) {
     LightPick pick;
     if (!std::isfinite(cut.total) || !(cut.total > 0.0f)) return pick;
     pick.rest = number;
@@ -125,8 +126,8 @@ LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver
     const auto size = static_cast<std::size_t>(cut.size);
     const std::size_t chosen = choose({cut.weights.data(), size}, {cut.ends.data(), size}, pick);
     int node = cut.has_all ? static_cast<int>(chosen) : cut.nodes[chosen];
-    while (!lights.tree.is_light(node)) {
-        const LightGroup& group = lights.tree.group(node);
+    while (!cut.has_all && !cut.tree->is_light(node)) {
+        const LightGroup& group = cut.tree->group(node);
         const LightReaches reaches = reach_of(group, receiver);
         LightGroup::Values ends;
         float total = 0.0f;

@@ -8,6 +8,7 @@ namespace aleph {
 struct LightCut {
     static constexpr int few = 16;       ///< so many lights are all in the cut
     static constexpr int capacity = 24;  ///< nodes
+    const LightTree* tree = nullptr;
     int size = 0;
     bool has_all = false;                 ///< the nodes are all lights, and `nodes` is not set
     std::array<int, capacity> nodes;      ///< children of LightTree, in its order: neighbours are neighbours
@@ -17,7 +18,8 @@ struct LightCut {
 };
 
 /// Few lights: all of them. Else groups are divided, that of the largest bound first, until there are enough nodes.
-LightCut find_light_cut(const LightSet& lights, const Receiver& receiver);
+/// @param tree  of the lights; null: LightSet::tree
+LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, const LightTree* tree = nullptr);
 
 /// A light chosen for a surface point.
 struct LightPick {
@@ -28,6 +30,6 @@ struct LightPick {
 
 /// Chosen in proportion to what the nodes bring, and then the groups within them.
 /// @param number  in [0,1)
-LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver& receiver, float number);
+LightPick pick_light(const LightCut& cut, const Receiver& receiver, float number);
 
 }  // namespace aleph

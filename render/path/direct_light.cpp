@@ -46,14 +46,14 @@ class ChosenLights {
           lit_(lit),
           shares_(shares),
           receiver_{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()},
-          cut_(find_light_cut(context.lights, receiver_)),
+          cut_(find_light_cut(context.lights, receiver_, context.seen)),
           seen_(context.lights, receiver_) {}
 
     /// Light of one sample of `count`.
     /// @param u            x chooses the light; what that leaves of it, and y, are the point on it
     /// @param light_share  sample_light
     Rgb sample(RayTask& task, const glm::vec2& u, int count, float light_share) {
-        const LightPick pick = pick_light(context_.lights, cut_, receiver_, u.x);
+        const LightPick pick = pick_light(cut_, receiver_, u.x);
         if (pick.light == no_index) return Rgb(0.0f);
         const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen_.at(pick.light), receiver_,
                                                      {pick.rest, u.y}, light_share);

@@ -26,21 +26,32 @@ glm::vec3 flip(const glm::vec3& v) {
     return {v.x, v.y, -v.z};
 }
 
+/// Share of light that passes an interface, by the cosines on both sides, and not as what is left of the reflectance:
+/// that cancels at grazing angles.
+/// @param across  of the ray with the normal, in its medium; `along` of the refracted ray times the ratio
+double transmittance(double near, double far, double ratio) {
+    const double r2 = ratio * ratio, s = near + far, p = r2 * near + far;
+    return 2.0 * near * far * (1.0 / (s * s) + r2 / (p * p));
+}
+
+/// In double: the half vector is a difference, and the cosines with it cancel.
 LobeValue evaluate_refracted(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
-    const float ratio = material.glass.ior_ratio;
-    glm::vec3 h = view + light * ratio;
-    const float length = glm::length(h);
-    if (!(length > 0.0f)) return {};
-    h /= h.z < 0.0f ? -length : length;
-    const float vh = glm::dot(view, h), lh = glm::dot(light, h);
-    if (!(vh > 0.0f && lh < 0.0f)) return {};
+    const double ratio = material.glass.ior_ratio;
+    const glm::dvec3 v(view), l(light);
+    glm::dvec3 h = v + l * ratio;
+    const double length = glm::length(h);
+    if (!(length > 0.0)) return {};
+    h /= h.z < 0.0 ? -length : length;
+    const double vh = glm::dot(v, h), lh = glm::dot(l, h);
+    if (!(vh > 0.0 && lh < 0.0)) return {};
     const glm::vec2 widths = material.widths();
-    const float passed = 1.0f - reflectance(material, vh);
-    const float denominator = vh + ratio * lh;
-    const float jacobian = ratio * ratio * -lh / (denominator * denominator);
-    const float common = ggx_d(widths, h) * vh / view.z * jacobian * passed * material.glass.share;
-    const LobeValue value{material.glass.tint * (common * smith_g2(widths, view, flip(light))),
-                          common / material.glass.share * smith_g1(widths, view)};
+    const double reflected = std::min(1.0, (1.0 - transmittance(vh, -ratio * lh, ratio)) * material.glass.specular);
+    const double denominator = vh + ratio * lh;
+    const double jacobian = ratio * ratio * -lh / (denominator * denominator);
+    const auto common = static_cast<float>(static_cast<double>(ggx_d(widths, glm::vec3(h))) * vh /
+                                           static_cast<double>(view.z) * jacobian * (1.0 - reflected));
+    const LobeValue value{material.glass.tint * (common * material.glass.share * smith_g2(widths, view, flip(light))),
+                          common * smith_g1(widths, view)};
     return std::isfinite(value.pdf) ? value : LobeValue{};
 }
 

@@ -177,6 +177,32 @@ TEST(SensitivityHard, CS08_BrokenVelocitiesCountAsRestOrAsVeryFast) {
     for (const double v : {largest, infinity, 1e30}) EXPECT_EQ(aleph_at(v), 1.0f) << v;
 }
 
+/// A model of a program's own whose elevations are out of range.
+class BrokenVision final : public PlainVision {
+  public:
+    explicit BrokenVision(double elevation) : elevation_(elevation) {}
+    std::string name() const override { return "broken"; }
+    std::string summary() const override { return "out of range"; }
+    double elevation(const Stimulus&, const Presentation&) const override { return elevation_; }
+    double threshold(double) const override { return 1.0; }
+
+  private:
+    double elevation_;
+};
+
+TEST(SensitivityHard, CS08_ElevationsOutOfRangeAreClampedAndCounted) {
+    Image<Rgb> checker(16, 16);
+    for (const auto [x, y] : all_pixels(16, 16)) checker(x, y) = Rgb((x + y) % 2 == 0 ? 0.2f : 0.8f);
+    for (const auto& [given, expected] : {std::pair(not_a_number, 1.0f), std::pair(0.0, 1.0f), std::pair(-5.0, 1.0f),
+                                          std::pair(infinity, 1.0f), std::pair(1e9, 250.8f), std::pair(7.0, 7.0f)}) {
+        const BrokenVision vision(given);
+        const PerceptionMaps maps =
+            compute_perception(checker, constant_image(16, 16, 1.0), {}, {}, {.guide = Guide::full, .vision = &vision});
+        for (const float aleph : maps.aleph.pixels) ASSERT_NEAR(aleph, expected, 0.1) << given;
+        EXPECT_EQ(maps.clamped, given == 7.0 ? 0u : 256u) << given;
+    }
+}
+
 TEST(SensitivityHard, CS09_StaticCheckerAndRamp) {
     const int size = 256;
     Image<Rgb> checker(size, size), ramp(size, size);

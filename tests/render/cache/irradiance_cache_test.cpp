@@ -146,6 +146,14 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
     broken.gradients.rotation.fill(glm::vec3(float_nan, 0.0f, 0.0f));
     const IrradianceRecord record = make_record(glm::vec3(0.0f), up, 1.0f, broken, any_radius).value();
     EXPECT_EQ(extrapolate(record, glm::vec3(0.1f), {1.0f, 0.0f, 0.0f}), Rgb(1.0f));
+    // Luminance hardly shows how steep the blue of yellow light is.
+    IrradianceSample yellow{.irradiance = Rgb(1.0f, 1.0f, 0.01f)};
+    yellow.nearest_distance = 1.0f;
+    yellow.gradients.translation[2] = glm::vec3(1.0f, 0.0f, 0.0f);
+    const IrradianceRecord steep = make_record(glm::vec3(0.0f), up, 1.0f, yellow, any_radius).value();
+    EXPECT_NEAR(glm::length(steep.gradients.translation[2]) * steep.radius, 0.01f, 1e-6f);
+    EXPECT_EQ(extrapolate(steep, glm::vec3(-3.0f * steep.radius, 0.0f, 0.0f), up).z, 0.0f);
+    EXPECT_EQ(extrapolate(steep, glm::vec3(3.0f * steep.radius, 0.0f, 0.0f), up).z, 0.02f);
 }
 
 TEST(IrradianceCache, IrradianceThatIsNotFiniteMakesNoRecord) {

@@ -130,22 +130,36 @@ TEST(IrradianceCache, IC19_BehindAClosedFenceItIsDark) {
     expect_dark_right(std::move(scene), 0.01, plain_settings(0.0, 256));
 }
 
-TEST(IrradianceCache, IC19_ChairLegsCostFewRecords) {
-    const auto count_records = [](bool legs) {
-        Scene scene = make_lamp_room({0.5, 1.2, 0.3});
-        for (int chair = 0; legs && chair < 3; ++chair) {
-            for (int leg = 0; leg < 4; ++leg) {
-                add_mesh(scene, make_box({0.03, 0.45, 0.03}, 0),
-                         {-1.0 + 0.9 * chair + 0.4 * (leg % 2), -1.275, -0.8 + 0.4 * (leg / 2)});
-            }
+/// Twelve legs of chairs on the floor of a room.
+Scene make_room_of_chairs(bool legs) {
+    Scene scene = make_lamp_room({0.5, 1.2, 0.3});
+    for (int leg = 0; legs && leg < 12; ++leg) {
+        add_mesh(scene, make_box({0.03, 0.45, 0.03}, 0),
+                 {-1.0 + 0.9 * (leg / 4) + 0.4 * (leg % 2), -1.275, -0.8 + 0.4 * (leg / 2 % 2)});
+    }
+    add_camera(scene, {0.0, 0.3, 1.9}, {0.0, -0.6, 0.0}, 1.0);
+    return scene;
+}
+
+/// Posts of 1 cm, 10 cm apart, divide a court.
+Scene make_fenced_court(bool posts) {
+    Scene scene = make_court();
+    for (int i = 0; posts && i <= 20; ++i) add_mesh(scene, make_box({0.01, 1.0, 0.01}, 0), {0.0, 0.5, -1.0 + 0.1 * i});
+    return scene;
+}
+
+TEST(IrradianceCache, IC19_LegsAndPostsCostFewRecords) {
+    for (const auto& [name, make_scene] :
+         {std::pair("legs", &make_room_of_chairs), std::pair("posts", &make_fenced_court)}) {
+        for (const double accuracy : {0.15, 0.05}) {
+            const auto count_records = [&, make = make_scene](bool things) {
+                return shade(Stage(make(things), 160, 120), plain_settings(accuracy, 0)).counts.records;
+            };
+            const auto without = count_records(false), with = count_records(true);
+            EXPECT_GT(without, 100u);
+            EXPECT_LE(2 * with, 3 * without) << name << " at " << accuracy << ": " << with << ", not " << without;
         }
-        add_camera(scene, {0.0, 0.3, 1.9}, {0.0, -0.6, 0.0}, 1.0);
-        const Stage stage(std::move(scene), 640, 480);  // the default size; in small pictures legs cost more
-        return shade(stage, plain_settings(0.15, 512)).counts.records;
-    };
-    const auto without = count_records(false), with = count_records(true);
-    EXPECT_GT(without, 100u);
-    EXPECT_LE(2 * with, 3 * without) << with << " records, without legs " << without;
+    }
 }
 
 void expect_dark_behind_wall(double thickness) {

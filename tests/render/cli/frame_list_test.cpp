@@ -105,7 +105,7 @@ std::string refused_pattern(const std::string& pattern) {
 }
 
 TEST(OutputPath, RefusesOtherFormatsAndStandardOutput) {
-    for (const char* pattern : {"x.jpg", "x.hdr", "out.with.dots", "a.####.jpeg", "shots/v1.2", "a.####", "a_%04d"}) {
+    for (const char* pattern : {"x.jpg", "out.with.dots", "a.####.jpeg", "shots/v1.2", "a.####", "a_%04d"}) {
         EXPECT_THAT(refused_pattern(pattern), HasSubstr("possible are .exr and .png, or a folder")) << pattern;
     }
     EXPECT_THAT(refused_pattern("x.jpg"), HasSubstr("the extension .jpg is not known"));
@@ -115,6 +115,12 @@ TEST(OutputPath, RefusesOtherFormatsAndStandardOutput) {
     }
     EXPECT_EQ(output_format("x.EXR"), OutputFormat::exr);
     EXPECT_EQ(output_format("x.Png"), OutputFormat::png);
+}
+
+TEST(OutputPath, OU03_NoRadiancePicturesAreWritten) {
+    for (const char* pattern : {"x.hdr", "x.HDR", "a.####.hdr", "shots/x.hdr"}) {
+        EXPECT_THAT(refused_pattern(pattern), HasSubstr("possible are .exr and .png, or a folder")) << pattern;
+    }
 }
 
 TEST(OutputPath, SeveralFramesNeedANumber) {

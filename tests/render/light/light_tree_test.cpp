@@ -162,7 +162,7 @@ TEST(LightTree, LightsAreChosenWithTheProbabilityThatIsSaid) {
                 rests(times.size());
             for (int k = 0; k < numbers; ++k) {
                 const float number = (static_cast<float>(k) + 0.5f) / numbers;
-                const LightPick pick = pick_light(stage.lights, cut, receiver, number);
+                const LightPick pick = pick_light(cut, receiver, number);
                 if (pick.light == no_index) continue;
                 ASSERT_TRUE(pick.rest >= 0.0f && pick.rest < 1.0f);
                 ++times[pick.light];

@@ -2,6 +2,9 @@
 // Evenly spread points.
 
 #include "render/pixels/pixel_sequence.h"
+
+#include <bit>
+
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -40,6 +43,25 @@ TEST(PixelSequence, MC04_EveryPowerOfTwoOfSamplesHasOneInEachElementaryInterval)
                     ASSERT_TRUE(is_net(points)) << pixel << " " << k << " " << block;
                 }
             }
+        }
+    }
+}
+
+TEST(PixelSequence, MC04_AnyNumberOfSamplesIsEven) {
+    // Equal intervals of each coordinate: those of the next power of two hold at most one point, and those of the power
+    // before at least one.
+    for (const int count : {1, 2, 3, 7, 17, 512, 8191, 8192}) {
+        const int finer = static_cast<int>(std::bit_ceil(static_cast<unsigned>(count)));
+        const int coarser = static_cast<int>(std::bit_floor(static_cast<unsigned>(count)));
+        for (const bool second : {false, true}) {
+            std::set<int> fine, coarse;
+            for (int i = 0; i < count; ++i) {
+                const glm::vec2 p = PixelSequence(5, 1, 12, 9).at_2d(SampleUse::light_point, i);
+                fine.insert(static_cast<int>((second ? p.y : p.x) * static_cast<float>(finer)));
+                coarse.insert(static_cast<int>((second ? p.y : p.x) * static_cast<float>(coarser)));
+            }
+            EXPECT_EQ(std::ssize(fine), count);
+            EXPECT_EQ(std::ssize(coarse), coarser) << count;
         }
     }
 }

@@ -1,0 +1,171 @@
+// Frames under ten lights and under a thousand, at an error that is asked for: what they cost, and what they err by.
+
+#include "render/frame/sequence.h"
+#include "render/light/light_cut.h"
+#include "render/light/seen_light_tree.h"
+#include "tests/support/all_pixels.h"
+#include "tests/support/keyed_track.h"
+#include "tests/support/path_estimates.h"
+#include "tests/support/test.h"
+
+namespace aleph {
+namespace {
+
+enum class CrowdKind { equal, one_bright, one_visible, coincident, moving };
+constexpr int crowd_width = 24, crowd_height = 16;
+constexpr double crowd_pixel = 0.05, crowd_fps = 30.0;  // m; frames per second
+
+struct CrowdLight {
+    glm::dvec3 at, to;  ///< m, at frame 0 and at frame 10
+    double intensity = 1.0;
+    bool seen = true;
+};
+
+/// Lights two metres above a floor, all of them with 2 cd together that reach it.
+std::vector<CrowdLight> place_crowd(int count, CrowdKind kind) {
+    std::vector<CrowdLight> lights;
+    const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+    double total = 0.0;
+    for (int i = 0; i < count; ++i) {
+        CrowdLight light;
+        light.at = {4.0 * (i % side + 0.5) / side - 2.0, 2.0 + 0.3 * std::sin(1.7 * i),
+                    4.0 * (i / side + 0.5) / side - 2.0};
+        if (kind == CrowdKind::coincident) light.at = {0.5, 2.0, 0.5};
+        if (kind == CrowdKind::one_bright && i == count * 6 / 10) light.intensity = 1e6;
+        light.seen = kind != CrowdKind::one_visible || i == count / 3;
+        if (kind == CrowdKind::one_visible && light.seen) light.at = {0.3, 1.0, 0.2};
+        light.to = light.at;
+        if (kind == CrowdKind::moving) light.to.x += i % 2 == 0 ? 0.8 : -0.8;
+        if (light.seen) total += light.intensity;
+        lights.push_back(light);
+    }
+    for (CrowdLight& light : lights) light.intensity *= 2.0 / total;
+    return lights;
+}
+
+/// The floor from straight above. A sheet hides all lights above 1.4 m where but one are to be hidden.
+Scene make_crowd_scene(const std::vector<CrowdLight>& lights, CrowdKind kind) {
+    Scene scene;
+    scene.film.exposure = 1.0;
+    add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.6))), glm::dvec3(0.0), z_to_up);
+    if (kind == CrowdKind::one_visible) {
+        const int black = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0), true);
+        add_mesh(scene, make_quad(20.0, 20.0, black), {0.0, 1.4, 0.0}, z_to_up);
+    }
+    add_camera(scene, {0.0, 0.9, 0.0}, glm::dvec3(0.0));
+    scene.cameras[0].orthographic = true;
+    scene.cameras[0].half_height = 0.5 * crowd_height * crowd_pixel;
+    for (const CrowdLight& light : lights) {
+        add_light(scene, Light::Kind::point, glm::dvec3(light.intensity), light.at);
+        if (kind == CrowdKind::moving)
+            scene.nodes.back().transform.translation = keyed<glm::dvec3>({0.0, 10.0 / crowd_fps}, {light.at, light.to});
+    }
+    return scene;
+}
+
+/// @param moved  share of the way
+double crowd_radiance(const std::vector<CrowdLight>& lights, const glm::dvec3& point, double moved) {
+    double sum = 0.0;
+    for (const CrowdLight& light : lights) {
+        if (!light.seen) continue;
+        const glm::dvec3 way = glm::mix(light.at, light.to, moved) - point;
+        const double square = glm::dot(way, way);
+        sum += 0.6 / pi * light.intensity * way.y / (square * std::sqrt(square));
+    }
+    return sum;
+}
+
+struct CrowdCost {
+    double samples = 0.0;  ///< of a pixel
+    int beyond = 0;        ///< pixels that err by more than a threshold
+};
+
+CrowdCost render_crowd(int count, CrowdKind kind) {
+    const std::vector<CrowdLight> lights = place_crowd(count, kind);
+    const Scene scene = make_crowd_scene(lights, kind);
+    const bool moves = kind == CrowdKind::moving;
+    RenderSettings settings{.picture = {.width = crowd_width, .height = crowd_height, .filter = PixelFilter::box}};
+    settings.cache.light_step = 0;
+    settings.light.bounces = 0;
+    follow_error(settings, 1.0);
+    CrowdCost cost;
+    constexpr std::uint32_t seeds = 6;
+    for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
+        const FrameOutput out = Sequence(scene, settings).render(moves ? 5 : 0);
+        for (const auto [x, y] : all_pixels(crowd_width, crowd_height)) {
+            double truth = 0.0;
+            for (int p = 0; p < 16; ++p) {
+                const glm::dvec3 point((x + (p % 4 + 0.5) / 4 - 0.5 * crowd_width) * crowd_pixel, 0.0,
+                                       (y + (p / 4 + 0.5) / 4 - 0.5 * crowd_height) * crowd_pixel);
+                truth += crowd_radiance(lights, point, moves ? 0.5 : 0.0) / 16.0;
+            }
+            const double error = std::abs(luminance(out.shaded.color(x, y)) - truth);
+            cost.beyond += error * scene.film.viewing.display_white > out.limits.threshold(x, y);
+            cost.samples += out.shaded.samples(x, y) / (seeds * crowd_width * crowd_height);
+        }
+    }
+    return cost;
+}
+
+TEST(ManyLights, MC23_AThousandCostAtMostFourTimesTenAndNoPixelErrsByMore) {
+    for (const CrowdKind kind :
+         {CrowdKind::equal, CrowdKind::one_bright, CrowdKind::one_visible, CrowdKind::coincident, CrowdKind::moving}) {
+        SCOPED_TRACE(static_cast<int>(kind));
+        const CrowdCost ten = render_crowd(10, kind), thousand = render_crowd(1000, kind);
+        EXPECT_EQ(ten.beyond, 0);
+        EXPECT_EQ(thousand.beyond, 0);
+        EXPECT_LE(thousand.samples, 4.0 * ten.samples);
+    }
+}
+
+TEST(ManyLights, MC23_HiddenLightsAreChosenSeldom) {
+    const std::vector<CrowdLight> lights = place_crowd(1000, CrowdKind::one_visible);
+    const Stage stage(make_crowd_scene(lights, CrowdKind::one_visible), 32, 24);
+    RayCounts counts;
+    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    const LightTree tree = make_seen_light_tree(stage.lighting(), stage.view, centers, counts);
+    ASSERT_FALSE(tree.groups.empty());
+    EXPECT_LE(counts.shadow, 64'000u);
+    LightingContext lighting = stage.lighting();
+    lighting.seen = &tree;
+    const ViewedSurface floor{make_point(glm::vec3(0.0f), up), make_lambert(0.6f), up};
+    const double expected = crowd_radiance(lights, glm::dvec3(0.0), 0.0);
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        RayTask task(stage.rays);
+        Mean mean;
+        for (int i = 0; i < trial.times(2000); ++i) {
+            const PixelSequence sequence(static_cast<std::uint32_t>(i) + trial.seed, 0, 5, 7);
+            mean.add(sample_direct_light(lighting, task, LitSurface(floor), {}, sequence, {0, 1}).x);
+        }
+        trial.near(mean, expected, 1e-5 * expected);
+        EXPECT_LT(mean.error() * std::sqrt(trial.times(2000.0)), expected);  // 30 times that, by power alone
+    }));
+}
+
+/// Choices by a tree that is wrong about every other light, which is seen, have the right mean.
+TEST(ManyLights, MC23_LightsThatAreTakenForHiddenKeepTheirLight) {
+    const std::vector<CrowdLight> lights = place_crowd(1000, CrowdKind::equal);
+    const Stage stage(make_crowd_scene(lights, CrowdKind::equal), 32, 24);
+    std::vector<LightNode> nodes = make_light_nodes(stage.shading, stage.lights);
+    for (std::size_t i = 0; i < nodes.size(); i += 2) nodes[i].strength *= 0.1f, nodes[i].most *= 0.1f;
+    const LightTree tree = make_light_tree(nodes);
+    LightingContext lighting = stage.lighting();
+    lighting.seen = &tree;
+    const ViewedSurface floor{make_point(glm::vec3(0.0f), up), make_lambert(0.6f), up};
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        RayTask task(stage.rays);
+        Mean mean;
+        for (int i = 0; i < trial.times(4000); ++i) {
+            const PixelSequence sequence(static_cast<std::uint32_t>(i) + trial.seed, 0, 5, 7);
+            mean.add(sample_direct_light(lighting, task, LitSurface(floor), {}, sequence, {0, 4}).x);
+        }
+        trial.near(mean, crowd_radiance(lights, glm::dvec3(0.0), 0.0), 1e-5);
+    }));
+    // Where nothing is hidden, the choice stays as it is.
+    RayCounts counts;
+    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    EXPECT_TRUE(make_seen_light_tree(stage.lighting(), stage.view, centers, counts).groups.empty());
+}
+
+}  // namespace
+}  // namespace aleph
