@@ -110,6 +110,8 @@ AlphaCutout make_alpha_cutout(const Scene& scene, const Mesh& mesh) {
     AlphaCutout cutout;
     cutout.material = mesh.material;
     cutout.blended = material.opacity.mode == Opacity::Mode::blend;
+    const auto& transmission = material.glass.transmission;
+    cutout.plain = cutout.blended && !is_animated(transmission) && !(evaluate(transmission, 0.0) > 0.0);
     if (!cutout.blended) cutout.cutoff = static_cast<float>(material.opacity.cutoff);
     cutout.texture = make_alpha_texture(scene, material.textures[TextureSlot::base_color]);
     cutout.triangles = mesh.triangles;

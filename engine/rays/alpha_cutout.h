@@ -27,6 +27,7 @@ struct AlphaCutout {
     int material = no_index;
     float cutoff = 0.5f;
     bool blended = false;
+    bool plain = false;  ///< blended, and glass at no time: 1 - alpha is all that it lets pass
     AlphaTexture texture;
     std::vector<glm::uvec3> triangles;
     std::vector<glm::vec2> uv;        ///< per vertex, of the texture's set; may be empty

@@ -171,6 +171,7 @@ MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::un
         cutouts[i] = std::make_unique<const AlphaCutout>(make_alpha_cutout(scene, scene.meshes[i]));
         any_cutout = true;
         any_blended = any_blended || cutouts[i]->blended;
+        any_plain = any_plain || cutouts[i]->plain;
     }
     const FlatPlan flat_plan = make_flat_plan(scene, plan, flatten);
     flat.instances = flat_plan.flat;

@@ -27,6 +27,8 @@ bool is_traceable(const glm::dmat4& world);
 /// True for posed points of a deforming mesh that can be traced: finite and below max_coordinate.
 bool are_traceable(const std::vector<glm::dvec3>& positions);
 
+struct RayLane;
+
 class RayScene {
   public:
     /// Builds the structures of every rigid mesh; those of deforming meshes are built by the first update. What stands
@@ -68,11 +70,12 @@ class RayScene {
 /// The effect of surfaces with AlphaMode::blend on rays. Alpha masks are the same in both.
 enum class Blend {
     cutout,  ///< rays pass where alpha is below .5: no noise, for maps and quick pictures
-    /// At each surface a ray passes with probability 1 - alpha, so that pictures and shadows are right on average. The
+    /// At each surface a ray passes with probability 1 - alpha, so that pictures are right on average. The
     /// choice is a hash of the ray's origin and direction, the instance and the triangle: the same whenever the same
     /// ray is cast, alone or in a packet, on any thread, and independent between different rays and between the
     /// surfaces that one ray meets. Rays with equal origin and direction share their choices: vary them per sample.
     random,
+    whole,  ///< rays pass only where alpha is 0: for callers that weigh what is met by alpha
 };
 
 /// Casts rays. Make one per task: it is cheap, counts locally, and adds its counts to the RayScene when destroyed.
@@ -86,6 +89,13 @@ class Tracer {
     /// @param normal  if given, set as by the function for packets
     Hit intersect(const Ray& ray, glm::vec3* normal = nullptr);
     bool occluded(const Ray& ray);
+    /// Share of the light along a ray that is left: blended surfaces that are not glass leave 1 - alpha, without
+    /// chance. All others stop it, or none if `plain_only`.
+    float transmittance(const Ray& ray, bool plain_only = false);
+    /// The nearest of those others.
+    Hit intersect_others(const Ray& ray);
+    /// True where a mesh is blended.
+    bool has_blended() const;
 
     /// In packets, one hit per ray; quick where neighbouring rays have similar origins and directions.
     /// @param normals   if given, set to the true normals of what is hit: across the triangle, as long as twice its
@@ -93,6 +103,9 @@ class Tracer {
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<glm::vec3> normals = {});
 
   private:
+    template <class Use>
+    bool trace(const Ray& ray, bool occlusion, RayLane& lane, const Use& set_up);
+
     RayScene::State& state_;
     Blend blend_;
     std::uint64_t traced_ = 0, invalid_ = 0;

@@ -55,6 +55,7 @@ struct MeshStructures {
     std::vector<DeformingMesh> deforming;
     bool any_cutout = false;
     bool any_blended = false;  ///< of the cutouts
+    bool any_plain = false;
 };
 
 struct RayScene::State {

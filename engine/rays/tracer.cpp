@@ -37,8 +37,10 @@ Hit make_hit(const RayLane& lane) {
     return {met.instance, static_cast<int>(met.primitive), met.u, met.v, static_cast<float>(met.distance)};
 }
 
-void trace_lane(const RayScene::State& state, Blend blend, bool occlusion, RayLane& lane) {
-    Traversal traversal(state, &lane, blend, occlusion);
+/// Traces the traversal's only ray.
+void trace_lane(Traversal& traversal) {
+    const RayScene::State& state = *traversal.state;
+    RayLane& lane = traversal.lanes[0];
     if (state.meshes->flat.tree != nullptr && state.placed)
         trace_triangles(*state.meshes->flat.tree, lane.origin + state.flat_shift, lane.direction, traversal);
     for (const ObjectLayer* layer : state.layers()) {
@@ -161,29 +163,51 @@ Tracer::~Tracer() {
     if (invalid_ > 0) state_.invalid_rays.fetch_add(invalid_, std::memory_order_relaxed);
 }
 
-Hit Tracer::intersect(const Ray& ray, glm::vec3* normal) {
-    if (!is_valid(ray)) {
-        ++invalid_;
-        return {};
-    }
-    ++traced_;
-    RayLane lane;
-    lane.set(ray);
-    trace_lane(state_, blend_, false, lane);
-    if (normal != nullptr && !lane.nearest.empty()) *normal = lane.nearest.result().normal;
-    return make_hit(lane);
-}
-
-bool Tracer::occluded(const Ray& ray) {
+template <class Use>
+bool Tracer::trace(const Ray& ray, bool occlusion, RayLane& lane, const Use& set_up) {
     if (!is_valid(ray)) {
         ++invalid_;
         return false;
     }
     ++traced_;
-    RayLane lane;
     lane.set(ray);
-    trace_lane(state_, blend_, true, lane);
-    return lane.blocked;
+    Traversal traversal(state_, &lane, blend_, occlusion);
+    set_up(traversal);
+    trace_lane(traversal);
+    return true;
+}
+
+Hit Tracer::intersect(const Ray& ray, glm::vec3* normal) {
+    RayLane lane;
+    if (!trace(ray, false, lane, [](Traversal&) {})) return {};
+    if (normal != nullptr && !lane.nearest.empty()) *normal = lane.nearest.result().normal;
+    return make_hit(lane);
+}
+
+Hit Tracer::intersect_others(const Ray& ray) {
+    RayLane lane;
+    const bool traced = trace(ray, false, lane, [](Traversal& traversal) { traversal.attenuates = true; });
+    return traced ? make_hit(lane) : Hit{};
+}
+
+bool Tracer::has_blended() const {
+    return state_.meshes->any_blended;
+}
+
+bool Tracer::occluded(const Ray& ray) {
+    RayLane lane;
+    return trace(ray, true, lane, [](Traversal&) {}) && lane.blocked;
+}
+
+float Tracer::transmittance(const Ray& ray, bool plain_only) {
+    if (plain_only && !state_.meshes->any_plain) return 1.0f;
+    RayLane lane;
+    const bool traced = trace(ray, true, lane, [&](Traversal& traversal) {
+        traversal.attenuates = true;
+        traversal.plain_only = plain_only;
+    });
+    if (!traced) return 1.0f;
+    return lane.blocked ? 0.0f : static_cast<float>(std::exp2(-0x1p-24 * static_cast<double>(lane.attenuation)));
 }
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<glm::vec3> normals) {

@@ -29,11 +29,17 @@ float choose(const Ray& ray, int instance, std::uint32_t primitive) {
     return unit_float(static_cast<std::uint32_t>(mix_bits(key + mix_bits(place + 0x9e3779b97f4a7c15ull)) >> 32));
 }
 
-bool is_hole(const AlphaCutout& cutout, const Traversal& traversal, const RayLane& lane, const Crossing& at) {
+bool is_hole(const AlphaCutout& cutout, const Traversal& traversal, RayLane& lane, const Crossing& at) {
     const float alpha = cutout.alpha_at(traversal.state->alpha[cutout.material], at.primitive, at.u, at.v);
+    if (traversal.attenuates && cutout.plain && alpha < 1.0f) {
+        const double halvings = alpha > 0.0f ? -static_cast<double>(std::log2(1.0f - alpha)) : 0.0;
+        lane.attenuation += std::llround(0x1p24 * (at.bordering ? 0.5 : 1.0) * halvings);  // of two triangles half each
+        return true;
+    }
+    if (traversal.plain_only) return true;
     // As a share, 0 lets every ray pass; as a mask, alpha at the cutoff is no hole (glTF 2.0, 3.9.4).
-    if (traversal.random && cutout.blended) return alpha <= choose(*lane.given, at.instance, at.primitive);
-    return alpha < cutout.cutoff;
+    if (!cutout.blended || traversal.blend == Blend::cutout) return alpha < cutout.cutoff;
+    return alpha <= (traversal.blend == Blend::whole ? 0.0f : choose(*lane.given, at.instance, at.primitive));
 }
 
 /// 1 / a power of two, exactly.
@@ -43,8 +49,7 @@ double invert(double power) {
 
 /// The triangles of a block that a ray meets, holes aside.
 template <class Take>
-void test_block(const TriangleTree& tree, unsigned index, const Traversal& traversal, const RayLane& lane,
-                const Take& take) {
+void test_block(const TriangleTree& tree, unsigned index, const Traversal& traversal, RayLane& lane, const Take& take) {
     const TriangleBlock& block = tree.block(index);
     BlockHits hits;
     const double start = lane.object_entry.start;
@@ -52,6 +57,7 @@ void test_block(const TriangleTree& tree, unsigned index, const Traversal& trave
     for (int i = 0; i < TriangleBlock::size; ++i) {
         if (!hits.found[i]) continue;
         const TreePart& part = tree.part(block.part[i]);
+        if (traversal.plain_only && part.cutout == nullptr) continue;
         const glm::dvec3 a = block.corner(i, 0);
         const glm::dvec3 normal = glm::cross(block.corner(i, 1) - a, block.corner(i, 2) - a);
         if (normal == glm::dvec3(0.0)) continue;  // no area
@@ -65,6 +71,7 @@ void test_block(const TriangleTree& tree, unsigned index, const Traversal& trave
                                 traversal.first_instance + part.instance,
                                 block.primitive[i],
                                 (along > 0.0) != part.mirrored,
+                                hits.bordering[i],
                                 glm::vec3(normal)};
         if (part.cutout != nullptr && is_hole(*part.cutout, traversal, lane, crossing)) continue;
         if (!take(crossing)) return;
@@ -101,15 +108,21 @@ void RayLane::set(const Ray& ray) {
     far = ray.far;
     nearest.clear();
     blocked = false;
+    attenuation = 0;
 }
 
-Traversal::Traversal(const RayScene::State& of, RayLane* rays, Blend blend, bool any_hit)
-    : lanes(rays), state(&of), random(blend == Blend::random && of.meshes->any_blended), occlusion(any_hit) {
+Traversal::Traversal(const RayScene::State& of, RayLane* rays, Blend blended, bool any_hit)
+    : lanes(rays), state(&of), blend(blended), occlusion(any_hit) {
     rtcInitIntersectContext(&embree);
 }
 
 Traversal::Traversal(const Traversal& outer, RayLane& lane)
-    : lanes(&lane), state(outer.state), random(outer.random), occlusion(outer.occlusion) {
+    : lanes(&lane),
+      state(outer.state),
+      blend(outer.blend),
+      occlusion(outer.occlusion),
+      attenuates(outer.attenuates),
+      plain_only(outer.plain_only) {
     rtcInitIntersectContext(&embree);
 }
 

@@ -20,6 +20,7 @@ struct Crossing {
     int instance;
     unsigned primitive;
     bool back;         ///< the triangle shows its back, in the object's own space
+    bool bordering;    ///< BlockHits
     glm::vec3 normal;  ///< across the triangle, as long as twice its area, in the tree's space
 };
 
@@ -74,6 +75,8 @@ struct RayLane {
     double near, far;
     Nearest nearest;
     bool blocked = false;
+    /// Light that plain blended surfaces take, in 2^-24 halvings: the sum of whole numbers has no order.
+    std::int64_t attenuation = 0;
 
     Entry entry;         ///< of the tree of objects
     Entry object_entry;  ///< of the tree of triangles
@@ -100,10 +103,12 @@ struct Traversal {
     RayLane* lanes;              ///< as many as the packet has
     const RayScene::State* state;
     int first_instance = 0;  ///< added to the part's
-    bool random = false;     ///< for blended surfaces: see Blend
+    Blend blend;
     bool occlusion = false;
+    bool attenuates = false;  ///< plain blended surfaces (AlphaCutout) stop no ray but take their share of its light
+    bool plain_only = false;  ///< the others stop none
 
-    Traversal(const RayScene::State& of, RayLane* rays, Blend blend, bool any_hit);
+    Traversal(const RayScene::State& of, RayLane* rays, Blend blended, bool any_hit);
     /// One of its rays.
     Traversal(const Traversal& outer, RayLane& lane);
 };

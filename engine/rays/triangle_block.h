@@ -50,6 +50,7 @@ using Lanes = std::experimental::simd<double, std::experimental::simd_abi::deduc
 
 struct BlockHits {
     Lanes::mask_type found;
+    Lanes::mask_type bordering;  ///< exactly on an edge, so that a neighbour is met as well
     Lanes distance, u, v;  ///< of those found: in lengths of the direction; weights of the second and third corner
 };
 
@@ -76,6 +77,7 @@ inline bool intersect_block(const TriangleBlock& block, const ShearedRay& ray, d
     hits.distance = ray.inverse_z * (first * z[0] + second * z[1] + third * z[2]) / sum;
     hits.found = inside && hits.distance >= near && hits.distance <= far;  // not where the sum is 0: seen edge-on
     if (std::experimental::none_of(hits.found)) return false;
+    hits.bordering = low == 0.0 || high == 0.0;
     hits.u = second / sum;
     hits.v = third / sum;
     return true;

@@ -190,21 +190,57 @@ Rgb NodeIrradiance::at(const DiffuseSurface& surface, const glm::dvec2& pixel) c
     return found.irradiance + mean_ * (1.0f - found.confidence);
 }
 
-Image<Rgb> interpolate_estimate(const EstimateNodes& nodes, const Image<DiffuseSurface>& surfaces) {
-    Image<Rgb> light(surfaces.width, surfaces.height);
-    const NodeIrradiance irradiance(nodes);
-    parallel_pixels(surfaces, 4, [&](int x, int y) {
-        const DiffuseSurface& surface = surfaces(x, y);
-        if (surface.footprint > 0.0f) light(x, y) = surface.reflected * irradiance.at(surface, {x, y});
-    });
-    return light;
-}
-
 Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind) {
     const SurfaceMaterial& material = surface.material;
     if (kind == EstimateKind::flat) return material.emission + (material.diffuse + material.gloss.f0);
     return material.emission + estimate_direct_light(context, task, surface, points_per_light(context.lights));
 }
+
+namespace {
+
+/// The light that a camera ray meets.
+struct EstimatedLight {
+    const LightingContext& context;
+    const CameraView& view;
+    EstimateKind kind;
+    const NodeIrradiance* indirect;  ///< null: none
+    float exposure;
+
+    Rgb beyond(const glm::vec3& direction) const {
+        return (kind == EstimateKind::direct ? environment_radiance(context.shading, direction) : Rgb(1.0f)) * exposure;
+    }
+
+    Rgb of(RayTask& task, const PixelSurface& surface) const {
+        const Rgb radiance = estimate_radiance(context, task, surface, kind) * exposure;
+        if (indirect == nullptr) return radiance;
+        const DiffuseSurface diffuse = make_diffuse_surface(surface);
+        if (!(diffuse.footprint > 0.0f)) return radiance;
+        return radiance + diffuse.reflected * indirect->at(diffuse, {surface.x, surface.y}) * exposure;
+    }
+
+    /// Of blended surfaces their shares, of what lies behind them the rest.
+    Rgb through(RayTask& task, Tracer& whole, int x, int y) const {
+        constexpr int most_layers = 16;
+        constexpr float least_left = 0.01f, past = 1.0f + 0x1p-18f;
+        const CameraRay camera = make_camera_ray(view, x + 0.5, y + 0.5);
+        Ray ray{glm::vec3(camera.origin - context.rays.anchor()), glm::vec3(camera.direction)};
+        Rgb sum(0.0f);
+        float left = 1.0f;
+        for (int layer = 0; layer < most_layers && left > least_left; ++layer) {
+            ++task.counts.primary;
+            const Hit hit = whole.intersect(ray);
+            if (hit.instance == no_index) return sum + left * beyond(ray.direction);
+            const PixelSurface surface = make_pixel_surface(context.shading, view, {}, hit, ray.direction, {x, y});
+            const float share = left * surface_coverage(context.shading, surface.point, {});
+            sum += share * of(task, surface);
+            left -= share;
+            ray.near = hit.distance * past;
+        }
+        return sum;
+    }
+};
+
+}  // namespace
 
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                             const EstimateOptions& options, RayCounts& counts) {
@@ -214,30 +250,23 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     LightingContext lighting = context;
     if (!seen.groups.empty()) lighting.seen = &seen;
     Image<Rgb> estimate(view.width, view.height);
-    const float scale = static_cast<float>(options.exposure);
-    Image<DiffuseSurface> surfaces;
-    if (options.indirect != nullptr && kind == EstimateKind::direct)
-        surfaces = Image<DiffuseSurface>(view.width, view.height);
+    std::optional<NodeIrradiance> indirect;
+    if (options.indirect != nullptr && kind == EstimateKind::direct) indirect.emplace(*options.indirect);
+    const EstimatedLight light{lighting, view, kind, indirect ? &*indirect : nullptr,
+                               static_cast<float>(options.exposure)};
     const auto estimate_row = [&](int y, RayTask& task) {
+        Tracer whole(context.rays, Blend::whole);
         for (int x = 0; x < view.width; ++x) {
-            Rgb radiance = Rgb(1.0f);
-            const bool hit = centers.hits(x, y).instance != no_index;
-            if (!hit && kind == EstimateKind::direct) {
-                radiance =
-                    environment_radiance(context.shading, glm::vec3(make_camera_ray(view, x + 0.5, y + 0.5).direction));
+            if (whole.has_blended()) {
+                estimate(x, y) = light.through(task, whole, x, y);
+            } else if (centers.hits(x, y).instance == no_index) {
+                estimate(x, y) = light.beyond(glm::vec3(make_camera_ray(view, x + 0.5, y + 0.5).direction));
+            } else {
+                estimate(x, y) = light.of(task, make_pixel_surface(context.shading, view, centers, x, y));
             }
-            if (hit) {
-                const PixelSurface s = make_pixel_surface(context.shading, view, centers, x, y);
-                radiance = estimate_radiance(lighting, task, s, kind);
-                if (!surfaces.empty()) surfaces(x, y) = make_diffuse_surface(s);
-            }
-            estimate(x, y) = radiance * scale;
         }
     };
     cast_parallel(view.height, 4, context.rays, counts, estimate_row, Blend::cutout);  // without noise
-    if (surfaces.empty()) return estimate;
-    const Image<Rgb> light = interpolate_estimate(*options.indirect, surfaces);
-    for (std::size_t i = 0; i < estimate.size(); ++i) estimate.pixels[i] += light.pixels[i] * scale;
     return estimate;
 }
 

@@ -76,7 +76,9 @@ struct CarriedEstimate {
 EstimateNodes gather_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                               const CarriedEstimate* carried, RayCounts& counts);
 
-/// Irradiance between the nodes of a view, at any surface near it: the mean of all nodes where they do not tell.
+/// Irradiance between the nodes of a view, at any surface near it: the mean of all nodes where they do not tell. It has
+/// none of the noise that the model of vision would take for detail. Biased: what is smaller than about 30 pixels of a
+/// 640x480 picture, such as the shadow of a chair leg, is smoothed away.
 class NodeIrradiance {
   public:
     /// Keeps a reference.
@@ -89,11 +91,6 @@ class NodeIrradiance {
     Rgb mean_;
 };
 
-/// The radiance, towards the viewer, of the light that arrives after one bounce, without the noise and the blocks that
-/// the model of vision would take for detail. Biased: what is smaller than about 30 pixels of a 640x480 picture, such
-/// as the shadow of a chair leg, is smoothed away.
-Image<Rgb> interpolate_estimate(const EstimateNodes& nodes, const Image<DiffuseSurface>& surfaces);
-
 struct EstimateOptions {
     EstimateKind kind = EstimateKind::direct;
     /// With `direct`: nodes of this view (gather_estimate), whose light of one bounce is added; may be null.
@@ -101,9 +98,11 @@ struct EstimateOptions {
     double exposure = 1.0;
 };
 
-/// One sample at every pixel centre, from the frame's first hits. Exposure is applied; values that are not finite are
-/// kept (perception/sanitize.h replaces them).
-/// flat: albedo plus emission, as under constant white light; no rays.
+/// One sample at every pixel centre, from the frame's first hits; where surfaces are blended, through them. Exposure is
+/// applied; values that are not finite are kept (perception/sanitize.h replaces them).
+///
+/// flat: albedo plus emission, as under constant white light; no rays for light.
+///
 /// direct: emission plus direct light from a fixed pattern of points per light (estimate_direct_light).
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                             const EstimateOptions& options, RayCounts& counts);

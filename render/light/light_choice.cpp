@@ -81,13 +81,13 @@ bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& pass
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {
     if (!context.shading.has_thin_glass) {
         ++task.counts.shadow;
-        return Rgb(task.tracer.occluded(ray) ? 0.0f : 1.0f);
+        return Rgb(task.tracer.transmittance(ray));
     }
-    Rgb passed(1.0f);
+    Rgb passed(task.tracer.transmittance(ray, true));
     Ray left = ray;
     for (int sheet = 0; sheet < max_sheets; ++sheet) {
         ++task.counts.shadow;
-        const Hit hit = task.tracer.intersect(left);
+        const Hit hit = task.tracer.intersect_others(left);
         if (hit.instance == no_index) return passed;
         if (!pass_sheet(context.shading, hit, left, passed)) return Rgb(0.0f);
         if (passed == Rgb(0.0f)) return passed;

@@ -56,7 +56,8 @@ bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& pass
 /// @param around  the viewer's side of the surface
 Rgb transmit_to_light(const Media& around, const LitSurface& lit, const Ray& shadow_ray);
 
-/// Share of light that passes along a shadow ray: smooth sheets of glass pass some, everything else stops it.
+/// Share of light that passes along a shadow ray: smooth sheets of glass and blended surfaces pass some, everything
+/// else stops it.
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray);
 
 }  // namespace aleph

@@ -108,6 +108,38 @@ TEST(AlphaBlend, ShadowsArePartial) {
     }));
 }
 
+TEST(AlphaBlend, SharesOfLightHaveNoChance) {
+    constexpr double alpha = 0.3;
+    Scene scene = make_blended(alpha, 3);
+    scene.nodes[1].transform.rotation = glm::dquat(std::cos(0.2), std::sin(0.2), 0.0, 0.0);
+    scene.nodes[2].meshes = {0, 0};  // two in one plane
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.meshes[1].material = no_index;
+    scene.nodes.push_back(scene.nodes[2]);
+    scene.nodes[3].meshes = {1};
+    scene.nodes[3].transform.translation = glm::dvec3(-1.0, 0.0, -3.0);  // behind the left half
+    const double left = std::pow(1.0 - alpha, 4);
+    std::vector<Ray> rays = make_rays(1000);
+    for (Ray& ray : rays) ray.origin.y *= 0.5f;  // through the turned one, too
+    for (const float edge : {-0.5f, -0.25f, 0.3f})
+        rays.insert(rays.end(), {ray_down(edge, edge), ray_down(0.5f, 0.0f), ray_down(edge, 0.0f)});  // of triangles
+    for (const Blend blend : {Blend::cutout, Blend::random}) {
+        const RayScene placed = place(scene);
+        Tracer tracer(placed, blend);
+        for (const Ray& ray : rays) {
+            const bool open = ray.origin.x > 0.0f;
+            EXPECT_NEAR(tracer.transmittance(ray), open ? left : 0.0, 1e-6) << ray.origin.x << ' ' << ray.origin.y;
+            EXPECT_NEAR(tracer.transmittance(ray, true), left, 1e-6);
+            EXPECT_EQ(tracer.intersect_others(ray).instance == no_index, open);
+        }
+    }
+    scene.materials[0].glass.transmission = 0.5;  // light passes what blending stops
+    const RayScene glass = place(scene);
+    Tracer tracer(glass);
+    EXPECT_EQ(tracer.transmittance(rays[0], true), 1.0f);
+    EXPECT_EQ(tracer.intersect_others(rays[0]), tracer.intersect(rays[0]));
+}
+
 TEST(AlphaBlend, NearlyEqualRaysAreIndependent) {
     const RayScene one = place(make_blended(0.5, 1));
     EXPECT_TRUE(holds([&](Trial& trial) {
