@@ -49,10 +49,11 @@ float share(float weight, const DiffuseSurface& here, const DiffuseSurface& ther
 }
 
 /// Points per light: fewer if there are many lights, so that the estimate stays quick. A single point of a window shows
-/// all of its light or none, whatever share of it glazing bars hide.
+/// all of its light or none, whatever share of it glazing bars hide. Many points of a bulb face away.
 int points_per_light(const LightSet& lights) {
     constexpr int most_points = 16, most_per_light = 4;
-    return std::clamp(most_points / std::max(1, lights.count()), 1, most_per_light);
+    const bool has_sides = std::ranges::any_of(lights.emitters, [](const Emitter& e) { return !e.sides.empty(); });
+    return std::clamp(most_points / std::max(1, lights.count()), 1, has_sides ? most_points : most_per_light);
 }
 
 }  // namespace

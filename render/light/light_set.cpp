@@ -16,6 +16,31 @@ float versine(double angle) {
     return static_cast<float>(2.0 * s * s);
 }
 
+/// One of 24: the normal's longest component, and the signs of all.
+int find_side(const Emitter::Triangle& triangle) {
+    const glm::vec3 n = triangle.normal, size = glm::abs(n);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return axis * 8 + (n.x < 0.0f ? 4 : 0) + (n.y < 0.0f ? 2 : 0) + (n.z < 0.0f ? 1 : 0);
+}
+
+/// @param emitter  its triangles are in the order of their sides
+void add_sides(Emitter& emitter) {
+    int last = no_index;
+    for (std::size_t i = 0; i < emitter.triangles.size(); ++i) {
+        const Emitter::Triangle& t = emitter.triangles[i];
+        const glm::vec4 plane(t.normal, glm::dot(t.normal, t.corner - emitter.center));
+        const float begin = i == 0 ? 0.0f : emitter.cumulative_area[i - 1];
+        if (const int side = find_side(t); side != last) {
+            emitter.sides.push_back({plane, plane, begin});
+            last = side;
+        }
+        Emitter::Side& side = emitter.sides.back();
+        side.low = glm::min(side.low, plane);
+        side.high = glm::max(side.high, plane);
+        side.end = emitter.cumulative_area[i];
+    }
+}
+
 Emitter make_emitter(const ShadingScene& shading, int index) {
     const PosedInstance& instance = shading.instances[index];
     const ShadingMaterial& material = shading.materials[instance.material];
@@ -31,19 +56,24 @@ Emitter make_emitter(const ShadingScene& shading, int index) {
         emitter.brightest *= glm::max(shading.textures->textures[texture].largest, 1.0f);
     }
     const Mesh& mesh = *instance.mesh;
-    std::vector<double> cumulative;
-    double area = 0.0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const Emitter::Triangle triangle = place_triangle(instance, static_cast<int>(i));
         const double twice_area = glm::length(glm::dvec3(glm::cross(triangle.edge1, triangle.edge2)));
         if (!(twice_area > 0.0) || !std::isfinite(triangle.normal.x)) continue;
-        area += 0.5 * twice_area;
-        cumulative.push_back(area);
         emitter.triangles.push_back(triangle);
+    }
+    const bool has_sides = !emitter.double_sided && emitter.triangles.size() > max_spherical_triangles;
+    if (has_sides) std::ranges::stable_sort(emitter.triangles, {}, find_side);
+    std::vector<double> cumulative;
+    double area = 0.0;
+    for (const Emitter::Triangle& triangle : emitter.triangles) {
+        area += 0.5 * glm::length(glm::dvec3(glm::cross(triangle.edge1, triangle.edge2)));
+        cumulative.push_back(area);
     }
     emitter.area = static_cast<float>(area);
     set_sphere(emitter);
     for (const double a : cumulative) emitter.cumulative_area.push_back(static_cast<float>(a / area));
+    if (has_sides) add_sides(emitter);
     return emitter;
 }
 

@@ -41,8 +41,39 @@ float largest_coordinate(const glm::vec3& p) {
 /// Stands for the cosine at lights without area: they may lie in a surface, such as a ceiling.
 constexpr float any_cosine = 0.5f;
 
-float pdf_by_area(const Emitter& emitter, float cos_at_light, float distance) {
-    return distance * distance / (cos_at_light * emitter.area);
+constexpr float before_end = 0x1.fffffep-1f;
+
+float pdf_by_area(const Emitter& emitter, const FacingSides& facing, float cos_at_light, float distance) {
+    return distance * distance / (cos_at_light * emitter.area * facing.share);
+}
+
+FacingSides find_facing_sides(const Emitter& emitter, const glm::vec3& position) {
+    FacingSides facing;
+    if (emitter.sides.empty()) return facing;
+    const glm::vec3 from = position - emitter.center;
+    const float rounding = 1e-5f * (glm::length(from) + emitter.radius);
+    facing.share = 0.0f;
+    for (std::size_t i = 0; i < emitter.sides.size(); ++i) {
+        const Emitter::Side& side = emitter.sides[i];
+        const glm::vec3 most = glm::max(glm::vec3(side.low) * from, glm::vec3(side.high) * from);
+        if (!(most.x + most.y + most.z - side.low.w > -rounding)) continue;
+        facing.which |= 1u << i;
+        facing.share += side.end - side.begin;
+    }
+    return facing;
+}
+
+/// A number in [0, 1) among the facing sides, as one among all.
+float place_in_sides(const Emitter& emitter, const FacingSides& facing, float u) {
+    float left = u * facing.share, place = u;
+    for (std::size_t i = 0; i < emitter.sides.size(); ++i) {
+        if ((facing.which >> i & 1u) == 0) continue;
+        const Emitter::Side& side = emitter.sides[i];
+        place = std::min(side.begin + left, before_end * side.end);  // the last one, if rounding leaves something
+        left -= side.end - side.begin;
+        if (left < 0.0f) break;
+    }
+    return place;
 }
 
 /// sr. Above it, sampling by area is the noisier way, and float is accurate enough for the angles.
@@ -75,8 +106,10 @@ glm::vec2 meet_triangle(const Emitter::Triangle& t, const glm::vec3& position, c
     return b.x + b.y > 1.0f ? b / (b.x + b.y) : b;
 }
 
-LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const SolidAngles& angles,
+LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const SeenLight& seen,
                            const glm::vec3& position, glm::vec2 u, float share) {
+    const SolidAngles& angles = seen.angles;
+    if (!(seen.facing.share > 0.0f)) return {};
     int chosen = 0;
     glm::vec2 b;
     if (angles.total > 0.0f) {
@@ -89,6 +122,7 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
         b = meet_triangle(t, position,
                           sample_spherical_triangle(corner, corner + t.edge1, corner + t.edge2, angles.of[chosen], u));
     } else {
+        u.x = place_in_sides(emitter, seen.facing, u.x);
         chosen = choose_part(emitter.cumulative_area, u.x);
         b = sample_triangle(u);
     }
@@ -103,12 +137,12 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
     if (emitter.double_sided) cosine = std::abs(cosine);
     if (!(cosine > 0.0f)) return sample;
     sample.distance = shadow_length(distance, largest_coordinate(emitter.center) + emitter.radius, cosine);
-    sample.pdf = angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, cosine, distance);
+    sample.pdf = angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, seen.facing, cosine, distance);
     Rgb radiance = emitter.radiance;
     if (emitter.textured || emitter.has_alpha) {
         const Hit hit{emitter.instance, triangle.primitive, b.x, b.y, distance};
         const SurfacePoint point = make_surface_point(shading, hit, sample.direction);
-        const RayFootprint footprint{{}, {}, std::sqrt(share * emitter.area)};
+        const RayFootprint footprint{{}, {}, std::sqrt(share * emitter.area * seen.facing.share)};
         if (emitter.textured) radiance = evaluate_material(shading, point, footprint).emission;
         if (emitter.has_alpha) radiance *= surface_coverage(shading, point, footprint);
     }
@@ -220,12 +254,16 @@ float pdf_environment(const ShadingScene& shading, const Receiver& receiver, con
 float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance) {
     if (!(cos_at_light > 0.0f)) return 0.0f;
     const SolidAngles angles = find_solid_angles(emitter, position);
-    return angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, cos_at_light, distance);
+    if (angles.total > 0.0f) return 1.0f / angles.total;
+    const FacingSides facing = find_facing_sides(emitter, position);
+    return facing.share > 0.0f ? pdf_by_area(emitter, facing, cos_at_light, distance) : 0.0f;
 }
 
 SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position) {
-    SeenLight seen{light, {}};
-    if (light < std::ssize(lights.emitters)) seen.angles = find_solid_angles(lights.emitters[light], position);
+    SeenLight seen{light, {}, {}};
+    if (light >= std::ssize(lights.emitters)) return seen;
+    seen.angles = find_solid_angles(lights.emitters[light], position);
+    if (!(seen.angles.total > 0.0f)) seen.facing = find_facing_sides(lights.emitters[light], position);
     return seen;
 }
 
@@ -233,7 +271,7 @@ LightSample sample_seen_light(const ShadingScene& shading, const LightSet& light
                               const Receiver& receiver, const glm::vec2& u, float share) {
     const int emitters = static_cast<int>(lights.emitters.size());
     if (seen.light < emitters) {
-        return sample_emitter(shading, lights.emitters[seen.light], seen.angles, receiver.position, u, share);
+        return sample_emitter(shading, lights.emitters[seen.light], seen, receiver.position, u, share);
     }
     const int punctual = seen.light - emitters;
     if (punctual < std::ssize(lights.punctual)) return sample_punctual(lights.punctual[punctual], receiver);

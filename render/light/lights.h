@@ -2,8 +2,10 @@
 // All lights of a posed scene: emissive instances, point, spot and directional lights, the environment.
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -19,6 +21,11 @@ struct Emitter {
         glm::vec3 normal;                ///< unit, on the side that emits
         int primitive;
     };
+    /// Triangles that face about the same way.
+    struct Side {
+        glm::vec4 low, high;             ///< of normals, and of the planes' distances along them from `center`, m
+        float begin = 0.0f, end = 0.0f;  ///< of `cumulative_area`
+    };
     int instance = no_index;
     bool double_sided = false;
     bool textured = false;
@@ -30,6 +37,7 @@ struct Emitter {
     float radius = 0.0f;     ///< m, of that sphere
     std::vector<Triangle> triangles;
     std::vector<float> cumulative_area;  ///< share of the area up to and including each triangle
+    std::vector<Side> sides;             ///< in the order of the triangles; empty: all may face any point
 };
 
 /// A triangle of an instance on the side of its winding. The normal is not finite if the triangle has no area.
@@ -108,7 +116,7 @@ LightSample sample_light(const ShadingScene& shading, const LightSet& lights, in
 
 /// Density per solid angle of sample_light, for a receiver at `position` and a point of the emitter at this distance
 /// whose normal has this cosine with the ray. Emitters of few triangles are sampled by solid angle if they are near,
-/// all others by area.
+/// all others by area, of those sides that may face the receiver.
 float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance);
 
 /// Solid angle of a triangle with corners at these offsets from the eye, sr (Van Oosterom and Strackee 1983). Accurate
@@ -130,9 +138,16 @@ struct SolidAngles {
     float total = 0.0f;  ///< 0: too many triangles or too far away, sample by area
 };
 
+/// The sides of an emitter that may face a point.
+struct FacingSides {
+    std::uint32_t which = 0;  ///< a bit for each of Emitter::sides
+    float share = 1.0f;       ///< of the emitter's area
+};
+
 struct SeenLight {
     int light = no_index;
     SolidAngles angles;  ///< of an emitter
+    FacingSides facing;  ///< of one that is sampled by area
 };
 
 /// @param position  where the shadow rays start (Receiver)
