@@ -16,11 +16,12 @@ namespace {
 
 constexpr const char* material_schema = "AbcMaterial_Material_v1";
 constexpr double neutral_gray = 0.5;
+constexpr double largest_number = 1e18;
 
 using Values = std::vector<double>;
 
 glm::dvec3 color_of(const Values& v) {
-    return glm::max(v.size() >= 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(v[0]), glm::dvec3(0.0));
+    return glm::clamp(v.size() >= 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(v[0]), 0.0, largest_number);
 }
 
 double share_of(const Values& v) {
@@ -44,7 +45,7 @@ const std::array<Meaning, 6>& meanings() {
          [](Material& m, const Values& v) { m.glow.color = color_of(v); }},
         {{"ior", "indexofrefraction", "specularior"},
          [](Material& m, const Values& v) {
-             if (v[0] >= 1.0) m.gloss.ior = v[0];
+             if (v[0] >= 1.0 && v[0] <= largest_number) m.gloss.ior = v[0];
          }},
         {{"specularlevel"}, [](Material& m, const Values& v) { m.gloss.specular = share_of(v); }},
     }};

@@ -5,6 +5,13 @@
 
 namespace aleph {
 
+/// Frames lie within this of 0: their numbers are exact in double, and differences of them do not overflow.
+inline constexpr std::int64_t farthest_frame = 9'000'000'000'000'000;
+
+inline bool is_frame(std::int64_t frame) {
+    return frame >= -farthest_frame && frame <= farthest_frame;
+}
+
 struct FrameRate {
     std::int64_t numerator = 30;  ///< frames per `denominator` seconds
     std::int64_t denominator = 1;

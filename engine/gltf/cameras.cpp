@@ -48,7 +48,7 @@ Light read_light(GltfReader& reader, const tinygltf::Light& source, std::size_t 
         const nlohmann::json& spot =
             reader.source.document["extensions"]["KHR_lights_punctual"]["lights"][index]["spot"];
         constexpr double quarter_turn = std::numbers::pi / 2.0;  // a float may exceed it by rounding
-        light.inner_cone = spot.value("innerConeAngle", 0.0);
+        light.inner_cone = std::min(spot.value("innerConeAngle", 0.0), quarter_turn);
         light.outer_cone = std::min(spot.value("outerConeAngle", std::numbers::pi / 4.0), quarter_turn);
     }
     return light;

@@ -13,6 +13,12 @@ namespace aleph {
 CameraView make_camera_view(const CameraValues& camera, int width, int height) {
     if (width <= 0 || height <= 0)
         throw InputError("", "size", fmt::format("{} x {} pixels; both must be positive", width, height));
+    // Scales of nodes multiply: of 1e18 each, a few lead beyond what Embree takes.
+    constexpr double farthest = 1e18;  // m
+    const glm::dvec3& p = camera.position;
+    if (!(std::abs(p.x) <= farthest && std::abs(p.y) <= farthest && std::abs(p.z) <= farthest))
+        throw InputError("", "camera",
+                         fmt::format("it is at ({:g}, {:g}, {:g}); it must be within {:g} m", p.x, p.y, p.z, farthest));
     CameraView view{.width = width,
                     .height = height,
                     .orthographic = camera.orthographic,

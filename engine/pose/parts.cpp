@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "engine/base/errors.h"
 #include "engine/scene/operations.h"
@@ -16,6 +17,9 @@ namespace {
 /// Cubic keys overshoot: values are clamped to the range of their quantity.
 float unit_range(const Track<double>& track, double seconds) {
     return static_cast<float>(std::clamp(evaluate(track, seconds), 0.0, 1.0));
+}
+double cone_angle(const Track<double>& track, double seconds) {
+    return std::clamp(evaluate(track, seconds), 0.0, std::numbers::pi / 2.0);
 }
 double not_negative(const Track<double>& track, double seconds) {
     return std::max(evaluate(track, seconds), 0.0);
@@ -124,8 +128,8 @@ LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, do
     if (direction != glm::dvec3(0.0)) values.direction = direction;
     values.intensity = Rgb(not_negative(light.color, seconds) * not_negative(light.intensity, seconds));
     values.range = not_negative(light.range, seconds);
-    values.inner_cone = evaluate(light.inner_cone, seconds);
-    values.outer_cone = evaluate(light.outer_cone, seconds);
+    values.inner_cone = cone_angle(light.inner_cone, seconds);
+    values.outer_cone = cone_angle(light.outer_cone, seconds);
     return values;
 }
 

@@ -91,7 +91,7 @@ FrameRange frame_range(const Scene& scene) {
     // A key within rounding of a frame is on it: single-precision times are off by up to 6e-8 of themselves.
     const auto slack = [](double frame) { return 1e-6 + 1.2e-7 * std::abs(frame); };
     const double per_second = scene.film.frame_rate.per_second();
-    const double limit = 9e15;  // whole numbers are exact in double up to here
+    constexpr auto limit = static_cast<double>(farthest_frame);
     const double begin = std::clamp(earliest * per_second, -limit, limit);
     const double end = std::clamp(latest * per_second, -limit, limit);
     const auto first = static_cast<std::int64_t>(std::ceil(begin - slack(begin)));

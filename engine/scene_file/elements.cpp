@@ -32,11 +32,21 @@ std::optional<JsonRef> read_angle(const JsonRef& at, const AngleField<Element>& 
         radians->fail(fmt::format("either \"{}\" or \"{}\", not both", field.key, field.key_in_radians));
     }
     if (degrees) field.in(element) = read_degrees(*degrees, rate, field.range);
-    if (radians) {
-        const ValueRange& range = field.range;
-        field.in(element) = read_number(*radians, rate, {to_radians(range.low), to_radians(range.high), range.open});
-    }
+    if (radians) field.in(element) = read_number(*radians, rate, in_radians(field.range));
     return degrees ? degrees : radians;
+}
+
+template <class Fields, class Element>
+void read_tracks(const JsonRef& at, const Fields& fields, const FrameRate& rate, Element& element) {
+    for (const auto& field : fields) {
+        const auto value = at.find(field.key);
+        if (!value) continue;
+        if constexpr (std::is_same_v<decltype(field.in(element)), Track<double>&>) {
+            field.in(element) = read_number(*value, rate, field.range);
+        } else {
+            field.in(element) = read_vector(*value, rate, field.range);
+        }
+    }
 }
 
 TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
@@ -85,16 +95,10 @@ int add_material(SceneReader& reader, const JsonRef& at, const std::string& name
     const FrameRate& rate = reader.scene.film.frame_rate;
     reader.charge(sizeof(Material) + 900, at, "let shapes share materials");
     Material material{.name = name};
-    for (const auto& field : material_numbers) {
-        if (const auto value = at.find(field.key)) field.in(material) = read_number(*value, rate, field.range);
-    }
-    for (const auto& field : material_colors) {
-        if (const auto value = at.find(field.key)) field.in(material) = read_vector(*value, rate, field.range);
-    }
+    read_tracks(at, material_numbers, rate, material);
+    read_tracks(at, material_colors, rate, material);
     for (const auto& field : material_angles) read_angle(at, field, rate, material);
-    for (const auto& field : material_scales) {
-        if (const auto value = at.find(field.key)) field.in(material) = value->number();
-    }
+    read_fields(at, material_scales, material);
     for (const auto& field : material_textures) {
         if (const auto value = at.find(field.key)) material.textures[field.slot] = read_texture(reader, *value);
     }
@@ -117,20 +121,15 @@ int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
     reader.charge(sizeof(Light) + 300, at, "it has too many lights");
     Light light{.name = name};
     light.kind = read_word<Light::Kind>(at.require("type"), light_words);
-    if (const auto value = at.find("color")) light.color = read_vector(*value, rate, not_negative);
-    if (const auto value = at.find("intensity")) light.intensity = read_number(*value, rate, not_negative);
-    if (const auto value = at.find("range")) {
-        light.range = read_number(*value, rate, not_negative);
-        if (light.kind == Light::Kind::directional) value->fail("a directional light has no range");
-    }
+    read_tracks(at, light_colors, rate, light);
+    read_tracks(at, light_numbers, rate, light);
+    const auto range = at.find("range");
+    if (range && light.kind == Light::Kind::directional) range->fail("a directional light has no range");
     for (const auto& field : light_cones) {
         const auto angle = read_angle(at, field, rate, light);
         if (angle && light.kind != Light::Kind::spot) angle->fail("only a spot light has cones");
     }
-    const bool constant = light.inner_cone.values.size() == 1 && light.outer_cone.values.size() == 1;
-    if (constant && light.inner_cone.values[0] > light.outer_cone.values[0]) {
-        at.fail("\"inner_cone\", where the light begins to fade, cannot be wider than \"outer_cone\", where it ends");
-    }
+    if (const char* fault = fault_of_cones(light)) at.fail(fault);
     return SceneReader::add(std::move(light), reader.scene.lights, reader.names.lights);
 }
 
@@ -141,13 +140,11 @@ int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) 
     for (const auto& field : camera_angles) read_angle(at, field, rate, camera);
     const auto orthographic = at.find("orthographic");
     if (orthographic) camera.orthographic = orthographic->boolean();
-    for (const auto& field : camera_numbers) {
-        if (const auto value = at.find(field.key)) field.in(camera) = read_number(*value, rate, field.range);
-    }
+    read_tracks(at, camera_numbers, rate, camera);
     if (const auto value = at.find("half_height"); value && !orthographic) {
         value->fail("\"half_height\" needs \"orthographic\": true");
     }
-    if (const auto value = at.find("near")) camera.near_plane = value->number();
+    read_fields(at, camera_lengths, camera);
     if (const auto value = at.find("shutter")) {
         camera.shutter = read_dvec2(*value);
         if (camera.shutter.y < camera.shutter.x) value->fail("the shutter has to open before it closes");

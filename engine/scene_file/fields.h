@@ -3,29 +3,43 @@
 // the same tables.
 
 #include <array>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "engine/json/json_ref.h"
 #include "engine/scene/place.h"
 #include "engine/scene/scene.h"
 
 namespace aleph {
 
-/// Limits of a value. `open`: the limits themselves are excluded.
+/// Limits of a number, in a file and in a scene that a program made (engine/load/validate_scene.h).
 struct ValueRange {
-    double low = -std::numeric_limits<double>::infinity();
-    double high = std::numeric_limits<double>::infinity();
-    bool open = false;
+    double low = -max_json_number;
+    double high = max_json_number;
+    bool above_low = false, below_high = false;  ///< the limit itself is excluded
+    bool takes_zero = false;                     ///< 0 has a meaning of its own, below `low`
+
+    bool holds(double value) const {
+        if (takes_zero && value == 0.0) return true;
+        return (above_low ? value > low : value >= low) && (below_high ? value < high : value <= high);
+    }
 };
 
+/// "has to lie between 0 and 1, found 7", for a value outside.
+std::string describe_outside(const ValueRange& range, double value);
+
+/// The range of an angle, from degrees.
+ValueRange in_radians(const ValueRange& degrees);
+
 inline constexpr ValueRange any_value{};
-inline constexpr ValueRange zero_to_one{0.0, 1.0, false};
-inline constexpr ValueRange not_negative{0.0, std::numeric_limits<double>::infinity(), false};
-inline constexpr ValueRange at_least_one{1.0, std::numeric_limits<double>::infinity(), false};
-inline constexpr ValueRange above_zero{0.0, std::numeric_limits<double>::infinity(), true};
-inline constexpr ValueRange field_of_view_degrees{0.0, 180.0, true};
-inline constexpr ValueRange cone_degrees{0.0, 90.0, false};
+inline constexpr ValueRange zero_to_one{0.0, 1.0};
+inline constexpr ValueRange above_zero_to_one{0.0, 1.0, true};
+inline constexpr ValueRange not_negative{0.0};
+inline constexpr ValueRange above_zero{0.0, max_json_number, true};
+inline constexpr ValueRange index_of_refraction{1.0, max_json_number, false, false, true};  // 0: full reflection
+inline constexpr ValueRange environment_range = not_negative;
+inline constexpr ValueRange field_of_view_degrees{0.0, 180.0, true, true};
+inline constexpr ValueRange cone_degrees{0.0, 90.0};
 
 template <class Element, class T>
 struct TrackField {
@@ -39,7 +53,7 @@ inline constexpr std::array material_numbers{
     TrackField<Material, double>{"metallic", {at<&Material::gloss, &Gloss::metallic>}, zero_to_one},
     TrackField<Material, double>{"roughness", {at<&Material::gloss, &Gloss::roughness>}, zero_to_one},
     TrackField<Material, double>{"specular", {at<&Material::gloss, &Gloss::specular>}, zero_to_one},
-    TrackField<Material, double>{"ior", {at<&Material::gloss, &Gloss::ior>}, at_least_one},
+    TrackField<Material, double>{"ior", {at<&Material::gloss, &Gloss::ior>}, index_of_refraction},
     TrackField<Material, double>{"emission_strength", {at<&Material::glow, &Glow::strength>}, not_negative},
     TrackField<Material, double>{"transmission", {at<&Material::glass, &Glass::transmission>}, zero_to_one},
     TrackField<Material, double>{"thickness", {at<&Material::glass, &Glass::thickness>}, not_negative},
@@ -64,6 +78,15 @@ template <class Element, class T>
 struct Field {
     const char* key;
     Place<Element, T> in;
+    ValueRange range = any_value;
+};
+
+inline constexpr std::array light_colors{
+    TrackField<Light, glm::dvec3>{"color", {at<&Light::color>}, not_negative},
+};
+inline constexpr std::array light_numbers{
+    TrackField<Light, double>{"intensity", {at<&Light::intensity>}, not_negative},
+    TrackField<Light, double>{"range", {at<&Light::range>}, not_negative},
 };
 
 inline constexpr std::array camera_numbers{
@@ -74,16 +97,23 @@ inline constexpr std::array camera_numbers{
     TrackField<Camera, double>{"focus", {at<&Camera::focus_distance>}, above_zero},
 };
 
+inline constexpr std::array camera_lengths{
+    Field<Camera, double>{"near", {at<&Camera::near_plane>}, above_zero},
+};
+
 inline constexpr std::array material_scales{
     Field<Material, double>{"normal_scale", {at<&Material::textures, &MaterialImages::normal_scale>}},
     Field<Material, double>{"clearcoat_normal_scale",
                             {at<&Material::textures, &MaterialImages::clearcoat_normal_scale>}},
 };
 inline constexpr std::array viewing_numbers{
-    Field<ViewingConditions, double>{"pixels_per_degree", {at<&ViewingConditions::pixels_per_degree>}},
-    Field<ViewingConditions, double>{"display_white", {at<&ViewingConditions::display_white>}},
-    Field<ViewingConditions, double>{"persistence", {at<&ViewingConditions::persistence>}},
+    Field<ViewingConditions, double>{"pixels_per_degree", {at<&ViewingConditions::pixels_per_degree>}, above_zero},
+    Field<ViewingConditions, double>{"display_white", {at<&ViewingConditions::display_white>}, above_zero},
+    Field<ViewingConditions, double>{"persistence", {at<&ViewingConditions::persistence>}, above_zero_to_one},
 };
+
+/// Null, or why the cones of a light do not fit each other. Keys may cross: the light then ends sharply.
+const char* fault_of_cones(const Light& light);
 
 /// An angle under one of two keys.
 template <class Element>

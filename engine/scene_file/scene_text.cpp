@@ -59,13 +59,10 @@ void read_header(Scene& scene, const JsonRef& root) {
             if (i > 0 && scene.film.cuts[i] <= scene.film.cuts[i - 1]) (*cuts)[i].fail("cuts have to ascend");
         }
     }
-    if (const auto viewing = root.find("viewing")) {
-        for (const auto& field : viewing_numbers)
-            if (const auto value = viewing->find(field.key)) field.in(scene.film.viewing) = value->number();
-    }
+    if (const auto viewing = root.find("viewing")) read_fields(*viewing, viewing_numbers, scene.film.viewing);
     if (const auto exposure = root.find("exposure")) scene.film.exposure = exposure->number();
     if (const auto value = root.find("environment")) {
-        scene.environment.radiance = read_vector(*value, scene.film.frame_rate, not_negative);
+        scene.environment.radiance = read_vector(*value, scene.film.frame_rate, environment_range);
     }
 }
 

@@ -12,19 +12,6 @@ namespace aleph {
 
 namespace {
 
-std::string describe(const ValueRange& range) {
-    if (!std::isfinite(range.high)) {
-        return fmt::format("has to be {} {}", range.open ? "above" : "at least", range.low);
-    }
-    return fmt::format("has to lie between {} and {}{}", range.low, range.high, range.open ? ", both excluded" : "");
-}
-
-void check_range(const JsonRef& at, double value, const ValueRange& range) {
-    const bool inside =
-        range.open ? value > range.low && value < range.high : value >= range.low && value <= range.high;
-    if (!inside) at.fail(fmt::format("{}, found {}", describe(range), value));
-}
-
 template <class T>
 struct ValueReader {
     T (*value)(const JsonRef&, const ValueRange&);
@@ -142,16 +129,8 @@ Track<T> read_track(const JsonRef& at, const FrameRate& rate, const ValueReader<
 template <class T>
 T read_components(const JsonRef& at, T value, int count, const ValueRange& range) {
     for (int i = 0; i < count; ++i) {
-        const JsonRef component = at[i];
-        value[i] = component.number();
-        check_range(component, value[i], range);
+        value[i] = read_plain(at[i], range);
     }
-    return value;
-}
-
-double read_plain(const JsonRef& at, const ValueRange& range) {
-    const double value = at.number();
-    check_range(at, value, range);
     return value;
 }
 
@@ -181,6 +160,12 @@ glm::dmat4 read_sixteen(const JsonRef& at, const ValueRange&) {
 }
 
 }  // namespace
+
+double read_plain(const JsonRef& at, const ValueRange& range) {
+    const double value = at.number();
+    if (!range.holds(value)) at.fail(describe_outside(range, value));
+    return value;
+}
 
 double to_radians(double degrees) {
     return degrees * (std::numbers::pi / 180.0);

@@ -38,6 +38,13 @@ Track<T> apply_easing(const JsonRef& at, Track<T> track);
 /// Values of any kind over time: calls visit for each value of "keys" or "values" and returns their times.
 TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::function<void(const JsonRef&)>& visit);
 
+/// A number that does not change.
+double read_plain(const JsonRef& at, const ValueRange& range);
+template <class Fields, class Element>
+void read_fields(const JsonRef& at, const Fields& fields, Element& element) {
+    for (const auto& field : fields)
+        if (const auto value = at.find(field.key)) field.in(element) = read_plain(*value, field.range);
+}
 glm::dvec3 read_dvec3(const JsonRef& at);
 glm::dvec2 read_dvec2(const JsonRef& at);
 

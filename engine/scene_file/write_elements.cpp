@@ -88,9 +88,7 @@ ordered_json write_material(const SceneWriting& at, const Material& material) {
         at.track(out, field.key, field.in(material), field.in(absent), write_number);
     }
     at.angles(out, material, absent, material_angles);
-    for (const auto& field : material_scales) {
-        if (field.in(material) != field.in(absent)) out[field.key] = field.in(material);
-    }
+    at.fields(out, material, absent, material_scales);
     for (const auto& field : material_textures) {
         if (material.textures[field.slot].image != no_index)
             out[field.key] = write_texture(at, material.textures[field.slot]);
@@ -107,9 +105,8 @@ ordered_json write_material(const SceneWriting& at, const Material& material) {
 ordered_json write_light(const SceneWriting& at, const Light& light) {
     const Light absent;
     ordered_json out = {{"type", light_words[index_of(light.kind)]}};
-    at.track(out, "color", light.color, absent.color, write_vector);
-    at.track(out, "intensity", light.intensity, absent.intensity, write_number);
-    at.track(out, "range", light.range, absent.range, write_number);
+    for (const auto& field : light_colors) at.track(out, field.key, field.in(light), field.in(absent), write_vector);
+    for (const auto& field : light_numbers) at.track(out, field.key, field.in(light), field.in(absent), write_number);
     at.angles(out, light, absent, light_cones);
     return out;
 }
@@ -122,7 +119,7 @@ ordered_json write_camera(const SceneWriting& at, const Camera& camera) {
     for (const auto& field : camera_numbers) {
         at.track(out, field.key, field.in(camera), field.in(absent), write_number);
     }
-    if (camera.near_plane != absent.near_plane) out["near"] = camera.near_plane;
+    at.fields(out, camera, absent, camera_lengths);
     if (camera.shutter != absent.shutter) out["shutter"] = {camera.shutter.x, camera.shutter.y};
     return out;
 }

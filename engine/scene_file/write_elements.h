@@ -37,6 +37,14 @@ struct SceneWriting {
         out[key] = write(value, rate());
     }
 
+    /// Writes numbers that do not change, unless they equal those of absent keys.
+    template <class Element, class Fields>
+    void fields(nlohmann::ordered_json& out, const Element& element, const Element& absent,
+                const Fields& fields) const {
+        for (const auto& field : fields)
+            if (field.in(element) != field.in(absent)) out[field.key] = field.in(element);
+    }
+
     /// Writes degrees where they give back every bit, else radians.
     void angle(nlohmann::ordered_json& out, const char* degrees_key, const char* radians_key,
                const Track<double>& value) const;

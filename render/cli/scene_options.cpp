@@ -114,13 +114,13 @@ SettingMap read_settings(const CLI::App& app) {
     return settings;
 }
 
-/// Every value is that of its first or last key there, so that nothing moves.
 void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range) {
-    const auto is_outside = [&](int frame) { return frame < range.first || frame > range.last; };
-    const auto found = std::ranges::find_if(frames, is_outside);
-    if (found == frames.end()) return;
-    std::cerr << fmt::format("aleph: warning: frame {} lies outside the shot, which has the frames {} to {}\n", *found,
-                             range.first, range.last);
+    for (const int frame : frames) {
+        const std::optional<std::string> fault = describe_frame_outside(frame, range);
+        if (!fault) continue;
+        std::cerr << "aleph: warning: " << *fault << '\n';
+        return;
+    }
 }
 
 constexpr int max_threads = 4096;

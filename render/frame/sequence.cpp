@@ -1,5 +1,7 @@
 #include "render/frame/sequence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "engine/base/errors.h"
@@ -67,6 +69,11 @@ SequenceState& Sequence::state() const {
     return *state_;
 }
 
+SequenceState& Sequence::state_for(std::int64_t frame) const {
+    if (!is_frame(frame)) throw InputError("", "frame", fmt::format("{}: frames lie within 9e15 of 0", frame));
+    return state();
+}
+
 const Scene& Sequence::scene() const {
     return state().shot.scene;
 }
@@ -78,7 +85,7 @@ FrameRange Sequence::range() const {
 }
 
 FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
-    SequenceState& s = state();
+    SequenceState& s = state_for(frame);
     // The first frame after an edit has a motion that no other frame has.
     const bool is_edited = s.motion.is_edited();
     const std::int64_t first = is_edited ? frame : s.static_spans.find_first(frame);
@@ -98,7 +105,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
 }
 
 EffectsPlan Sequence::plan(std::int64_t frame) {
-    SequenceState& s = state();
+    SequenceState& s = state_for(frame);
     const std::int64_t first = s.motion.is_edited() ? frame : s.static_spans.find_first(frame);
     return s.prepare(first, s.shot.needs_perception(), false).plan.effects;
 }
@@ -142,7 +149,7 @@ void Sequence::save_light() {
 
 PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::span<const RenderSettings> settings,
                               const std::function<bool(const PartTimes&)>& go_on) {
-    SequenceState& s = state();
+    SequenceState& s = state_for(frame);
     PartTimes times;
     times.frame = s.static_spans.find_first(frame);
     StageClock clock;
@@ -167,7 +174,7 @@ PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::
 }
 
 LightTime Sequence::time_light(std::int64_t frame) {
-    SequenceState& s = state();
+    SequenceState& s = state_for(frame);
     const std::int64_t first = s.static_spans.find_first(frame);
     PreparedFrame prepared = s.prepare(first, s.shot.needs_perception(), false);
     SampleOptions options = find_sample_options(s, first, prepared.plan);
@@ -184,7 +191,7 @@ LightTime Sequence::time_light(std::int64_t frame) {
 
 std::vector<Image<Rgb>> Sequence::render_part(std::int64_t frame, const PicturePart& part,
                                               std::span<const PartSamples> pictures) {
-    SequenceState& s = state();
+    SequenceState& s = state_for(frame);
     ALEPH_CHECK(s.shot.settings.light.integrator == Integrator::path && !s.shot.needs_perception(), "a part by paths");
     const std::int64_t first = s.static_spans.find_first(frame);
     PreparedFrame prepared = s.prepare(first, false, false);
@@ -203,7 +210,7 @@ std::vector<Image<Rgb>> Sequence::render_part(std::int64_t frame, const PictureP
 }
 
 FrameOutput Sequence::find_motion(std::int64_t frame) {
-    SequenceState& s = state();
+    SequenceState& s = state_for(frame);
     ALEPH_CHECK(s.shot.settings.guide.motion == MotionSource::model && !s.motion.is_edited(),
                 "motion of the scene's tracks");
     PreparedFrame prepared = prepare_frame(

@@ -53,7 +53,8 @@ class Sequence {
     ~Sequence();
     Sequence(Sequence&&) noexcept;
 
-    /// @throws InputError if the camera has an aperture without a focus distance, or if this has been moved from
+    /// @throws InputError if the camera has an aperture without a focus distance, a frame is beyond is_frame
+    /// (engine/base/frame_rate.h), or this has been moved from
     FrameOutput render(std::int64_t frame, const FrameRequest& request = {});
 
     /// Times a part of a frame's picture with each of some settings, in their order. Its light is computed for the part
@@ -115,6 +116,8 @@ class Sequence {
 
   private:
     SequenceState& state() const;
+    /// @throws InputError unless is_frame(frame)
+    SequenceState& state_for(std::int64_t frame) const;
 
     std::string camera_;  ///< as given
     std::unique_ptr<SequenceState> state_;

@@ -12,6 +12,7 @@
 #include "render/python/bindings.h"
 #include "render/python/frame_object.h"
 #include "render/python/settings_object.h"
+#include "render/settings/frame_list.h"
 
 namespace aleph::python {
 
@@ -59,6 +60,7 @@ class PythonSequence {
     }
 
     std::shared_ptr<Frame> render(std::int64_t number, bool maps, bool picture, const py::object& on_progress) {
+        warn_of_frame_outside(number);
         auto frame = std::make_shared<Frame>();
         run_without_lock(threads_, on_progress, [&](const FrameProgress& progress) {
             const Turn turn(mutex_, busy_);
@@ -90,6 +92,7 @@ class PythonSequence {
             scene = *edited;  // Python may keep elements of it
         });
         origin_.reset();
+        edited_ = true;
     }
 
     std::pair<std::int64_t, std::int64_t> frames() const {
@@ -99,8 +102,15 @@ class PythonSequence {
     double exposure() const { return sequence_->exposure(); }
 
   private:
+    /// As the command line does. A simulation that edits the scene step by step chooses its own numbers.
+    void warn_of_frame_outside(std::int64_t number) const {
+        if (edited_) return;
+        const std::optional<std::string> fault = describe_frame_outside(number, sequence_->range());
+        if (fault && PyErr_WarnEx(PyExc_UserWarning, fault->c_str(), 1) != 0) throw py::error_already_set();
+    }
+
     std::recursive_mutex mutex_;
-    bool busy_ = false;
+    bool busy_ = false, edited_ = false;
     int threads_;
     GivenSettings given_;
     std::unique_ptr<Sequence> sequence_;  ///< after what its settings point to

@@ -109,4 +109,9 @@ std::string format_frame_list(const std::vector<int>& frames) {
     return text;
 }
 
+std::optional<std::string> describe_frame_outside(std::int64_t frame, const FrameRange& range) {
+    if (frame >= range.first && frame <= range.last) return std::nullopt;
+    return fmt::format("frame {} lies outside the shot, which has the frames {} to {}", frame, range.first, range.last);
+}
+
 }  // namespace aleph

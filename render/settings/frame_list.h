@@ -2,9 +2,12 @@
 // Lists of frames: "1-10,20-40x2".
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "engine/scene/scene.h"
 
 namespace aleph {
 
@@ -19,5 +22,9 @@ std::vector<std::int64_t> parse_cuts(std::string_view text);
 
 /// "1-10,12" for these frames, in their order.
 std::string format_frame_list(const std::vector<int>& frames);
+
+/// Nothing, or "frame 9 lies outside the shot, which has the frames 0 to 4". Every value is then that of its first or
+/// last key, so that nothing moves.
+std::optional<std::string> describe_frame_outside(std::int64_t frame, const FrameRange& range);
 
 }  // namespace aleph

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -150,3 +151,18 @@ def test_memory_does_not_grow(ball):
 
     before = render(50)
     assert render(100) - before < 4 * 1024  # KiB; the frames alone would be 30 MiB
+
+
+def test_frames_outside_the_shot_give_a_warning(ball):
+    with pytest.warns(UserWarning, match="frame 99 lies outside the shot, which has the frames 0 to 16"):
+        aleph.render(ball, 99, **QUICK)
+    sequence = aleph.Sequence(ball, **QUICK)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sequence.render(16)
+        with pytest.raises(UserWarning, match="frame -1"):
+            sequence.render(-1)
+        sequence.edit(lambda scene: None)  # a simulation has numbers of its own
+        sequence.render(99)
+    with pytest.raises(aleph.InputError, match="within 9e15"):
+        sequence.render(2**63 - 1)

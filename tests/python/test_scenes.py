@@ -171,3 +171,17 @@ def test_what_does_not_fit_is_refused_when_rendered(ball):
     ball.cameras[0].focus_distance = 0
     with pytest.raises(aleph.InputError, match="focus"):
         aleph.render(ball, 0, **QUICK)
+
+
+@pytest.mark.parametrize("element, name, value", [
+    ("material", "roughness", 7), ("material", "metallic", -3), ("material", "alpha", 5),
+    ("material", "transmission", 2), ("material", "ior", 0.2), ("material", "emission_strength", -1),
+    ("material", "emission", [1e300, 0, 0]), ("light", "intensity", -5), ("camera", "fov", 200),
+    ("node", "visible", 0.5), ("node", "translation", [1e300, 0, 0])])
+def test_numbers_out_of_range_are_refused_as_in_files(ball, tmp_path, element, name, value):
+    setattr(getattr(ball, element + "s")[0], name, value)
+    with pytest.raises(aleph.InputError, match=f"^[^:]*: {element} 0 "):
+        aleph.render(ball, 0, **QUICK)
+    with pytest.raises(aleph.InputError, match=f"^[^:]*: {element} 0 "):
+        ball.save(tmp_path / "scene.glb")
+    assert not (tmp_path / "scene.glb").exists()

@@ -108,10 +108,9 @@ ordered_json list_environment_tracks(const Scene& scene) {
 
 ordered_json list_tracks(const Light& light) {
     TrackList list;
-    list.add("color", light.color);
-    list.add("intensity", light.intensity);
+    list.add_all(light, light_colors);
+    list.add_all(light, light_numbers);
     list.add_all(light, light_cones);
-    list.add("range", light.range);
     return list.take();
 }
 

@@ -188,7 +188,8 @@ TEST_F(Gltf, SpotLightsHaveTheirCones) {
     draft.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "spot"}, {"range", 3}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
         {{"type", "spot"}, {"spot", Json::object()}},
-        {{"type", "spot"}, {"spot", {{"outerConeAngle", 1.57079637}}}}};  // the float next above a quarter turn
+        // Between a quarter turn and the float next above it.
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", 1.57079633}, {"outerConeAngle", 1.57079637}}}}};
     draft.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
     const Scene scene = load(draft);
     ASSERT_EQ(scene.lights.size(), 3u);
@@ -200,6 +201,7 @@ TEST_F(Gltf, SpotLightsHaveTheirCones) {
     EXPECT_EQ(scene.lights[1].outer_cone, Track<double>(std::acos(-1.0) / 4.0));
     EXPECT_EQ(scene.lights[1].range, Track<double>(0.0));
     EXPECT_EQ(scene.lights[2].outer_cone, Track<double>(std::acos(0.0)));
+    EXPECT_EQ(scene.lights[2].inner_cone, Track<double>(std::acos(0.0)));
     EXPECT_EQ(pose(scene, 0.0).lights[0].outer_cone, 0.5);
 }
 

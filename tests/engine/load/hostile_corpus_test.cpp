@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/load/load_scene.h"
+#include "engine/load/validate_scene.h"
 #include "engine/pose/pose.h"
 #include "engine/rays/ray_scene.h"
 #include "tests/support/files/gltf_bad_input.h"
@@ -20,6 +21,8 @@ namespace fs = std::filesystem;
 /// The first things that a viewer does with a file.
 void use(const fs::path& path) {
     const Scene scene = load_scene(path);
+    const Refusal refusal = find_refusal([&] { validate(scene); });
+    ALEPH_CHECK(refusal.message.empty(), "what loads is valid: " + refusal.message);
     const FrameRange range = frame_range(scene);
     RayScene rays(scene);
     for (const std::int64_t frame : {range.first, range.last})

@@ -121,5 +121,17 @@ TEST(CameraView, AnchorLiesOnTheGridNearTheCamera) {
     EXPECT_EQ(compute_anchor(view), anchor);
 }
 
+/// Scales of 1e18 each, as files may hold, multiply. From 1e300 on, Embree ended the program.
+TEST(CameraView, AnEyeTooFarAwayIsRefused) {
+    CameraValues camera;
+    camera.position = {0.0, 0.0, -1e18};
+    EXPECT_NO_THROW(make_camera_view(camera, 8, 4));
+    for (const double far : {1.1e18, -1e300, not_a_number}) {
+        camera.position.y = far;
+        EXPECT_NE(find_refusal([&] { make_camera_view(camera, 8, 4); }).message.find("within 1e+18 m"),
+                  std::string::npos);
+    }
+}
+
 }  // namespace
 }  // namespace aleph

@@ -9,6 +9,18 @@
 namespace aleph {
 namespace {
 
+/// Cubic keys within a range lead out of it between them.
+TEST(Pose, ConesThatOvershootStayWithinAQuarterTurn) {
+    Scene scene;
+    scene.lights.resize(1);
+    scene.nodes.resize(1);
+    scene.nodes[0].light = 0;
+    scene.lights[0].outer_cone = keyed<double>({0.0, 1.0}, {0.0, 0.7, 70.0, -70.0, 0.7, 0.0}, Interpolation::cubic);
+    scene.lights[0].inner_cone = keyed<double>({0.0, 1.0}, {0.0, 0.7, -70.0, 70.0, 0.7, 0.0}, Interpolation::cubic);
+    EXPECT_EQ(pose(scene, 0.5).lights[0].outer_cone, pi / 2.0);
+    EXPECT_EQ(pose(scene, 0.5).lights[0].inner_cone, 0.0);
+}
+
 TEST(Pose, LocalTransformIsTranslationRotationScale) {
     Scene scene;
     scene.nodes.push_back(child_of(no_index, {1.0, 2.0, 3.0}));
