@@ -158,7 +158,7 @@ void validate_motion_sources(const Scene& scene) {
     });
 }
 
-/// Of valid meshes and cages.
+/// Meshes and cages are valid by themselves.
 void validate_parts(const Scene& scene) {
     std::vector<int> parts;
     for (const Cage& cage : scene.cages) parts.push_back(count_parts(cage));

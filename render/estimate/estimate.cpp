@@ -219,7 +219,7 @@ struct EstimatedLight {
         return radiance + diffuse.reflected * indirect->at(diffuse, {surface.x, surface.y}) * exposure;
     }
 
-    /// Of blended surfaces their shares, of what lies behind them the rest.
+    /// Blended surfaces weigh their shares, what lies behind them has the rest.
     Rgb through(RayTask& task, Tracer& whole, int x, int y) const {
         constexpr int most_layers = 16;
         constexpr float least_left = 0.01f, past = 1.0f + 0x1p-18f;

@@ -50,7 +50,7 @@ double count(const Image<float>& image, double least) {
     return static_cast<double>(std::ranges::count_if(image.pixels, [&](float value) { return value >= least; }));
 }
 
-/// Of blocks and one more, which stands for those of a kind that none of them is.
+/// Upper end of the interval, from the blocks and one more: it stands for those of a kind that none of them is.
 double upper_end(std::span<const BlockCount> blocks) {
     double pixels = 0.0, counted = 0.0, largest = 0.0;
     for (const BlockCount& block : blocks) {
