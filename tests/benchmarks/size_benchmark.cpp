@@ -14,7 +14,7 @@
 #include "render/settings/measure.h"
 #include "tests/benchmarks/raw_embree.h"
 #include "tests/benchmarks/thread_seconds.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 
 namespace aleph {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -1,7 +1,7 @@
 // Motion of deforming cages against the closed form of their limit surface (a bicubic B-spline over regular faces).
 #include "tests/support/allocations.h"
-#include "tests/support/cage_scenes.h"
 #include "tests/support/keyed_track.h"
+#include "tests/support/scenes/cage_scenes.h"
 #include "tests/support/seen_motion.h"
 #include "tests/support/test.h"
 

@@ -3,8 +3,8 @@
 #include "engine/surface/shapes.h"
 #include "motion/reprojection.h"
 #include "tests/support/first_hits.h"
-#include "tests/support/motion_scenes.h"
 #include "tests/support/motion_truth.h"
+#include "tests/support/scenes/motion_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -4,9 +4,9 @@
 #include <ostream>
 
 #include "motion/model_motion.h"
-#include "tests/support/child_node.h"
-#include "tests/support/motion_scenes.h"
 #include "tests/support/motion_truth.h"
+#include "tests/support/scenes/child_node.h"
+#include "tests/support/scenes/motion_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

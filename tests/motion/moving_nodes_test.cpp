@@ -2,9 +2,9 @@
 // equal poses there is none, and it is valid where the surface is beyond the near plane.
 
 #include "motion/model_motion.h"
-#include "tests/support/child_node.h"
-#include "tests/support/deforming_scenes.h"
-#include "tests/support/motion_scenes.h"
+#include "tests/support/scenes/child_node.h"
+#include "tests/support/scenes/deforming_scenes.h"
+#include "tests/support/scenes/motion_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -2,9 +2,9 @@
 
 #include "motion/raster.h"
 #include "motion/reprojection.h"
-#include "tests/support/deforming_scenes.h"
 #include "tests/support/first_hits.h"
-#include "tests/support/motion_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
+#include "tests/support/scenes/motion_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -2,10 +2,10 @@
 
 #include "motion/raster.h"
 #include "engine/surface/shapes.h"
-#include "tests/support/deforming_scenes.h"
 #include "tests/support/first_hits.h"
-#include "tests/support/motion_scenes.h"
 #include "tests/support/numbers.h"
+#include "tests/support/scenes/deforming_scenes.h"
+#include "tests/support/scenes/motion_scenes.h"
 #include "tests/support/test.h"
 #include "tests/support/with_threads.h"
 

@@ -1,8 +1,8 @@
 // Reprojection with real rays: single-precision hits must not disturb motion.
 
 #include "motion/reprojection.h"
-#include "tests/support/motion_scenes.h"
 #include "tests/support/motion_truth.h"
+#include "tests/support/scenes/motion_scenes.h"
 #include "tests/support/seen_motion.h"
 #include "tests/support/test.h"
 

@@ -2,7 +2,7 @@
 
 #include "motion/model_motion.h"
 #include "motion/turn.h"
-#include "tests/support/motion_scenes.h"
+#include "tests/support/scenes/motion_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

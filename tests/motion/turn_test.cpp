@@ -3,7 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "motion/turn.h"
-#include "tests/support/motion_scenes.h"
+#include "tests/support/scenes/motion_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

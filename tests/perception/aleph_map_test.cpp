@@ -4,7 +4,7 @@
 #include "perception/perception.h"
 #include "perception/vision/fast_math.h"
 #include "perception/vision/kelly_vision.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 #include "tests/support/vision_formulas.h"
 

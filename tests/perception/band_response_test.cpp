@@ -1,7 +1,7 @@
 #include "perception/band_response.h"
 #include "engine/base/opponent_color.h"
 #include "engine/base/parallel.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 
 namespace aleph {

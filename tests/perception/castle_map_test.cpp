@@ -6,7 +6,7 @@
 #include "perception/vision/castle.h"
 #include "perception/vision/castle_vision.h"
 #include "perception/vision/display_hold.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 #include "tests/support/vision_formulas.h"
 

@@ -8,7 +8,7 @@
 #include "perception/perception.h"
 #include "tests/support/allocations.h"
 #include "tests/support/perception_reference.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "tests/support/paths.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 
 namespace aleph {

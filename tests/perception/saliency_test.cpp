@@ -3,7 +3,7 @@
 #include "perception/saliency/saliency.h"
 #include "perception/perception.h"
 #include "tests/support/perception_reference.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -9,7 +9,7 @@
 #include "perception/vision/band_frequencies.h"
 #include "perception/vision/kelly_vision.h"
 #include "perception/vision/retinal_velocity.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 #include "tests/support/vision_formulas.h"
 

@@ -2,7 +2,7 @@
 
 #include "perception/threshold.h"
 #include "engine/base/sampling.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 #include "tests/support/vision_formulas.h"
 

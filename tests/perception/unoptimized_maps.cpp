@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 
 int main() {
     const std::vector<float> maps = aleph::all_maps();

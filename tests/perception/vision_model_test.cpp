@@ -4,7 +4,7 @@
 #include "engine/base/sampling.h"
 #include "perception/perception.h"
 #include "perception/threshold.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 #include "tests/support/vision_formulas.h"
 

@@ -2,7 +2,7 @@
 // Indirect light alone, from pictures and from dense gathers, in scenes of Lambert surfaces.
 
 #include "render/cache/cache_fill.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 
 namespace aleph {
 

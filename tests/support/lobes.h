@@ -2,7 +2,7 @@
 // Surfaces and directions for the tests of the surface model.
 
 #include "render/surface/scatter.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

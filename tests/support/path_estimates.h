@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "render/path/path.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "tests/support/numbers.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 
 namespace aleph {
 

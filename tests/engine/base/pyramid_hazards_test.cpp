@@ -6,7 +6,7 @@
 #include "perception/perception.h"
 #include "perception/saliency/feature_maps.h"
 #include "perception/sanitize.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 
 namespace aleph {

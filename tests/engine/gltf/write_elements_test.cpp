@@ -1,10 +1,10 @@
 // The writer of .glb: meshes that deform, what is hidden, materials over time, textures, what is lost.
 #include "engine/surface/limit_surface.h"
 #include "tests/engine/gltf/exported.h"
-#include "tests/support/cage_scenes.h"
-#include "tests/support/deforming_scenes.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/read_bytes.h"
+#include "tests/support/scenes/cage_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
 
 namespace aleph {
 namespace {

@@ -2,10 +2,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/engine/gltf/exported.h"
-#include "tests/support/deforming_scenes.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/refusal.h"
+#include "tests/support/scenes/deforming_scenes.h"
 
 namespace aleph {
 namespace {

@@ -3,7 +3,7 @@
 #include "engine/pose/pose.h"
 #include "engine/scene/points.h"
 #include "render/frame/sequence.h"
-#include "tests/support/cage_scenes.h"
+#include "tests/support/scenes/cage_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

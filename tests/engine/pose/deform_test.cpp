@@ -2,7 +2,7 @@
 
 #include "engine/pose/deform.h"
 #include "engine/pose/plan.h"
-#include "tests/support/deforming_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

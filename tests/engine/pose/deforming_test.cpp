@@ -1,7 +1,7 @@
 // Motion of deforming meshes (RP-14, RP-15): skins and morph targets with known displacements.
 
 #include "motion/reprojection.h"
-#include "tests/support/deforming_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
 #include "tests/support/seen_motion.h"
 #include "tests/support/test.h"
 

@@ -2,8 +2,8 @@
 
 #include "engine/pose/pose.h"
 #include "engine/pose/plan.h"
-#include "tests/support/child_node.h"
 #include "tests/support/keyed_track.h"
+#include "tests/support/scenes/child_node.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -4,7 +4,7 @@
 #include "engine/rays/alpha_cutout.h"
 #include "engine/rays/ray_scene.h"
 #include "tests/engine/rays/ray_patterns.h"
-#include "tests/support/deforming_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

@@ -5,7 +5,7 @@
 
 #include "engine/rays/state.h"
 #include "tests/engine/rays/ray_patterns.h"
-#include "tests/support/deforming_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
 
 namespace aleph {
 namespace {

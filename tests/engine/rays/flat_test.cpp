@@ -3,7 +3,7 @@
 #include "engine/rays/state.h"
 #include "engine/surface/shapes.h"
 #include "tests/engine/rays/ray_patterns.h"
-#include "tests/support/deforming_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
 
 namespace aleph {
 namespace {

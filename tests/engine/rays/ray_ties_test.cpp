@@ -3,7 +3,7 @@
 
 #include "engine/rays/ray_scene.h"
 #include "tests/engine/rays/ray_patterns.h"
-#include "tests/support/deforming_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
 
 namespace aleph {
 namespace {

@@ -5,7 +5,7 @@
 #include "engine/surface/shapes.h"
 #include "tests/support/first_hits.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 
 namespace aleph {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "engine/surface/cage_checks.h"
 #include "engine/surface/limit_surface.h"
-#include "tests/support/subdivision_cages.h"
+#include "tests/support/scenes/subdivision_cages.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -1,6 +1,6 @@
 // Texture coordinates of subdivision surfaces: what every face-varying rule does at seams, corners and junctions.
 #include "engine/surface/limit_surface.h"
-#include "tests/support/subdivision_cages.h"
+#include "tests/support/scenes/subdivision_cages.h"
 #include "tests/support/test.h"
 
 namespace aleph {

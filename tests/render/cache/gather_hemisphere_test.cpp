@@ -3,7 +3,7 @@
 
 #include "render/cache/gather.h"
 #include "tests/support/indirect_pictures.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

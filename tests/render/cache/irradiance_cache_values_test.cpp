@@ -1,6 +1,6 @@
 // Caches of two or three records, with weights, radii and averages by hand.
 
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -8,7 +8,7 @@
 #include "render/guide/stopping_rule.h"
 #include "tests/support/indirect_pictures.h"
 #include "tests/support/paths.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -6,7 +6,7 @@
 #include "engine/json/schema.h"
 #include "tests/render/cli/answers.h"
 #include "tests/support/paths.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 
 namespace aleph {
 namespace {

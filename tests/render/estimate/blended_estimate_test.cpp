@@ -2,7 +2,7 @@
 
 #include "render/estimate/estimate.h"
 #include "tests/support/all_pixels.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

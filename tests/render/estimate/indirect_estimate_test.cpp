@@ -7,7 +7,7 @@
 #include "render/estimate/estimate.h"
 #include "render/frame/sequence.h"
 #include "tests/support/paths.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -4,7 +4,7 @@
 #include "render/frame/frame_estimate.h"
 #include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "tests/support/keyed_track.h"
-#include "tests/support/perception_scene.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/perception_scene.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -3,7 +3,7 @@
 
 #include "render/guide/stopping_rule.h"
 #include "render/guide/accuracy_map.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -5,7 +5,7 @@
 #include "render/estimate/estimate.h"
 #include "render/light/light_choice.h"
 #include "tests/support/all_pixels.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 #include "tests/support/trial.h"
 

@@ -2,7 +2,7 @@
 
 #include "render/light/lights.h"
 #include "engine/base/sampling.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

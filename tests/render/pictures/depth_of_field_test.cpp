@@ -1,7 +1,7 @@
 // A thin lens against the closed form of its circle of confusion, and at the ends of its range.
 
 #include "render/frame/sequence.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

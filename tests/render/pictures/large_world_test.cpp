@@ -4,7 +4,7 @@
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
 #include "tests/support/files/gltf_bad_input.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

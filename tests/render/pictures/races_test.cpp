@@ -2,7 +2,7 @@
 // they compare the results with those of one thread.
 
 #include "tests/support/frame_bytes.h"
-#include "tests/support/shot_scenes.h"
+#include "tests/support/scenes/shot_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

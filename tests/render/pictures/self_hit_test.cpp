@@ -1,8 +1,8 @@
 // Rays that leave a surface start above it, by little: they neither meet it again nor start behind other surfaces.
 
 #include "engine/base/sampling.h"
-#include "tests/support/deforming_scenes.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

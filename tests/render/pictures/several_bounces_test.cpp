@@ -4,7 +4,7 @@
 #include "render/cache/further_bounces.h"
 #include "render/cache/gather.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/shot_scenes.h"
+#include "tests/support/scenes/shot_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

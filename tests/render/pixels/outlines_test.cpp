@@ -1,7 +1,7 @@
 // Which pixels show more than one thing: objects, steps, creases, contrasts; and which of them move differently.
 
 #include "render/pixels/outlines.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

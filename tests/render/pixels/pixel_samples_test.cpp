@@ -4,7 +4,7 @@
 #include "engine/base/sampling.h"
 #include "perception/noise_threshold.h"
 #include "render/pixels/pixel_surfaces.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -2,7 +2,7 @@
 
 #include "render/plan/effects_plan.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/planned_scenes.h"
+#include "tests/support/scenes/planned_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

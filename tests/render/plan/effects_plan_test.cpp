@@ -2,9 +2,9 @@
 
 #include "render/plan/effects_plan.h"
 #include "engine/surface/limit_surface.h"
-#include "tests/support/deforming_scenes.h"
-#include "tests/support/planned_scenes.h"
-#include "tests/support/subdivision_cages.h"
+#include "tests/support/scenes/deforming_scenes.h"
+#include "tests/support/scenes/planned_scenes.h"
+#include "tests/support/scenes/subdivision_cages.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -75,8 +75,8 @@ TEST(EffectsPlan, FX02_LightThatIsOutAtTheMiddleOfTheShutter) {
     const auto mean = [&] { return mean_of_pixels(Sequence(scene, settings).render(0).shaded).mean(); };
     const double always = mean();
     ASSERT_GT(always, 1e-3);
-    scene.nodes[lamp].visible = keyed<double>({0.0, 0.3 / scene.film.frame_rate.per_second()}, {1.0, 0.0},
-                                               Interpolation::step);
+    scene.nodes[lamp].visible =
+        keyed<double>({0.0, 0.3 / scene.film.frame_rate.per_second()}, {1.0, 0.0}, Interpolation::step);
     EXPECT_TRUE(effects_of(scene, settings).contains("indirect_diffuse"));
     EXPECT_NEAR(mean(), 0.3 * always, 0.03 * always);
 }

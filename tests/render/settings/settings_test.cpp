@@ -1,7 +1,7 @@
 // Render settings: every key there and back, and a refusal that names key and values for everything else.
 
 #include "render/settings/setting_table.h"
-#include "tests/support/perception_scene.h"
+#include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
 
 namespace aleph {

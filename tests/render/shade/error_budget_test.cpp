@@ -5,7 +5,7 @@
 #include "render/guide/stopping_rule.h"
 #include "render/shade/bright_edges.h"
 #include "render/shade/progressive.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

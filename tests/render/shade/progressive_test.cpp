@@ -4,7 +4,7 @@
 #include "render/shade/progressive.h"
 #include "engine/base/sampling.h"
 #include "render/shade/resolve.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -3,7 +3,7 @@
 #include "render/shade/texture_control.h"
 
 #include "render/pixels/pixel_surfaces.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

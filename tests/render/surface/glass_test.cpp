@@ -9,7 +9,7 @@
 #include "render/surface/fresnel.h"
 #include "render/surface/glass.h"
 #include "tests/support/lobes.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

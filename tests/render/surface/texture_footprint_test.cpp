@@ -4,7 +4,7 @@
 #include "render/surface/texture_footprint.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "tests/support/first_hits.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

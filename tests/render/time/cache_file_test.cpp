@@ -11,7 +11,7 @@
 #include "engine/scene/scene_hash.h"
 #include "render/time/cache_file.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/shot_scenes.h"
+#include "tests/support/scenes/shot_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -3,7 +3,7 @@
 
 #include "render/time/keyframe_light.h"
 #include "render/time/lighting_keyframes.h"
-#include "tests/support/shot_scenes.h"
+#include "tests/support/scenes/shot_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -1,7 +1,7 @@
 // Light at lighting keyframes: frames do not depend on their order, no light is stale, and nothing flickers.
 
 #include "tests/support/frame_bytes.h"
-#include "tests/support/shot_scenes.h"
+#include "tests/support/scenes/shot_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

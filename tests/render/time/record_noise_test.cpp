@@ -4,8 +4,8 @@
 #include "render/cache/gather_at.h"
 #include "render/cache/irradiance_cache.h"
 #include "tests/support/indirect_pictures.h"
-#include "tests/support/perception_scene.h"
-#include "tests/support/shot_scenes.h"
+#include "tests/support/scenes/perception_scene.h"
+#include "tests/support/scenes/shot_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/surface/limit_surface.h"
-#include "tests/support/subdivision_cages.h"
+#include "tests/support/scenes/subdivision_cages.h"
 
 namespace aleph {
 

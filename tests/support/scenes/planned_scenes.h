@@ -6,7 +6,7 @@
 #include <string>
 
 #include "render/frame/sequence.h"
-#include "tests/support/render_scenes.h"
+#include "tests/support/scenes/render_scenes.h"
 
 namespace aleph {
 

@@ -13,7 +13,7 @@
 #include "engine/pose/posed_view.h"
 #include "engine/scene/scene.h"
 #include "motion/model_motion.h"
-#include "tests/support/deforming_scenes.h"
+#include "tests/support/scenes/deforming_scenes.h"
 
 namespace aleph {
 
