@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -54,8 +55,11 @@ CameraRay make_camera_ray(const CameraView& view, double x, double y) {
 }
 
 glm::dvec3 compute_anchor(const CameraView& view) {
-    constexpr double cell = 16.0;  // m: a float resolves .5 um near the camera, which rarely changes cell
-    const auto snap = [](double v) { return std::floor(v / cell + 0.5) * cell; };
+    // m: a float resolves .5 um near the camera, which rarely changes cell. What is nearer than usual is smaller.
+    constexpr double usual_cell = 16.0, usual_near = 1e-4, least_near = 1e-10;
+    const double nearness = std::clamp(view.near_plane / usual_near, least_near / usual_near, 1.0);
+    const double cell = std::scalbn(usual_cell, std::ilogb(nearness));
+    const auto snap = [cell](double v) { return std::floor(v / cell + 0.5) * cell; };
     return {snap(view.position.x), snap(view.position.y), snap(view.position.z)};
 }
 

@@ -61,8 +61,8 @@ struct CameraRay {
 };
 CameraRay make_camera_ray(const CameraView& view, double x, double y);
 
-/// Origin of the coordinates in which rays are traced, m: the camera's position rounded to a coarse grid. Depends on
-/// the camera alone.
+/// Origin of the coordinates in which rays are traced, m: the camera's position rounded to a coarse grid, finer for a
+/// near plane below 1e-4 m. Depends on the camera alone.
 glm::dvec3 compute_anchor(const CameraView& view);
 
 }  // namespace aleph

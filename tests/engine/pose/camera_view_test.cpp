@@ -107,7 +107,7 @@ TEST(CameraView, RefusesWhatIsNoCamera) {
     }
 }
 
-TEST(CameraView, AnchorLiesOnTheGridNearTheCamera) {
+TEST(CameraView, RC05_AnchorLiesOnTheGridNearTheCamera) {
     CameraView view;
     EXPECT_EQ(compute_anchor(view), glm::dvec3(0.0));
     view.position = {7.9, -7.9, 8.1};
@@ -119,6 +119,12 @@ TEST(CameraView, AnchorLiesOnTheGridNearTheCamera) {
         EXPECT_LE(std::abs(anchor[i] - view.position[i]), 8.0);
     }
     EXPECT_EQ(compute_anchor(view), anchor);
+    // The grid is finer where things are nearer, and no finer than a double resolves.
+    for (const double near_plane : {5e-5, 1e-7, 1e-30}) {
+        view.near_plane = near_plane;
+        view.position = {3.3, -2.1, 777.7};
+        EXPECT_LE(glm::distance(compute_anchor(view), view.position), 1.8e5 * std::max(near_plane, 1e-10));
+    }
 }
 
 /// Scales of 1e18 each, as files may hold, multiply. From 1e300 on, Embree ended the program.

@@ -39,6 +39,7 @@ struct Ball {
                  turned ? turn : no_turn);
         const glm::dvec3 eye = center + glm::dvec3(0.0, 0.0, 3.0 * radius);
         add_camera(scene, eye, eye - glm::dvec3(0.0, 0.0, 1.0));
+        scene.cameras.back().near_plane = std::min(1e-4, 0.01 * radius);
         return scene;
     }
     glm::vec3 relative(const glm::dvec3& world) const { return glm::vec3(world - stage.shading.anchor); }
@@ -50,7 +51,7 @@ struct Ball {
 
 template <class Check>
 void for_every_ball(const Check& check) {
-    for (const double radius : {1e-3, 1.0, 1e3, 1e6}) {
+    for (const double radius : {1e-5, 1e-3, 1.0, 1e3, 1e6}) {
         for (const double distance : {0.0, 1e2, 1e6}) {
             for (const bool turned : {false, true}) {
                 SCOPED_TRACE(testing::Message() << "radius " << radius << " at " << distance << " turned " << turned);
