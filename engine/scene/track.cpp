@@ -47,13 +47,21 @@ T cubic_between(const T* key, double fraction, double interval) {
     return hermite(key[1], key[2], key[3], key[4], fraction, interval);
 }
 
+/// 1 / |key| without squares that overflow or underflow: by powers of two, which change no bits of others.
+double inverse_length(const glm::dquat& key) {
+    const int exponent = std::ilogb(std::max({std::abs(key.x), std::abs(key.y), std::abs(key.z), std::abs(key.w)}));
+    glm::dquat near_one = key;
+    for (double& c : components(near_one)) c = std::scalbn(c, -exponent);
+    return std::scalbn(1.0 / glm::length(near_one), -exponent);
+}
+
 /// Keys at length 1, their tangents by the same factor. Where the curve passes through zero it has no direction, and
 /// the nearer key holds.
 template <>
 glm::dquat cubic_between(const glm::dquat* key, double fraction, double interval) {
     const glm::dquat a = safe_normalize(key[1]), b = safe_normalize(key[4]);
-    const double scale_a = a == key[1] ? 1.0 : 1.0 / glm::length(key[1]);
-    const double scale_b = b == key[4] ? 1.0 : 1.0 / glm::length(key[4]);
+    const double scale_a = a == key[1] ? 1.0 : inverse_length(key[1]);
+    const double scale_b = b == key[4] ? 1.0 : inverse_length(key[4]);
     const glm::dquat curve = hermite(a, key[2] * scale_a, key[3] * scale_b, b, fraction, interval);
     if (!(glm::length(curve) >= 1e-6)) return fraction < 0.5 ? a : b;
     return safe_normalize(curve);

@@ -63,7 +63,7 @@ glm::dvec3 safe_normalize(const glm::dvec3& v) {
 glm::dquat safe_normalize(const glm::dquat& q) {
     if (std::abs(glm::dot(q, q) - 1.0) <= 4.0 * epsilon) return q;
     const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
-    const bool finite = std::isfinite(q.x + q.y) && std::isfinite(q.z + q.w);
+    const bool finite = std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
     if (!finite || !usable(largest)) return glm::dquat(1.0, 0.0, 0.0, 0.0);
     const glm::dquat scaled = q / largest;
     return scaled / std::sqrt(glm::dot(scaled, scaled));

@@ -69,6 +69,9 @@ TEST(Keyframes, KF04_RotationKeysOfAnyLength) {
         }
     }
     EXPECT_EQ(safe_normalize(unit), unit);  // unit within rounding: the same bits
+    const double half = std::numbers::sqrt2 / 2.0;
+    EXPECT_LT(glm::length(safe_normalize(glm::dquat(0.0, 1.7e308, 1.7e308, 0.0)) - glm::dquat(0.0, half, half, 0.0)),
+              1e-15);
 }
 
 TEST(Keyframes, KF04_CubicKeysOfAnyLengthKeepTheirShape) {
@@ -78,7 +81,8 @@ TEST(Keyframes, KF04_CubicKeysOfAnyLengthKeepTheirShape) {
         for (glm::dquat& value : values) value = value * length;
         return evaluate(keyed({0.0, 2.0}, values, Interpolation::cubic), 0.75);
     };
-    for (const double length : {0.5, 1e-20, 1e20}) EXPECT_LT(glm::length(curve(length) - curve(1.0)), 1e-15);
+    for (const double length : {0.5, 1e-20, 1e20, 1e-160, 1e160, 1e-300, 1e300})
+        EXPECT_LT(glm::length(curve(length) - curve(1.0)), 1e-15);
 }
 
 TEST(Keyframes, KF05_ZeroOrNanRotationIsRefusedByIndex) {
