@@ -72,7 +72,7 @@ Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task
     state.turned = true;
     state.emission = EmissionWeight::none;
     state.media = context.around;
-    const float enters = material == nullptr ? 1.0f : relative_transmission(*material, local.z);
+    const float enters = material == nullptr ? 1.0f : UpperLayers(*material, point.normal).entering(direction, local.z);
     return enters * std::numbers::pi_v<float> *
            follow_ray(context, task, {point.ray_origin(), direction}, state, random);
 }

@@ -276,9 +276,12 @@ void scale_light(GatherScratch& scratch, const Weight& weight) {
 
 /// Weighs the light of all rays by how much of it enters the Lambert layer.
 void weigh_by_transmission(const SurfaceMaterial& material, const glm::vec3& normal, GatherScratch& scratch) {
-    if (!(material.gloss.f90_max > 0.0f || material.gloss.f0_max > 0.0f)) return;
+    const bool layered = material.has_coat() || material.has_sheen();
+    if (!(layered || material.gloss.f90_max > 0.0f || material.gloss.f0_max > 0.0f)) return;
+    const UpperLayers layers(material, normal);
     scale_light(scratch, [&](std::size_t ray) {
-        return relative_transmission(material, glm::dot(normal, scratch.rays[ray].direction));
+        const glm::vec3& direction = scratch.rays[ray].direction;
+        return layers.entering(direction, glm::dot(normal, direction));
     });
 }
 

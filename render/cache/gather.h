@@ -40,7 +40,7 @@ std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& poi
                                           const MultiBounceLight& multi_bounce);
 
 /// The same without bias from one random path, whose first ray is counted as RayCounts::multi_bounce.
-/// @param material  weighs the light by its relative_transmission; null: pure Lambert
+/// @param material  weighs the light by what of it enters (UpperLayers::entering); null: pure Lambert
 /// @param depth     surfaces that may scatter on the path
 Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
                                    const SurfaceMaterial* material, const MultiBounceLight& multi_bounce, int depth,
@@ -191,7 +191,7 @@ struct GatherOptions {
     const DirectGrid* grid = nullptr;
     std::vector<DirectSample>* found = nullptr;  ///< if given, samples for the grid are added
     MultiBounceLight multi_bounce{};             ///< light of further bounces; none: one bounce only
-    /// Weighs the light of each ray by its relative_transmission, which is what diffuse_radiance needs. Null: all
+    /// Weighs the light of each ray by UpperLayers::entering, which is what diffuse_radiance needs. Null: all
     /// alike.
     const SurfaceMaterial* material = nullptr;
     /// Rays towards them join those over the hemisphere; null: none.

@@ -66,12 +66,13 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
     std::optional<BrightSampler> bright;
     const Receiver receiver{surface.point.ray_origin(), surface.point.normal};
     if (aimed > 0) state.bright = &bright.emplace(*surfaces, receiver, rays, aimed);
+    const UpperLayers layers(surface.material, surface.point.normal);
     Rgb sum(0.0f);
     const auto follow = [&](const glm::vec3& direction, float cosine) {
         if (!(glm::dot(direction, surface.point.geometric) > 0.0f)) return;
         ++task.counts.path;
         sum += follow_ray(scene.lighting, task, {receiver.position, direction}, state, random) *
-               relative_transmission(surface.material, cosine);
+               layers.entering(direction, cosine);
     };
     for (int i = 0; i < rays; ++i) {
         const glm::vec2 u = sequence.at_2d(SampleUse::indirect, surface.sample * rays + i);

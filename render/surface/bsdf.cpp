@@ -18,34 +18,13 @@ constexpr int albedo_steps = 24;  // of each side of the table
 /// Rows by roughness (the square root of alpha), columns by the square root of the cosine.
 using PartsTable = std::array<std::array<AlbedoParts, albedo_steps>, albedo_steps>;
 
-AlbedoParts integrate_parts(float alpha, float cos_view) {
-    constexpr int count = 512;
-    constexpr float golden_ratio = 0.618034f;
-    const glm::vec2 widths(std::max(alpha, min_ggx_alpha));
-    const glm::vec3 view(std::sqrt((1.0f - cos_view) * (1.0f + cos_view)), 0.0f, cos_view);
-    AlbedoParts parts;
-    for (int i = 0; i < count; ++i) {
-        const auto number = static_cast<float>(i);
-        const glm::vec2 u((number + 0.5f) / count, glm::fract(number * golden_ratio));
-        const glm::vec3 h = sample_visible_normal(widths, view, u);
-        const float cosine = glm::dot(view, h);
-        const glm::vec3 light = 2.0f * cosine * h - view;
-        if (!(light.z > 0.0f)) continue;
-        const float weight = smith_g2(widths, view, light) / (smith_g1(widths, view) * count);
-        const float grazing = schlick_power(cosine);
-        parts.straight += weight * (1.0f - grazing);
-        parts.grazing += weight * grazing;
-    }
-    return parts;
-}
-
 PartsTable make_parts_table() {
     PartsTable table{};
     for (int i = 0; i < albedo_steps; ++i) {
         for (int k = 0; k < albedo_steps; ++k) {
             const float roughness = static_cast<float>(i) / (albedo_steps - 1),
                         root = static_cast<float>(k) / (albedo_steps - 1);
-            table[i][k] = integrate_parts(roughness * roughness, std::max(root * root, 1e-4f));
+            table[i][k] = integrate_ggx_albedo(roughness * roughness, std::max(root * root, 1e-4f), 512);
         }
     }
     return table;
@@ -103,6 +82,27 @@ glm::vec3 sample_glossy(const SurfaceMaterial& material, const glm::vec3& view, 
 float pdf_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
     if (!(view.z > 0.0f && light.z > 0.0f) || material.is_mirror()) return 0.0f;
     return pdf_reflected(material.widths(), view, glm::normalize(view + light));
+}
+
+AlbedoParts integrate_ggx_albedo(float alpha, float cos_view, int samples) {
+    const auto count = static_cast<float>(samples);
+    constexpr float golden_ratio = 0.618034f;
+    const glm::vec2 widths(std::max(alpha, min_ggx_alpha));
+    const glm::vec3 view(std::sqrt((1.0f - cos_view) * (1.0f + cos_view)), 0.0f, cos_view);
+    AlbedoParts parts;
+    for (int i = 0; i < samples; ++i) {
+        const auto number = static_cast<float>(i);
+        const glm::vec2 u((number + 0.5f) / count, glm::fract(number * golden_ratio));
+        const glm::vec3 h = sample_visible_normal(widths, view, u);
+        const float cosine = glm::dot(view, h);
+        const glm::vec3 light = 2.0f * cosine * h - view;
+        if (!(light.z > 0.0f)) continue;
+        const float weight = smith_g2(widths, view, light) / (smith_g1(widths, view) * count);
+        const float grazing = schlick_power(cosine);
+        parts.straight += weight * (1.0f - grazing);
+        parts.grazing += weight * grazing;
+    }
+    return parts;
 }
 
 AlbedoParts ggx_albedo(float alpha, float cos_view) {

@@ -16,13 +16,13 @@ float mean_diffuse_transmission(const SurfaceMaterial& material);
 /// f_diffuse for the cosines of both directions with the shading normal.
 Rgb evaluate_diffuse(const SurfaceMaterial& material, float cos_view, float cos_light);
 
-/// How much of the light from a direction enters the Lambert layer, over the mean over the hemisphere; 1 where nothing
-/// enters.
+/// How much of the light from a direction enters the Lambert layer through the gloss, over the mean over the
+/// hemisphere; 1 where nothing enters.
 float relative_transmission(const SurfaceMaterial& material, float cos_light);
 
 /// Radiance of the Lambert layer at this cosine of the view.
-/// @param irradiance  with the light of each direction times its relative_transmission. Plain irradiance is the same
-///                    where light is uniform
+/// @param irradiance  with the light of each direction times UpperLayers::entering. Plain irradiance is the same where
+///                    light is uniform
 Rgb diffuse_radiance(const SurfaceMaterial& material, float cos_view, const Rgb& irradiance);
 
 /// F(v.h) of the glossy layer (Schlick 1994).
@@ -46,5 +46,7 @@ struct AlbedoParts {
 /// From a table; within .005.
 /// @param cos_view  with the shading normal
 AlbedoParts ggx_albedo(float alpha, float cos_view);
+/// From so many samples.
+AlbedoParts integrate_ggx_albedo(float alpha, float cos_view, int samples);
 
 }  // namespace aleph

@@ -14,11 +14,8 @@ namespace aleph {
 
 namespace {
 
-constexpr float coat_f0 = 0.04f;  // KHR_materials_clearcoat: index of refraction 1.5
-
-/// By the angle of the view, as the light below it: with that of the half vector a rough coat would add light.
-float coat_reflectance(const LitSurface& lit) {
-    return lit.material.coat.strength * (coat_f0 + (1.0f - coat_f0) * schlick_power(lit.coat_view.z));
+float coat_reflectance(const CoatLayer& coat, float cosine) {
+    return coat.strength * (coat_f0 + (1.0f - coat_f0) * schlick_power(cosine));
 }
 
 Basis make_shading_basis(const SurfacePoint& point, const SurfaceMaterial& material) {
@@ -38,9 +35,11 @@ LobeValue evaluate_coat(const LitSurface& lit, const glm::vec3& direction) {
     const glm::vec3 light = lit.coat_basis.to_local(direction);
     if (material.is_coat_mirror() || !(light.z > 0.0f && lit.coat_view.z > 0.0f)) return {};
     const glm::vec2 widths(material.coat.alpha);
-    const glm::vec3 h = glm::normalize(lit.coat_view + light);
-    const float value =
-        ggx_d(widths, h) * smith_g2(widths, lit.coat_view, light) / (4.0f * lit.coat_view.z) * coat_reflectance(lit);
+    const glm::vec3 sum = lit.coat_view + light;
+    const float length = glm::length(sum);
+    const glm::vec3 h = sum / length;
+    const float value = ggx_d(widths, h) * smith_g2(widths, lit.coat_view, light) / (4.0f * lit.coat_view.z) *
+                        coat_reflectance(material.coat, 0.5f * length);
     return {Rgb(value), pdf_reflected(widths, lit.coat_view, h)};
 }
 
@@ -49,21 +48,22 @@ LobeValue evaluate_lobe(const LitSurface& lit, Lobe lobe, const glm::vec3& direc
     const SurfaceMaterial& material = lit.material;
     if (lobe == Lobe::glass) {
         const LobeValue glass = evaluate_glass(material, lit.view, light);
-        return {glass.f_cos * lit.below_sheen, glass.pdf};
+        return {glass.f_cos * lit.below_both(direction), glass.pdf};
     }
     if (!(light.z > 0.0f)) return {};
     switch (lobe) {
         case Lobe::diffuse:
-            return {evaluate_diffuse(material, lit.cos_view, light.z) * (light.z * lit.below_sheen),
+            return {evaluate_diffuse(material, lit.cos_view, light.z) *
+                        (light.z * lit.below_sheen * lit.layers.relative(direction)),
                     pdf_cosine_hemisphere(light.z)};
         case Lobe::gloss:
-            return {evaluate_glossy(material, lit.view, light) * (light.z * lit.below_sheen),
+            return {evaluate_glossy(material, lit.view, light) * (light.z * lit.below_both(direction)),
                     pdf_glossy(material, lit.view, light)};
         case Lobe::coat:
             return evaluate_coat(lit, direction);
         case Lobe::sheen:
-            return {material.sheen.color * (evaluate_sheen(material.sheen.alpha, lit.view, light) * light.z *
-                                            lit.sheen_scale * lit.below_coat),
+            return {material.sheen.color * (evaluate_sheen_layer(material.sheen.alpha, lit.view, light) * light.z *
+                                            std::min(lit.below_coat, lit.layers.below_coat(direction))),
                     1.0f / (2.0f * std::numbers::pi_v<float>)};
         case Lobe::glass:
             break;
@@ -105,19 +105,13 @@ LitSurface::LitSurface(const ViewedSurface& surface)
       view(basis.to_local(surface.view)),
       cos_view(std::max(view.z, 0.0f)),
       coat_basis(basis),
-      coat_view(view) {
-    if (material.has_coat()) {
-        if (material.coat.normal != glm::vec3(0.0f)) {
-            coat_basis = make_basis(material.coat.normal);
-            coat_view = coat_basis.to_local(surface.view);
-        }
-        if (coat_view.z > 0.0f) below_coat = 1.0f - coat_reflectance(*this);
-    }
-    below_sheen = below_coat;
-    if (material.has_sheen()) {
-        const float albedo = sheen_albedo(material.sheen.alpha, cos_view);
-        sheen_scale = 1.0f / std::max(albedo, 1.0f);
-        below_sheen *= 1.0f - largest_channel(material.sheen.color) * albedo * sheen_scale;
+      coat_view(view),
+      layers(material, point.normal),
+      below_coat(layers.below_coat(surface.view)),
+      below_sheen(layers.below_all(surface.view)) {
+    if (material.has_coat() && material.coat.normal != glm::vec3(0.0f)) {
+        coat_basis = make_basis(material.coat.normal);
+        coat_view = coat_basis.to_local(surface.view);
     }
 }
 
@@ -185,14 +179,14 @@ ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, fl
         case Lobe::gloss:
             local = sample_glossy(material, lit.view, u);
             mirror = material.is_mirror();
-            if (mirror) sample.weight = glossy_reflectance(material, lit.view.z) * lit.below_sheen;
+            if (mirror) sample.weight = glossy_reflectance(material, lit.view.z);
             break;
         case Lobe::coat: {
             const std::optional<glm::vec3> reflected = sample_coat(lit, u);
             if (!reflected) return sample;
             local = *reflected;
             mirror = material.is_coat_mirror();
-            if (mirror) sample.weight = Rgb(coat_reflectance(lit));
+            if (mirror) sample.weight = Rgb(coat_reflectance(material.coat, lit.coat_view.z));
             break;
         }
         case Lobe::sheen:
@@ -202,7 +196,7 @@ ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, fl
             const GlassSample glass = sample_glass(material, lit.view, u, side);
             local = glass.light;
             mirror = material.is_glass_smooth();
-            if (mirror) sample.weight = glass.weight * lit.below_sheen;
+            if (mirror) sample.weight = glass.weight;
             sample.passes = local.z < 0.0f;
             sample.straight = sample.passes && material.passes_straight();
             break;
@@ -216,7 +210,7 @@ ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, fl
         return sample;
     }
     if (mirror) {
-        sample.weight /= share;
+        sample.weight *= (sample.lobe == Lobe::coat ? 1.0f : lit.below_both(sample.direction)) / share;
         return sample;
     }
     const LobeValue value = evaluate_lobe(lit, sample.lobe, sample.direction, local);

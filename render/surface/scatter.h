@@ -7,6 +7,7 @@
 
 #include "engine/base/sampling.h"
 #include "render/surface/bsdf.h"
+#include "render/surface/layers.h"
 
 namespace aleph {
 
@@ -34,6 +35,9 @@ struct LitSurface {
         return point.position + point.geometric * (front ? point.offset : -point.offset);
     }
 
+    /// Share of light from a direction that the coat and the sheen leave to lobes that depend on the view.
+    float below_both(const glm::vec3& direction) const { return std::min(below_sheen, layers.below_all(direction)); }
+
     const SurfacePoint& point;
     const SurfaceMaterial& material;
     Basis basis;     ///< z along the shading normal, x along the tangent of anisotropy
@@ -41,8 +45,8 @@ struct LitSurface {
     float cos_view;  ///< view.z, at least 0
     Basis coat_basis;
     glm::vec3 coat_view;
-    float below_coat = 1.0f, below_sheen = 1.0f;  ///< share of light that the layers above leave, by view
-    float sheen_scale = 1.0f;                     ///< keeps the layer's albedo at most its colour
+    UpperLayers layers;
+    float below_coat, below_sheen;  ///< share of light that the layers above leave, by view
 };
 
 /// Probability of each lobe; they sum to 1, or are all 0 where nothing scatters.

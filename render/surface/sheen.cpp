@@ -32,9 +32,24 @@ SpreadCosine invert_spread(double roughness, double x) {
     return {x * x * half / rest, 2.0 * x * half * (1.0 + half) / (rest * rest)};
 }
 
+float look_up_albedo(const Table& table, float alpha, float cos_view) {
+    // Compared so that a number that is none becomes the least one.
+    const float root = std::sqrt(alpha), r = root > least_roughness ? std::min(root, 1.0f) : least_roughness;
+    const float cosine = cos_view > 0.0f ? std::min(cos_view, 1.0f) : 0.0f;
+    const float row = std::sqrt((r - least_roughness) / (1.0f - least_roughness)) * (rows - 1);
+    const float column = spread_cosine(r, cosine) * (columns - 1);
+    const int i = std::min(static_cast<int>(row), rows - 2), k = std::min(static_cast<int>(column), columns - 2);
+    const float a = row - static_cast<float>(i), b = column - static_cast<float>(k);
+    const float scaled = (1.0f - a) * ((1.0f - b) * table[i][k] + b * table[i][k + 1]) +
+                         a * ((1.0f - b) * table[i + 1][k] + b * table[i + 1][k + 1]);
+    return scaled / r;
+}
+
 /// By the midpoint rule.
-float integrate_albedo(float roughness, float cos_view) {
+/// @param limits  divides by the largest of 1 and both directions' albedos in it; null: does not
+float integrate_albedo(float roughness, float cos_view, const Table* limits) {
     constexpr int heights = 64, azimuths = 24;  // of half the circle
+    const float alpha = roughness * roughness;
     const glm::vec3 view(std::sqrt((1.0f - cos_view) * (1.0f + cos_view)), 0.0f, cos_view);
     double sum = 0.0;
     for (int i = 0; i < heights; ++i) {
@@ -43,23 +58,31 @@ float integrate_albedo(float roughness, float cos_view) {
         double ring = 0.0;
         for (int k = 0; k < azimuths; ++k) {
             const double phi = std::numbers::pi * (k + 0.5) / azimuths;
-            ring += evaluate_sheen(roughness * roughness, view, glm::vec3(s * std::cos(phi), s * std::sin(phi), z));
+            ring += evaluate_sheen(alpha, view, glm::vec3(s * std::cos(phi), s * std::sin(phi), z));
         }
-        sum += ring * z * slope;
+        const auto limit = [&](double cosine) {
+            return limits == nullptr ? 1.0f : look_up_albedo(*limits, alpha, static_cast<float>(cosine));
+        };
+        sum += ring * z * slope / std::max({1.0f, limit(cos_view), limit(z)});
     }
     return static_cast<float>(sum * 2.0 * std::numbers::pi / (heights * azimuths));
 }
 
-Table make_albedo_table() {
+Table make_albedo_table(const Table* limits = nullptr) {
     Table table{};
     for (int i = 0; i < rows; ++i) {
         const float r =
             least_roughness + (1.0f - least_roughness) * static_cast<float>(i * i) / ((rows - 1) * (rows - 1));
         for (int k = 0; k < columns; ++k) {
             const auto cosine = static_cast<float>(invert_spread(r, static_cast<double>(k) / (columns - 1)).cosine);
-            table[i][k] = r * integrate_albedo(r, std::clamp(cosine, 1e-6f, 1.0f));
+            table[i][k] = r * integrate_albedo(r, std::clamp(cosine, 1e-6f, 1.0f), limits);
         }
     }
+    return table;
+}
+
+const Table& albedo_table() {
+    static const Table table = make_albedo_table();
     return table;
 }
 
@@ -75,17 +98,17 @@ float evaluate_sheen(float alpha, const glm::vec3& view, const glm::vec3& light)
 }
 
 float sheen_albedo(float alpha, float cos_view) {
-    static const Table table = make_albedo_table();
-    // Compared so that a number that is none becomes the least one.
-    const float root = std::sqrt(alpha), r = root > least_roughness ? std::min(root, 1.0f) : least_roughness;
-    const float cosine = cos_view > 0.0f ? std::min(cos_view, 1.0f) : 0.0f;
-    const float row = std::sqrt((r - least_roughness) / (1.0f - least_roughness)) * (rows - 1);
-    const float column = spread_cosine(r, cosine) * (columns - 1);
-    const int i = std::min(static_cast<int>(row), rows - 2), k = std::min(static_cast<int>(column), columns - 2);
-    const float a = row - static_cast<float>(i), b = column - static_cast<float>(k);
-    const float scaled = (1.0f - a) * ((1.0f - b) * table[i][k] + b * table[i][k + 1]) +
-                         a * ((1.0f - b) * table[i + 1][k] + b * table[i + 1][k + 1]);
-    return scaled / r;
+    return look_up_albedo(albedo_table(), alpha, cos_view);
+}
+
+float evaluate_sheen_layer(float alpha, const glm::vec3& view, const glm::vec3& light) {
+    return evaluate_sheen(alpha, view, light) /
+           std::max({1.0f, sheen_albedo(alpha, view.z), sheen_albedo(alpha, light.z)});
+}
+
+float sheen_layer_albedo(float alpha, float cos_view) {
+    static const Table table = make_albedo_table(&albedo_table());
+    return std::min(look_up_albedo(table, alpha, cos_view), 1.0f);
 }
 
 }  // namespace aleph

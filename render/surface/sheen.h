@@ -17,4 +17,9 @@ inline constexpr float min_sheen_alpha = 1e-3f;
 /// lowest.
 float sheen_albedo(float alpha, float cos_view);
 
+/// evaluate_sheen over the largest of 1 and its albedos for both directions: reciprocal, and adds no light.
+float evaluate_sheen_layer(float alpha, const glm::vec3& view, const glm::vec3& light);
+/// Directional albedo of that, from a table as sheen_albedo.
+float sheen_layer_albedo(float alpha, float cos_view);
+
 }  // namespace aleph

@@ -78,10 +78,28 @@ TEST(Layers, Clearcoat) {
                       .gloss = {.metallic = 0.0, .specular = 0.0},
                       .layers = {.clearcoat = 0.7, .clearcoat_roughness = 0.5}};
     const SurfaceMaterial coated = evaluate_plain(material);
+    // clearcoat fresnel(0.04, V.H) D V, and the base by what that leaves for both directions.
+    const auto coat = [](const Directions& d) {
+        return 0.7 * schlick(0.04, 1.0, glm::dot(d.view, d.half())) * anisotropic_lobe(0.25, 0.25, d);
+    };
+    const auto left = [&](double cosine) {
+        const glm::vec3 view = direction_of(static_cast<float>(cosine));
+        return 1.0 - integrate_around_lobe(
+                         0.25f, view,
+                         [&](const glm::vec3& l) {
+                             return coat({glm::dvec3(view), glm::dvec3(l)}) * l.z;
+                         },
+                         100);
+    };
+    double mean = 0.0;
+    constexpr int steps = 50;
+    for (int i = 0; i < steps; ++i) mean += 2.0 * (i + 0.5) / (steps * steps) * left((i + 0.5) / steps);
+    SurfaceMaterial alone = coated;
+    alone.diffuse = Rgb(0.0f);
     for (const Directions& d : some_directions()) {
-        // mix(base, D V, clearcoat * fresnel(0.04, N.V))
-        const double share = 0.7 * schlick(0.04, 1.0, d.view.z);
-        expect_equal(scattered(coated, d), 0.6 / pi * (1.0 - share) + anisotropic_lobe(0.25, 0.25, d) * share);
+        expect_equal(scattered(alone, d), coat(d));
+        const double base = 0.6 / pi * left(d.view.z) * left(d.light.z) / mean;
+        EXPECT_NEAR(scattered(coated, d) - scattered(alone, d), base, 2e-3 * base);
     }
 }
 

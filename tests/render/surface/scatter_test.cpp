@@ -107,7 +107,7 @@ TEST(Scatter, SmoothAndMatteAlbedosAreKnown) {
 TEST(Scatter, SheenTakesItsAlbedoFromTheLayerBelow) {
     for (const float roughness : {0.3f, 0.6f, 1.0f}) {
         for (const float cosine : {1.0f, 0.6f, 0.2f, 0.05f}) {
-            const double sheen = std::min(1.0f, sheen_albedo(roughness * roughness, cosine));
+            const double sheen = sheen_layer_albedo(roughness * roughness, cosine);
             const ViewedSurface alone = make_viewed(with_sheen({}, roughness, 0.6f), direction_of(cosine));
             const ViewedSurface layered =
                 make_viewed(with_sheen(make_lambert(0.5f), roughness, 0.6f), direction_of(cosine));
