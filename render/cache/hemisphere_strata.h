@@ -20,7 +20,8 @@ struct HemisphereStrata {
     int cell(int row, int column) const { return row * columns + column; }
 };
 
-/// Strata with exactly `samples` cells if a pair of divisors is near the ideal ratio, otherwise with a few less.
+/// Strata with exactly `samples` cells if a pair of divisors is near the ideal ratio, otherwise with a few less: at
+/// most 8 %, from 64 on 5 %, and .24 % in the mean.
 inline HemisphereStrata choose_strata(int samples) {
     HemisphereStrata best{1, std::max(1, samples)};
     double best_cost = 1e30;

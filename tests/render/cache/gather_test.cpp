@@ -43,6 +43,7 @@ TEST(Gather, MC04_StrataUseTheSamplesAskedFor) {
         const HemisphereStrata strata = choose_strata(n);
         ASSERT_LE(strata.count(), n);
         ASSERT_LE(3 * (n - strata.count()), strata.columns) << n;  // a third of a row of cells at most is left out
+        ASSERT_LE(100 * (n - strata.count()), 8 * n) << n;         // what the setting's description says
         if (n < 64) continue;
         const double ratio = static_cast<double>(strata.columns) / strata.rows;
         ASSERT_GT(ratio, pi / 3.0) << n;
