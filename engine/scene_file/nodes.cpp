@@ -65,12 +65,22 @@ class NodeReader {
         if (const auto value = at.find("light"))
             node.light = read_use(reader_, *value, reader_.names.lights, inner, add_light);
 
+        const bool shows = !node.meshes.empty() || node.light != no_index || at.has("instance") || at.has("include");
+        if (shows) refuse_late(at, node.parent);
         add_node(std::move(node));
         if (const auto instance = at.find("instance")) read_instance(*instance, index);
         const std::size_t includes = scene_.source.includes.size();
         read_includes(reader_, at, index);
         if (scene_.source.includes.size() > includes) with_include_.insert(index);
         if (const auto children = at.find("children")) read_list(*children, index);
+    }
+
+    /// An instance before this node would be without it.
+    void refuse_late(const JsonRef& at, int parent) const {
+        const int instance = parent == no_index ? no_index : shown_by_[parent];
+        if (instance == no_index) return;
+        at.fail(fmt::format("it has to come before \"{}\", which shows what is below \"{}\" again",
+                            printable(scene_.nodes[instance].name), printable(scene_.nodes[parent].name)));
     }
 
     int read_parent(const JsonRef& at, int nested_under) const {
@@ -132,6 +142,7 @@ class NodeReader {
         const int source = require_earlier(at, "its source");
         if (!children_[source].empty()) refuse_ancestor(at, source, index);
         bool shows = share(at, source, index);
+        shown_by_[source] = index;
         struct Copy {
             int source, parent;
         };
@@ -144,6 +155,7 @@ class NodeReader {
         while (!left.empty()) {
             const Copy next = left.back();
             left.pop_back();
+            shown_by_[next.source] = index;
             reader_.charge(node_bytes, at, "too many nodes are copied");
             Node copy = scene_.nodes[next.source];
             copy.parent = next.parent;
@@ -192,6 +204,7 @@ class NodeReader {
         if (node.parent != no_index) children_[node.parent].push_back(index);
         if (!node.name.empty()) reader_.names.nodes.add(node.name, index);
         children_.emplace_back();
+        shown_by_.push_back(node.parent == no_index ? no_index : shown_by_[node.parent]);
         scene_.nodes.push_back(std::move(node));
         return index;
     }
@@ -207,6 +220,7 @@ class NodeReader {
     std::size_t ancestors_seen_ = 0;
     std::vector<std::vector<int>> children_;  ///< by node
     std::unordered_set<int> with_include_;
+    std::vector<int> shown_by_;  ///< by node: the last instance that shows it and what is below it
 };
 
 Include read_include(const JsonRef& at) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/surface/limit_surface.h"
 #include "motion/raster.h"
 #include "perception/sanitize.h"
 #include "render/frame/prepared_frame.h"
@@ -32,11 +33,18 @@ PosePlan plan_all(PosePlan plan, std::size_t nodes, std::size_t instances) {
 
 }  // namespace
 
-void FrameMotion::begin_edited(PosedView before) {
+void FrameMotion::begin_edited(FrameBeforeEdit before) {
+    // The level of a moving cage may be another now: the same surface has other triangles.
+    std::vector<PosedMesh>& posed = before.posed.pose.meshes;
+    for (std::size_t m = 0; before.same_triangles && m < posed.size(); ++m) {
+        const MeshSubdivision& made = shot_.scene.meshes[m].subdivision;
+        if (!posed[m].control.empty())
+            made.limit.surface->evaluate_vertices(made.part, posed[m].control, posed[m].positions, posed[m].normals);
+    }
     before_edit_ = std::move(before);
 }
 
-std::optional<PosedView> FrameMotion::end_edited() {
+std::optional<FrameBeforeEdit> FrameMotion::end_edited() {
     edited_.reset();
     from_edit_ = false;
     return std::exchange(before_edit_, std::nullopt);
@@ -49,17 +57,24 @@ OtherFrame FrameMotion::pose_other(const FrameWork& work, const PosedView& here)
         if (work.other != OtherFrame::none) other_.pose(other_frame_number(work.frame, work.other));
         return work.other;
     }
-    const bool begins_shot = std::ranges::find(shot_.scene.film.cuts, work.frame) != shot_.scene.film.cuts.end();
-    if (begins_shot || !has_same_elements(before_edit_->pose, here.pose)) return OtherFrame::none;
-    from_edit_ = true;
-    return OtherFrame::previous;
+    from_edit_ = is_found_before_edit(work, here);
+    return from_edit_ ? OtherFrame::previous : OtherFrame::none;
+}
+
+/// Returns whether the frame before the edit shows what this one does, with the same camera in the same shot.
+bool FrameMotion::is_found_before_edit(const FrameWork& work, const PosedView& here) const {
+    const auto [first, last] = std::minmax(before_edit_->frame, work.frame);
+    const auto is_between = [first = first, last = last](std::int64_t cut) { return first < cut && cut <= last; };
+    return before_edit_->same_triangles && before_edit_->posed.camera == here.camera &&
+           std::ranges::none_of(shot_.scene.film.cuts, is_between) &&
+           has_same_elements(before_edit_->posed.pose, here.pose);
 }
 
 FrameScene& FrameMotion::other_scene(const FrameScene& here) {
     if (!from_edit_) return other_;
     all_ = plan_all(shot_.pose_plan, shot_.scene.nodes.size(), here.posed().pose.instances.size());
     edited_ = std::make_unique<FrameScene>(shot_, all_);
-    edited_->pose(*before_edit_);
+    edited_->pose(before_edit_->posed);
     return *edited_;
 }
 

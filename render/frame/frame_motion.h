@@ -14,21 +14,28 @@ namespace aleph {
 
 struct PreparedFrame;
 
+/// The frame rendered last before an edit.
+struct FrameBeforeEdit {
+    std::int64_t frame = 0;
+    PosedView posed;
+    bool same_triangles = true;  ///< as after the edit
+};
+
 /// Keeps the scene at the other frame, and updates what moves.
 class FrameMotion {
   public:
     /// Keeps references. @param meshes  whose mesh structures the other frame's scene shares
     FrameMotion(const Shot& shot, const FrameScene& meshes) : shot_(shot), other_(shot, meshes) {}
 
-    /// Motion of the next frame that is prepared leads from this pose, of the scene before it was edited.
-    void begin_edited(PosedView before);
+    /// Motion of the next frame that is prepared leads from this one, of the scene before it was edited.
+    void begin_edited(FrameBeforeEdit before);
     /// Returns whether begin_edited was called and the frame after it has not been rendered yet.
     bool is_edited() const { return before_edit_.has_value(); }
-    /// Later frames have the motion of the scene's tracks. @return the pose given to begin_edited
-    std::optional<PosedView> end_edited();
+    /// Later frames have the motion of the scene's tracks. @return the frame given to begin_edited
+    std::optional<FrameBeforeEdit> end_edited();
 
     /// Poses the scene at the other frame.
-    /// @return the other frame; none if the pose before an edit has other elements
+    /// @return the other frame; after an edit none if the frame before it has other elements or is of another shot
     OtherFrame pose_other(const FrameWork& work, const PosedView& here);
 
     /// Motion of a frame whose estimate is made, with the hidden pixels if maps are wanted. After pose_other.
@@ -45,7 +52,8 @@ class FrameMotion {
     TracedRays traced() const { return edited_ ? other_.traced() + edited_->traced() : other_.traced(); }
 
   private:
-    const PosedView& other_view() const { return from_edit_ ? *before_edit_ : other_.posed(); }
+    const PosedView& other_view() const { return from_edit_ ? before_edit_->posed : other_.posed(); }
+    bool is_found_before_edit(const FrameWork& work, const PosedView& here) const;
     FrameScene& other_scene(const FrameScene& here);
     /// The points of each pixel that motion is of: the hits, or the items.
     const Image<Hit>& points(const Image<Hit>& hits) const;
@@ -59,7 +67,7 @@ class FrameMotion {
     FrameScene other_;
     std::optional<ModelMotion> model_;
     Image<Hit> items_;  ///< of the frame in work, where motion is from rasterized maps
-    std::optional<PosedView> before_edit_;
+    std::optional<FrameBeforeEdit> before_edit_;
     PosePlan all_;                        ///< an edit may have moved what the scene's own tracks leave at rest
     bool from_edit_ = false;              ///< motion leads from before_edit_
     std::unique_ptr<FrameScene> edited_;  ///< the scene before an edit, once its rays are needed

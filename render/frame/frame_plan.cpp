@@ -170,7 +170,7 @@ FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
     in.shutter = find_shutter_facts(work, in.facts, nearest.distance);
     in.perceives = work.perceive;
     in.maps = work.maps;
-    in.has_other = work.other != OtherFrame::none;
+    in.has_other = work.other != OtherFrame::none || work.edited;
     in.keyframes = shot_.reads_keyframes();
     if (work.perceive && in.has_other && !work.edited) {
         const double now = posed.pose.seconds, other = shot_.seconds(other_frame_number(work.frame, work.other));

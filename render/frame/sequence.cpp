@@ -29,6 +29,22 @@ double find_full_exposure(const Scene& scene, RenderSettings settings, const std
     return Sequence(scene, settings, camera).exposure();
 }
 
+/// Returns whether points of a cage's surface are the same points of another's, at any level.
+bool has_same_surface(const Cage& a, const Cage& b) {
+    return a.scheme == b.scheme && a.boundary == b.boundary && a.faces == b.faces && a.creases == b.creases &&
+           a.corners == b.corners;
+}
+
+/// Returns whether triangles of one scene's meshes are found in the other's.
+bool has_same_triangles(const Scene& a, const Scene& b) {
+    const auto same = [&](const Mesh& m, const Mesh& n) {
+        const int cage = m.subdivision.cage, other = n.subdivision.cage;
+        if (cage == no_index || other == no_index) return cage == other && m.triangles == n.triangles;
+        return m.subdivision.part == n.subdivision.part && has_same_surface(a.cages[cage], b.cages[other]);
+    };
+    return std::ranges::equal(a.meshes, b.meshes, same);
+}
+
 /// From a small quick estimate of the first frame; where that is black, of the first of some later ones that is not.
 double find_exposure(const Shot& shot, FrameScene& scene) {
     const glm::ivec2 size = find_measured_size(shot.settings.picture);
@@ -112,18 +128,22 @@ EffectsPlan Sequence::plan(std::int64_t frame) {
 
 void Sequence::edit(const std::function<void(Scene&)>& change) {
     SequenceState& old = state();
-    Scene scene = old.shot.scene;
+    Scene scene = old.shot.given_scene();
     change(scene);
     validate(scene);
+    remove_forbidden(old.shot.settings.effects.forbid, scene);
     const std::vector<CameraShot> shots = list_camera_shots(scene, camera_);
     auto made = std::make_unique<SequenceState>(std::move(scene), old.shot.settings, shots);
     made->shot.exposure = made->shot.scene.film.exposure.value_or(old.shot.exposure);
-    std::optional<PosedView> before = old.motion.end_edited();
+    std::optional<FrameBeforeEdit> before = old.motion.end_edited();
     if (old.rendered) {
         old.here.pose(*old.rendered);  // plans and parts of other frames have moved it
-        before = old.here.posed();
+        before = FrameBeforeEdit{*old.rendered, old.here.posed()};
     }
-    if (before) made->motion.begin_edited(std::move(*before));
+    if (before) {
+        before->same_triangles = before->same_triangles && has_same_triangles(old.shot.scene, made->shot.scene);
+        made->motion.begin_edited(std::move(*before));
+    }
     state_ = std::move(made);
 }
 

@@ -85,12 +85,14 @@ class Sequence {
     EffectsPlan plan(std::int64_t frame);
 
     /// Changes the scene between frames, as a simulation does that knows one step at a time. Costs as much as making a
-    /// new sequence; exposure and settings stay. What the scene's own tracks animate needs no edit.
+    /// new sequence; exposure and settings stay, and `change` gets the scene as it was given. What the scene's own
+    /// tracks animate needs no edit.
     ///
     /// The next frame's motion leads from the frame rendered last to this one, as in the last frame of a shot: the
     /// change of transforms, cameras and deforming points, whatever frame numbers they have. Where nodes, meshes,
-    /// triangles or cameras were added or removed, and across a cut, the frame has no motion. Frames after it have that
-    /// of the scene's tracks again. Points of a rigid mesh that are changed have the motion of its transform only.
+    /// triangles or cameras were added or removed, another camera looks, or a cut lies between the two frames, the
+    /// frame has no motion. Frames after it have that of the scene's tracks again. Points of a rigid mesh that are
+    /// changed have the motion of its transform only.
     /// @throws InputError as the constructor does, and what `change` throws; this is then as it was before
     void edit(const std::function<void(Scene&)>& change);
 

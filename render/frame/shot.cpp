@@ -32,6 +32,12 @@ Scene refine_cages(Scene scene, const std::vector<CameraShot>& shots, const Rend
     return refined ? std::move(*refined) : std::move(scene);
 }
 
+std::vector<int> list_levels(const Scene& scene) {
+    std::vector<int> levels;
+    for (const Cage& cage : scene.cages) levels.push_back(cage.level);
+    return levels;
+}
+
 bool is_cut(const Scene& scene, std::int64_t frame) {
     return std::ranges::find(scene.film.cuts, frame) != scene.film.cuts.end();
 }
@@ -56,7 +62,9 @@ Lens find_lens(const Scene& scene, const CameraValues& camera) {
 }
 
 Shot::Shot(Scene given, const RenderSettings& chosen, const std::vector<CameraShot>& camera_shots)
-    : scene(refine_cages(add_camera_cuts(std::move(given), camera_shots), camera_shots, chosen)),
+    : given_cuts(given.film.cuts),
+      given_levels(list_levels(given)),
+      scene(refine_cages(add_camera_cuts(std::move(given), camera_shots), camera_shots, chosen)),
       settings(chosen),
       shots(camera_shots),
       range(frame_range(scene)),
@@ -65,6 +73,13 @@ Shot::Shot(Scene given, const RenderSettings& chosen, const std::vector<CameraSh
       steady(scene, pose_plan),
       blended(has_blended(scene)),
       crossed_cuts(find_crossed_cuts(scene, [this](std::int64_t frame) { return camera(frame); })) {}
+
+Scene Shot::given_scene() const {
+    const std::unique_ptr<Scene> coarse = make_scene_at_levels(scene, given_levels);
+    Scene given = coarse ? std::move(*coarse) : scene;
+    given.film.cuts = given_cuts;
+    return given;
+}
 
 glm::dvec2 Shot::shutter(std::int64_t frame) const {
     return read_shutter(scene, camera(frame));

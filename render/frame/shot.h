@@ -25,6 +25,8 @@ struct Shot {
     Shot(Scene given, const RenderSettings& chosen, const std::vector<CameraShot>& camera_shots);
     Shot(const Shot&) = delete;
 
+    /// The scene as it was given: what a picture of this size adds to it is not its own.
+    Scene given_scene() const;
     /// Index into ScenePose::cameras of the camera of a frame.
     int camera(std::int64_t frame) const { return camera_at(shots, frame); }
     /// Open and close of the frame's camera, frames relative to the frame.
@@ -64,7 +66,9 @@ struct Shot {
                settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
     }
 
-    const Scene scene;  ///< cages at the levels that are rendered, changes of cameras among the cuts
+    const std::vector<std::int64_t> given_cuts;
+    const std::vector<int> given_levels;  ///< by cage
+    const Scene scene;                    ///< cages at the levels that are rendered, changes of cameras among the cuts
     const RenderSettings settings;
     const std::vector<CameraShot> shots;
     const FrameRange range;

@@ -75,14 +75,14 @@ Image<std::uint8_t> find_bright_edges(const LightingContext& context, const Came
     return edges;
 }
 
-Rgb light_seen(const SampleScene& scene, const SamplePlace& place, const Hit& hit, const glm::vec3& direction,
-               const glm::ivec2& pixel) {
+Rgb light_seen(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const Hit& hit,
+               const glm::vec3& direction, const glm::ivec2& pixel) {
     const ShadingScene& shading = scene.lighting.shading;
     if (hit.instance == no_index) return environment_radiance(shading, direction);
     const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
     if (!material.emits) return Rgb(0.0f);
     const PixelSurface surface = make_pixel_surface(shading, scene.view, place, hit, direction, pixel);
-    return surface.material.emission * share_left(scene.lighting.around, surface);
+    return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
 }
 
 Rgb average_light_seen(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const glm::ivec2& pixel) {
@@ -99,7 +99,7 @@ Rgb average_light_seen(const SampleScene& scene, ShadingTask& task, const Sample
     task.tracer.intersect(rays, hits);
     task.counts.primary += rays_of_a_sample;
     Rgb sum(0.0f);
-    for (int i = 0; i < rays_of_a_sample; ++i) sum += light_seen(scene, place, hits[i], rays[i].direction, pixel);
+    for (int i = 0; i < rays_of_a_sample; ++i) sum += light_seen(scene, task, place, hits[i], rays[i].direction, pixel);
     return sum / static_cast<float>(rays_of_a_sample);
 }
 

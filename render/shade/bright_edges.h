@@ -14,8 +14,8 @@ Image<std::uint8_t> find_bright_edges(const LightingContext& context, const Came
                                       double exposure, std::uint64_t& rays_cast);
 
 /// The light that a ray's hit shows by itself: emission, or the environment where it met nothing.
-Rgb light_seen(const SampleScene& scene, const SamplePlace& place, const Hit& hit, const glm::vec3& direction,
-               const glm::ivec2& pixel);
+Rgb light_seen(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const Hit& hit,
+               const glm::vec3& direction, const glm::ivec2& pixel);
 
 /// The mean of light_seen over more rays of the pixel's filter. They are those of no sample.
 /// @param place  of the sample in whose place this is taken

@@ -67,7 +67,7 @@ class CacheIntegrator final : public LightIntegrator {
     }
 
     void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) override {
-        shade_sample(*shading_, *scene_, task, surface, pixel, light);
+        shade_sample(*shading_, scene_before(*scene_, task, surface), task, surface, pixel, light);
     }
 
     void save(ByteWriter& out) const override { out.add(uses_.pixels); }

@@ -201,7 +201,7 @@ class FrameShading {
             if (!plan_.bright_edges.empty() && plan_.bright_edges(x, y) != 0) {
                 const glm::ivec2 pixel(x, y);
                 light[LightPart::surface] +=
-                    average_light_seen(scene, task, at, pixel) - light_seen(scene, at, hit, direction, pixel);
+                    average_light_seen(scene, task, at, pixel) - light_seen(scene, task, at, hit, direction, pixel);
             }
             add_sample(task, x, y, light);
         };

@@ -16,11 +16,11 @@ class PathIntegrator final : public LightIntegrator {
     void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples&, SampleLight& light) override {
         const RenderSettings& settings = input_.context.settings;
         RandomStream random = path_stream(settings.seed, input_.noise_key, surface);
-        const Media& around = scene_->lighting.around;
-        const Rgb left = share_left(around, surface);
+        const LightingContext lighting = scene_before(*scene_, task, surface).lighting;
+        const Rgb left = share_left(lighting.around, surface);
         light[LightPart::surface] = surface.material.emission * left;
         light[LightPart::gloss] =
-            scatter_light(scene_->lighting, task, surface, start_path(settings, around), random) * left;
+            scatter_light(lighting, task, surface, start_path(settings, lighting.around), random) * left;
     }
 
     void resolve(const Image<PixelSamples>& pixels, double exposure) override {

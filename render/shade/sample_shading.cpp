@@ -144,8 +144,17 @@ PathState start_path(const RenderSettings& settings, const Media& around) {
     return state;
 }
 
-Rgb share_left(const Media& around, const PixelSurface& surface) {
-    return transmit(around.attenuation(surface.point, surface.material), surface.distance);
+SampleScene scene_before(const SampleScene& scene, ShadingTask& task, const PixelSurface& surface) {
+    SampleScene before = scene;
+    Media& media = before.lighting.around;
+    if (!media.is_empty() && (scene.view.orthographic || scene.lens.radius > 0.0))
+        media = find_media(scene.lighting.shading, task, {surface.point.ray_origin(), surface.point.geometric},
+                           task.counts.primary);
+    return before;
+}
+
+Rgb share_left(const Media& before, const PixelSurface& surface) {
+    return transmit(before.attenuation(surface.point, surface.material), surface.distance);
 }
 
 void begin_light(const PixelSurface& surface, SampleLight& light) {

@@ -51,13 +51,18 @@ RandomStream path_stream(std::uint32_t seed, std::uint32_t noise_key, const Pixe
 /// @param around  the camera
 PathState start_path(const RenderSettings& settings, const Media& around);
 
-/// Share of light that reaches the camera through the media around it.
-Rgb share_left(const Media& around, const PixelSurface& surface);
+/// The scene with the media that a sample's ray passes before its surface in place of those around the camera. They
+/// differ where rays do not begin at the camera itself: on a lens, and in an orthographic view.
+SampleScene scene_before(const SampleScene& scene, ShadingTask& task, const PixelSurface& surface);
+
+/// Share of light that reaches the camera through the media before a surface.
+Rgb share_left(const Media& before, const PixelSurface& surface);
 
 /// Sets what a sample's light tells of its surface.
 void begin_light(const PixelSurface& surface, SampleLight& light);
 
 /// Finds the light that a pixel's surface sends to the camera, with the cache.
+/// @param scene  scene_before
 /// @param light  after begin_light
 void shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                   const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light);

@@ -20,6 +20,7 @@ class Media {
         Rgb attenuation{0.0f};  ///< 1/m
     };
 
+    bool is_empty() const { return size_ == 0; }
     /// 1 outside of all.
     float ior() const { return size_ == 0 ? 1.0f : stack_[size_ - 1].ior; }
     /// 1/m, of the innermost; 0 outside.

@@ -57,6 +57,13 @@ TEST(SceneJson, AnInstanceShowsAWholeSubTree) {
     EXPECT_EQ(again(scene), scene);
 }
 
+TEST(SceneJson, CamerasMayBeMountedOnNodesThatWereShownAgain) {
+    const Scene scene =
+        read(R"(, "nodes": [{"name": "car", "shape": {"type": "box"}}, {"name": "other", "instance": "car"},
+        {"name": "mount", "parent": "car", "children": [{"name": "eye", "camera": {}}]}])");
+    EXPECT_EQ(scene.nodes[3].parent, 2);
+}
+
 TEST(SceneJson, ShapesOfNodesTakeTheirNames) {
     const Scene scene = read(R"(, "materials": {"felt": {}}, "nodes": [
         {"name": "a", "shape": {"type": "quad", "size": [2, 3], "uv_scale": [4, 5]}, "material": "felt"},

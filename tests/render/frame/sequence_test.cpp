@@ -5,26 +5,12 @@
 #include <numeric>
 
 #include "tests/support/keyed_track.h"
+#include "tests/support/scenes/moving_box.h"
 #include "tests/support/scenes/perception_scene.h"
-#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-/// A lamp over a floor, and a box that moves across it.
-Scene make_moving_scene() {
-    Scene scene;
-    const int grey = add_lambert(scene, glm::dvec3(0.5));
-    add_mesh(scene, make_quad(8.0, 8.0, grey), glm::dvec3(0.0), z_to_up);
-    add_mesh(scene, make_box(glm::dvec3(0.6), grey));
-    scene.nodes[1].transform.translation.values = {{-1.0, 0.5, 0.0}, {1.0, 0.5, 0.0}};
-    add_lamp(scene, 1.0, glm::dvec3(10.0), {0.0, 3.0, 0.0});
-    scene.cameras.emplace_back();
-    scene.nodes.push_back({.transform = {.translation = glm::dvec3(0.0, 1.0, 5.0)}, .camera = 0});
-    for (int i = 0; i < 4; ++i) scene.nodes[i].name = std::array{"floor", "box", "lamp", "eye"}[i];
-    return scene;
-}
 
 std::vector<Image<Rgb>> render_two(Sequence& sequence) {
     std::vector<Image<Rgb>> pictures;
@@ -112,20 +98,6 @@ TEST(Sequence, MovesWithItsScene) {
     EXPECT_EQ(second.scene().nodes.size(), 4u);
 }
 
-/// make_moving_scene with a second camera, from frame 10 on.
-Scene make_scene_with_two_cameras() {
-    Scene scene = make_moving_scene();
-    scene.cameras.emplace_back().fov = 0.4;
-    Node close;
-    close.name = "close";
-    close.camera = 1;
-    close.transform.translation.values = {{0.5, 1.0, 3.0}, {0.0, 1.0, 3.0}};
-    scene.nodes.push_back(close);
-    scene.film.range = FrameRange{0, 30};
-    scene.film.camera_keys = {{0, "eye"}, {4, "eye"}, {10, "close"}};
-    return scene;
-}
-
 TEST(SequenceCameras, EachLooksFromItsFrameOn) {
     RenderSettings settings = quick_settings(40, 30);
     Scene scene = make_scene_with_two_cameras();
@@ -163,90 +135,6 @@ TEST(SequenceCameras, KeysAscendAndNameCameras) {
     };
     refuse({{0, "eye"}, {0, "close"}});
     refuse({{0, "eye"}, {3, "floor"}});
-}
-
-const auto maps_only = FrameRequest{.frame = false, .maps = true, .progress = {}};
-
-bool is_without_motion(const MotionField& motion) {
-    return std::ranges::none_of(motion.validity.pixels, [](MotionValidity v) { return v == MotionValidity::valid; });
-}
-
-/// A simulation that sets each step's place finds the motion that keys give in the last frame of a shot.
-TEST(SequenceEdit, MotionLeadsFromTheFrameRenderedLast) {
-    const RenderSettings settings = quick_settings(40, 30);
-    Scene keyed = make_moving_scene();
-    keyed.nodes[3].transform.translation.values = {{0.0, 1.0, 5.0}, {1.0, 1.5, 5.0}};  // the camera moves too
-    const auto place_at = [&](Scene& scene, int frame) {
-        for (const int node : {1, 3}) {
-            scene.nodes[node].transform.translation =
-                evaluate(keyed.nodes[node].transform.translation, keyed.film.frame_rate.seconds_of(frame));
-        }
-    };
-    Scene still = keyed;
-    place_at(still, 6);
-    Sequence stepped(still, settings);
-    stepped.render(6, maps_only);
-    stepped.edit([&](Scene& scene) { place_at(scene, 7); });
-    const FrameOutput first_after = stepped.render(7, maps_only);
-    const MotionField& after = first_after.motion;
-    const FrameStatistics& statistics = first_after.statistics;
-    EXPECT_EQ(statistics.traced.all, statistics.counts.rays.total()) << "rays in the scene before the edit included";
-
-    keyed.film.range = FrameRange{0, 7};
-    const MotionField expected = Sequence(keyed, settings).render(7, maps_only).motion;
-    for (std::size_t i = 0; i < after.displacement.size(); ++i) {
-        // The box stands still within each step, so that its rays are traced in other coordinates.
-        EXPECT_LT(glm::length(after.displacement.pixels[i] - expected.displacement.pixels[i]), 1e-5) << i;
-    }
-    EXPECT_TRUE(after.validity.pixels == expected.validity.pixels);
-    EXPECT_GT(std::ranges::count(after.validity.pixels, MotionValidity::hidden), 0) << "behind the moving box";
-
-    const MotionField again = stepped.render(7, maps_only).motion;
-    for (const glm::dvec2& way : again.displacement.pixels) ASSERT_EQ(way, glm::dvec2(0.0)) << "no edit since";
-}
-
-TEST(SequenceEdit, MotionLeadsFromTheFrameThatWasRenderedNotFromOneThatWasPlanned) {
-    const auto move_after = [](bool plans) {
-        Sequence sequence(make_moving_scene(), quick_settings(40, 30));
-        sequence.render(5, maps_only);
-        if (plans) sequence.plan(2);
-        sequence.edit([](Scene& scene) { scene.nodes[0].transform.scale = glm::dvec3(1.5); });
-        return sequence.render(6, maps_only).motion.displacement.pixels;
-    };
-    EXPECT_TRUE(move_after(true) == move_after(false));
-}
-
-TEST(SequenceEdit, ThePictureIsThatOfANewSequence) {
-    RenderSettings settings = quick_settings(40, 30);
-    settings.perception.guide = Guide::none;  // the map depends on motion
-    Sequence edited(make_moving_scene(), settings);
-    edited.render(0);
-    const double exposure = edited.exposure();
-    const auto paint = [](Scene& scene) { scene.materials[0].base_color = glm::dvec3(0.2, 0.6, 0.1); };
-    edited.edit(paint);
-    EXPECT_EQ(edited.exposure(), exposure);
-    Scene painted = make_moving_scene();
-    paint(painted);
-    painted.film.exposure = exposure;
-    EXPECT_TRUE(edited.render(4).shaded.color.pixels == Sequence(painted, settings).render(4).shaded.color.pixels);
-}
-
-TEST(SequenceEdit, NothingMovesFromFramesWithOtherElements) {
-    Sequence sequence(make_moving_scene(), quick_settings(40, 30));
-    sequence.render(3, maps_only);
-    sequence.edit([](Scene& scene) { add_mesh(scene, make_box(glm::dvec3(0.3), 0), {0.5, 0.4, 1.0}); });
-    EXPECT_TRUE(is_without_motion(sequence.render(4, maps_only).motion));
-    EXPECT_FALSE(is_without_motion(sequence.render(5, maps_only).motion)) << "no edit since";
-    sequence.edit([](Scene& scene) { scene.film.cuts = {6}; });
-    EXPECT_TRUE(is_without_motion(sequence.render(6, maps_only).motion)) << "a cut";
-}
-
-TEST(SequenceEdit, ABadEditChangesNothing) {
-    Sequence sequence(make_moving_scene(), quick_settings(40, 30));
-    const Image<Rgb> before = sequence.render(2).shaded.color;
-    EXPECT_THROW(sequence.edit([](Scene& scene) { scene.nodes[1].meshes = {999}; }), InputError);
-    EXPECT_THROW(sequence.edit([](Scene& scene) { scene.nodes[3].camera = no_index; }), InputError) << "no camera";
-    EXPECT_TRUE(sequence.render(2).shaded.color.pixels == before.pixels);
 }
 
 /// Without a bound the tallest one takes more memory than most machines have.
