@@ -58,6 +58,7 @@ inline glm::dvec2 unproject_pixel(const CameraView& view, double x, double y) {
 struct CameraRay {
     glm::dvec3 origin;
     glm::dvec3 direction;
+    float choice = -1.0f;  ///< Ray::choice
 };
 CameraRay make_camera_ray(const CameraView& view, double x, double y);
 

@@ -25,11 +25,7 @@ void cast_rays(const RayScene& scene, const std::function<CameraRay(int x, int y
                 std::size_t count = 0;
                 const int y1 = std::min(y0 + block_side, hits.height), x1 = std::min(x0 + block_side, hits.width);
                 for (int y = y0; y < y1; ++y) {
-                    for (int x = x0; x < x1; ++x) {
-                        const CameraRay ray = make_ray(x, y);
-                        rays[count].direction = glm::vec3(ray.direction);
-                        rays[count++].origin = glm::vec3(ray.origin - scene.anchor());
-                    }
+                    for (int x = x0; x < x1; ++x) rays[count++] = to_scene(scene, make_ray(x, y));
                 }
                 tracer.intersect(std::span(rays.data(), count), std::span(found.data(), count));
                 count = 0;

@@ -13,6 +13,9 @@ struct Ray {
     glm::vec3 direction{0.0f};  ///< need not be unit; distances are in its length
     float near = 0.0f;
     float far = std::numeric_limits<float>::infinity();
+    /// [0,1): chooses, for Tracer::intersect with Blend::random, which of the blended surfaces in its way it shows;
+    /// below 0: a hash does.
+    float choice = -1.0f;
 };
 
 /// The first thing that a ray hits. instance is an index into ScenePose::instances, primitive a triangle of its mesh;

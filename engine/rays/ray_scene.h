@@ -70,12 +70,23 @@ class RayScene {
 /// The effect of surfaces with AlphaMode::blend on rays. Alpha masks are the same in both.
 enum class Blend {
     cutout,  ///< rays pass where alpha is below .5: no noise, for maps and quick pictures
-    /// At each surface a ray passes with probability 1 - alpha, so that pictures are right on average. The
-    /// choice is a hash of the ray's origin and direction, the instance and the triangle: the same whenever the same
-    /// ray is cast, alone or in a packet, on any thread, and independent between different rays and between the
-    /// surfaces that one ray meets. Rays with equal origin and direction share their choices: vary them per sample.
+    /// At each surface a ray passes with probability 1 - alpha, so that pictures are right on average. A ray that has a
+    /// number of its own (Ray::choice) shows one of the surfaces in its way by it: the first with a choice below its
+    /// alpha a, the second with one below a + (1 - a) b, and so on. Numbers that are even make shares that are even.
+    /// For other rays the choice is a hash of the ray's origin and direction, the instance and the triangle: the same
+    /// whenever the same ray is cast, alone or in a packet, on any thread, and independent between different rays and
+    /// between the surfaces that one ray meets. Rays with equal origin and direction share their choices: vary them per
+    /// sample.
     random,
     whole,  ///< rays pass only where alpha is 0: for callers that weigh what is met by alpha
+};
+
+/// A surface that a ray meets, and from which it can go on.
+struct Met {
+    Hit hit{};
+    float alpha = 1.0f;      ///< less where the surface is blended
+    bool back = false;       ///< the triangle shows its back, in the object's own space
+    bool bordering = false;  ///< on the edge of the triangle, so that a neighbour is met as well
 };
 
 /// Casts rays. Make one per task: it is cheap, counts locally, and adds its counts to the RayScene when destroyed.
@@ -89,6 +100,9 @@ class Tracer {
     /// @param normal  if given, set as by the function for packets
     Hit intersect(const Ray& ray, glm::vec3* normal = nullptr);
     bool occluded(const Ray& ray);
+    /// With Blend::whole: what a ray meets first, or after the surface that it met last. Of surfaces in one plane none
+    /// is left out.
+    Met meet(const Ray& ray, const Met* last = nullptr);
     /// Share of the light along a ray that is left: blended surfaces that are not glass leave 1 - alpha, without
     /// chance. All others stop it, or none if `plain_only`.
     float transmittance(const Ray& ray, bool plain_only = false);

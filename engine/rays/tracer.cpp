@@ -52,6 +52,28 @@ void trace_lane(Traversal& traversal) {
     }
 }
 
+/// Traces a ray that has met something on, from there.
+void trace_beyond(const RayScene::State& state, Blend blend, const Ray& ray, const Crossing& passed, RayLane& lane) {
+    lane.set(ray);
+    lane.near = std::max(lane.near, passed.distance * (1.0 - 2.0 * Nearest::tie));
+    Traversal traversal(state, &lane, blend, false);
+    traversal.passed = &passed;
+    trace_lane(traversal);
+}
+
+/// Takes a ray that has met its nearest surface to the one that its number chooses. It stays one ray.
+void show_chosen(const RayScene::State& state, Blend blend, const Ray& ray, RayLane& lane) {
+    if (blend != Blend::random || !(ray.choice >= 0.0f)) return;
+    double choice = ray.choice;
+    while (!lane.nearest.empty()) {
+        const Crossing met = lane.nearest.result();
+        const double alpha = met.alpha;
+        if (alpha >= 1.0 || choice < alpha) return;
+        choice = (choice - alpha) / (1.0 - alpha);
+        trace_beyond(state, blend, ray, met, lane);
+    }
+}
+
 /// A packet on its way through the trees, one after the other.
 /// @tparam Width  8 or 16
 template <int Width>
@@ -85,7 +107,7 @@ class PacketTracer {
                       [](RayLane& lane, const glm::dvec3&) { return &lane.entry; });
     }
 
-    const RayLane& lane(std::size_t i) const { return lanes_[i]; }
+    RayLane& lane(std::size_t i) { return lanes_[i]; }
     int invalid() const { return static_cast<int>(std::count(valid_, valid_ + count_, false)); }
 
   private:
@@ -146,6 +168,7 @@ std::uint64_t intersect_packets(const RayScene::State& state, Blend blend, std::
         tracer.trace(rays.subspan(begin, count));
         invalid += static_cast<std::uint64_t>(tracer.invalid());
         for (std::size_t i = 0; i < count; ++i) {
+            show_chosen(state, blend, rays[begin + i], tracer.lane(i));
             hits[begin + i] = make_hit(tracer.lane(i));
             if (!normals.empty() && !tracer.lane(i).nearest.empty())
                 normals[begin + i] = tracer.lane(i).nearest.result().normal;
@@ -180,6 +203,7 @@ bool Tracer::trace(const Ray& ray, bool occlusion, RayLane& lane, const Use& set
 Hit Tracer::intersect(const Ray& ray, glm::vec3* normal) {
     RayLane lane;
     if (!trace(ray, false, lane, [](Traversal&) {})) return {};
+    show_chosen(state_, blend_, ray, lane);
     if (normal != nullptr && !lane.nearest.empty()) *normal = lane.nearest.result().normal;
     return make_hit(lane);
 }
@@ -188,6 +212,31 @@ Hit Tracer::intersect_others(const Ray& ray) {
     RayLane lane;
     const bool traced = trace(ray, false, lane, [](Traversal& traversal) { traversal.attenuates = true; });
     return traced ? make_hit(lane) : Hit{};
+}
+
+Met Tracer::meet(const Ray& ray, const Met* last) {
+    RayLane lane;
+    Crossing passed{};
+    if (last != nullptr) {
+        const Hit& hit = last->hit;
+        passed = {.distance = hit.distance,
+                  .u = hit.u,
+                  .v = hit.v,
+                  .instance = hit.instance,
+                  .primitive = static_cast<unsigned>(hit.primitive),
+                  .back = last->back,
+                  .bordering = last->bordering,
+                  .normal = glm::vec3(0.0f),
+                  .alpha = last->alpha};
+    }
+    const bool traced = trace(ray, false, lane, [&](Traversal& traversal) {
+        if (last == nullptr) return;
+        traversal.passed = &passed;
+        lane.near = std::max(lane.near, passed.distance * (1.0 - 2.0 * Nearest::tie));
+    });
+    if (!traced || lane.nearest.empty()) return {};
+    const Crossing& met = lane.nearest.result();
+    return {make_hit(lane), met.alpha, met.back, met.bordering};
 }
 
 bool Tracer::has_blended() const {

@@ -29,7 +29,7 @@ float choose(const Ray& ray, int instance, std::uint32_t primitive) {
     return unit_float(static_cast<std::uint32_t>(mix_bits(key + mix_bits(place + 0x9e3779b97f4a7c15ull)) >> 32));
 }
 
-bool is_hole(const AlphaCutout& cutout, const Traversal& traversal, RayLane& lane, const Crossing& at) {
+bool is_hole(const AlphaCutout& cutout, const Traversal& traversal, RayLane& lane, Crossing& at) {
     const float alpha = cutout.alpha_at(traversal.state->alpha[cutout.material], at.primitive, at.u, at.v);
     if (traversal.attenuates && cutout.plain && alpha < 1.0f) {
         const double halvings = alpha > 0.0f ? -static_cast<double>(std::log2(1.0f - alpha)) : 0.0;
@@ -39,7 +39,9 @@ bool is_hole(const AlphaCutout& cutout, const Traversal& traversal, RayLane& lan
     if (traversal.plain_only) return true;
     // As a share, 0 lets every ray pass; as a mask, alpha at the cutoff is no hole (glTF 2.0, 3.9.4).
     if (!cutout.blended || traversal.blend == Blend::cutout) return alpha < cutout.cutoff;
-    return alpha <= (traversal.blend == Blend::whole ? 0.0f : choose(*lane.given, at.instance, at.primitive));
+    at.alpha = alpha;
+    const bool weighed = traversal.blend == Blend::whole || lane.given->choice >= 0.0f;
+    return alpha <= (weighed ? 0.0f : choose(*lane.given, at.instance, at.primitive));
 }
 
 /// 1 / a power of two, exactly.
@@ -65,14 +67,16 @@ void test_block(const TriangleTree& tree, unsigned index, const Traversal& trave
         const double along =
             (normal[ray.axis[0]] * ray.shear_x + normal[ray.axis[1]] * ray.shear_y + normal[ray.axis[2]]) *
             ray.inverse_z;
-        const Crossing crossing{start + hits.distance[i],
-                                static_cast<float>(hits.u[i]),
-                                static_cast<float>(hits.v[i]),
-                                traversal.first_instance + part.instance,
-                                block.primitive[i],
-                                (along > 0.0) != part.mirrored,
-                                hits.bordering[i],
-                                glm::vec3(normal)};
+        Crossing crossing{start + hits.distance[i],
+                          static_cast<float>(hits.u[i]),
+                          static_cast<float>(hits.v[i]),
+                          traversal.first_instance + part.instance,
+                          block.primitive[i],
+                          (along > 0.0) != part.mirrored,
+                          hits.bordering[i],
+                          glm::vec3(normal),
+                          1.0f};
+        if (traversal.passed != nullptr && !is_beyond(*traversal.passed, crossing)) continue;
         if (part.cutout != nullptr && is_hole(*part.cutout, traversal, lane, crossing)) continue;
         if (!take(crossing)) return;
     }
@@ -100,6 +104,14 @@ void Nearest::offer_tie(const Crossing& crossing) {
     kept_[place] = crossing;
 }
 
+bool is_beyond(const Crossing& passed, const Crossing& next) {
+    if (next.distance * (1.0 + Nearest::tie) < passed.distance) return false;
+    if (next.distance > passed.distance * (1.0 + Nearest::tie)) return true;
+    const bool same_sheet =
+        next.bordering && passed.bordering && next.instance == passed.instance && next.back == passed.back;
+    return comes_first(passed, next) && !same_sheet;
+}
+
 void RayLane::set(const Ray& ray) {
     given = &ray;
     origin = ray.origin;
@@ -122,7 +134,8 @@ Traversal::Traversal(const Traversal& outer, RayLane& lane)
       blend(outer.blend),
       occlusion(outer.occlusion),
       attenuates(outer.attenuates),
-      plain_only(outer.plain_only) {
+      plain_only(outer.plain_only),
+      passed(outer.passed) {
     rtcInitIntersectContext(&embree);
 }
 

@@ -22,6 +22,7 @@ struct Crossing {
     bool back;         ///< the triangle shows its back, in the object's own space
     bool bordering;    ///< BlockHits
     glm::vec3 normal;  ///< across the triangle, as long as twice its area, in the tree's space
+    float alpha;       ///< Met::alpha
 };
 
 /// The nearest triangle that a ray meets. At about one distance the lowest (instance, primitive) counts, so that of two
@@ -107,11 +108,16 @@ struct Traversal {
     bool occlusion = false;
     bool attenuates = false;  ///< plain blended surfaces (AlphaCutout) stop no ray but take their share of its light
     bool plain_only = false;  ///< the others stop none
+    const Crossing* passed = nullptr;  ///< only what comes after it is met; null: everything is
 
     Traversal(const RayScene::State& of, RayLane* rays, Blend blended, bool any_hit);
     /// One of its rays.
     Traversal(const Traversal& outer, RayLane& lane);
 };
+
+/// Returns whether a ray that goes on from `passed` meets `next`: beyond it, or at about its distance, but later in the
+/// order of Nearest. At an edge it does not meet the same sheet again.
+bool is_beyond(const Crossing& passed, const Crossing& next);
 
 /// Traces the traversal's only ray through one of Embree's trees.
 void trace_single(RTCScene scene, const glm::dvec3& start, const glm::dvec3& direction, const Entry& entry,

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "engine/base/pixel_loops.h"
 #include "render/cache/gather.h"
+#include "render/estimate/sight_line.h"
 #include "render/light/seen_light_tree.h"
 
 namespace aleph {
@@ -127,19 +127,31 @@ std::vector<glm::ivec2> list_missing(EstimateNodes& nodes, int level) {
     return missing;
 }
 
+/// The surface with a Lambert layer that a line of sight shows most of.
+std::optional<PixelSurface> find_shown_surface(SightLine line, RayCounts& counts) {
+    std::optional<PixelSurface> shown;
+    float most = 0.0f;
+    while (line.advance(counts)) {
+        const float share = line.surface().material.has_diffuse() ? largest_channel(line.share()) : 0.0f;
+        if (!(share > most)) continue;
+        most = share;
+        shown = line.surface();
+    }
+    return shown;
+}
+
 /// The surfaces at all nodes.
 void find_node_surfaces(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                        EstimateNodes& nodes) {
+                        EstimateNodes& nodes, RayCounts& counts) {
     const int spacing = nodes.spacing(nodes.levels() - 1);
-    parallel_rows(nodes.nodes().height, 2, [&](int begin, int end) {
-        for (int y = begin * spacing; y < end * spacing && y < nodes.height(); y += spacing) {
-            for (int x = 0; x < nodes.width(); x += spacing) {
-                if (centers.hits(x, y).instance == no_index) continue;
-                nodes.node(x, y).surface =
-                    make_diffuse_surface(make_pixel_surface(context.shading, view, centers, x, y));
-            }
+    const auto find_row = [&](int row, RayTask& task) {
+        const int y = row * spacing;
+        for (int x = 0; x < nodes.width(); x += spacing) {
+            const auto shown = find_shown_surface({context, view, task.tracer, centers, {x, y}}, task.counts);
+            if (shown) nodes.node(x, y).surface = make_diffuse_surface(*shown);
         }
-    });
+    };
+    cast_parallel(nodes.nodes().height, 2, context.rays, counts, find_row, Blend::whole);
 }
 
 Rgb mean_irradiance(const EstimateNodes& nodes) {
@@ -165,14 +177,15 @@ DiffuseSurface make_diffuse_surface(const PixelSurface& surface) {
 EstimateNodes gather_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                               const CarriedEstimate* carried, RayCounts& counts) {
     EstimateNodes nodes(view.width, view.height);
-    find_node_surfaces(context, view, centers, nodes);
+    find_node_surfaces(context, view, centers, nodes, counts);
     const HemisphereStrata strata = choose_strata(gather_rays);
     for (int level = 0; level < nodes.levels(); ++level) {
         const std::vector<glm::ivec2> pixels = list_missing(nodes, level);
         cast_parallel(pixels.size(), 4, context.rays, counts, [&](int i, RayTask& task) {
             thread_local GatherScratch scratch;
             const glm::ivec2& p = pixels[i];
-            const PixelSurface surface = make_pixel_surface(context.shading, view, centers, p.x, p.y);
+            Tracer whole(context.rays, Blend::whole);
+            const PixelSurface surface = *find_shown_surface({context, view, whole, centers, p}, task.counts);
             EstimateNodes::Node& node = nodes.node(p.x, p.y);
             const std::optional<Rgb> found = carried != nullptr ? carried->find(surface) : std::nullopt;
             node.irradiance =
@@ -199,19 +212,18 @@ Rgb estimate_radiance(const LightingContext& context, RayTask& task, const Pixel
 
 namespace {
 
-/// The light that a camera ray meets.
+/// The light that a line of sight meets.
 struct EstimatedLight {
-    const LightingContext& context;
-    const CameraView& view;
+    const ShadingScene& shading;
     EstimateKind kind;
     const NodeIrradiance* indirect;  ///< null: none
     float exposure;
 
     Rgb beyond(const glm::vec3& direction) const {
-        return (kind == EstimateKind::direct ? environment_radiance(context.shading, direction) : Rgb(1.0f)) * exposure;
+        return (kind == EstimateKind::direct ? environment_radiance(shading, direction) : Rgb(1.0f)) * exposure;
     }
 
-    Rgb of(RayTask& task, const PixelSurface& surface) const {
+    Rgb of(RayTask& task, const LightingContext& context, const PixelSurface& surface) const {
         const Rgb radiance = estimate_radiance(context, task, surface, kind) * exposure;
         if (indirect == nullptr) return radiance;
         const DiffuseSurface diffuse = make_diffuse_surface(surface);
@@ -219,25 +231,23 @@ struct EstimatedLight {
         return radiance + diffuse.reflected * indirect->at(diffuse, {surface.x, surface.y}) * exposure;
     }
 
-    /// Blended surfaces weigh their shares, what lies behind them has the rest.
-    Rgb through(RayTask& task, Tracer& whole, int x, int y) const {
-        constexpr int most_layers = 16;
-        constexpr float least_left = 0.01f, past = 1.0f + 0x1p-18f;
-        const CameraRay camera = make_camera_ray(view, x + 0.5, y + 0.5);
-        Ray ray{glm::vec3(camera.origin - context.rays.anchor()), glm::vec3(camera.direction)};
+    Rgb along(RayTask& task, SightLine& line) const {
         Rgb sum(0.0f);
-        float left = 1.0f;
-        for (int layer = 0; layer < most_layers && left > least_left; ++layer) {
-            ++task.counts.primary;
-            const Hit hit = whole.intersect(ray);
-            if (hit.instance == no_index) return sum + left * beyond(ray.direction);
-            const PixelSurface surface = make_pixel_surface(context.shading, view, {}, hit, ray.direction, {x, y});
-            const float share = left * surface_coverage(context.shading, surface.point, {});
-            sum += share * of(task, surface);
-            left -= share;
-            ray.near = hit.distance * past;
+        while (line.advance(task.counts)) sum += line.share() * of(task, line.lighting(), line.surface());
+        return line.left() == Rgb(0.0f) ? sum : sum + line.left() * beyond(line.direction());
+    }
+
+    /// @param make_line  gives the pixel's line of this number
+    template <class MakeLine>
+    Rgb at(RayTask& task, const MakeLine& make_line) const {
+        SightLine line = make_line(0);
+        Rgb sum = along(task, line);
+        if (!line.is_spread()) return sum;
+        for (int i = 1; i < SightLine::spread_lines; ++i) {
+            SightLine other = make_line(i);
+            sum += along(task, other);
         }
-        return sum;
+        return sum / static_cast<float>(SightLine::spread_lines);
     }
 };
 
@@ -253,18 +263,13 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     Image<Rgb> estimate(view.width, view.height);
     std::optional<NodeIrradiance> indirect;
     if (options.indirect != nullptr && kind == EstimateKind::direct) indirect.emplace(*options.indirect);
-    const EstimatedLight light{lighting, view, kind, indirect ? &*indirect : nullptr,
+    const EstimatedLight light{context.shading, kind, indirect ? &*indirect : nullptr,
                                static_cast<float>(options.exposure)};
     const auto estimate_row = [&](int y, RayTask& task) {
         Tracer whole(context.rays, Blend::whole);
         for (int x = 0; x < view.width; ++x) {
-            if (whole.has_blended()) {
-                estimate(x, y) = light.through(task, whole, x, y);
-            } else if (centers.hits(x, y).instance == no_index) {
-                estimate(x, y) = light.beyond(glm::vec3(make_camera_ray(view, x + 0.5, y + 0.5).direction));
-            } else {
-                estimate(x, y) = light.of(task, make_pixel_surface(context.shading, view, centers, x, y));
-            }
+            const auto make_line = [&](int i) { return SightLine(lighting, view, whole, centers, {x, y}, i); };
+            estimate(x, y) = light.at(task, make_line);
         }
     };
     cast_parallel(view.height, 4, context.rays, counts, estimate_row, Blend::cutout);  // without noise

@@ -5,7 +5,9 @@
 
 #include "engine/surface/limit_surface.h"
 #include "motion/raster.h"
+#include "motion/velocity.h"
 #include "perception/sanitize.h"
+#include "render/estimate/sight_line.h"
 #include "render/frame/prepared_frame.h"
 #include "render/settings/measure.h"
 
@@ -101,6 +103,21 @@ void FrameMotion::compute(const FrameWork& work, const FrameScene& here, Estimat
     FrameScene& other = other_scene(here);
     other.update_rays();
     counts.primary += mark_hidden(out.motion, shot_.scene, other.posed(), points(centers.hits), other.rays());
+}
+
+Image<float> FrameMotion::find_velocity(const FrameWork& work, const FrameScene& here, PreparedFrame& frame) {
+    FrameOutput& out = frame.out;
+    const Film& film = shot_.scene.film;
+    Image<float> slowest = compute_image_velocity(out.motion, film.viewing, film.frame_rate);
+    const bool moves = std::ranges::any_of(slowest.pixels, [](float speed) { return speed > 0.0f; });
+    if (!moves || shot_.settings.guide.motion != MotionSource::model) return slowest;
+    for (const Image<Hit>& layer : find_layers(here.lighting(), out.view, frame.centers, out.statistics.counts.rays)) {
+        const Image<float> velocity = compute_image_velocity(
+            compute_from_scene(here.posed(), other_view(), layer, work.other), film.viewing, film.frame_rate);
+        std::ranges::transform(slowest.pixels, velocity.pixels, slowest.pixels.begin(),
+                               [](float a, float b) { return std::min(a, b); });
+    }
+    return slowest;
 }
 
 const Image<Hit>& FrameMotion::points(const Image<Hit>& hits) const {

@@ -43,6 +43,10 @@ class FrameMotion {
     void compute(const FrameWork& work, const FrameScene& here, EstimateLight& light, StageClock& clock,
                  PreparedFrame& frame);
 
+    /// Image velocity, deg/s. Where a pixel shows surfaces behind glass or blended ones, that of the slowest: the eye
+    /// rests on it, and sees errors there best. After compute.
+    Image<float> find_velocity(const FrameWork& work, const FrameScene& here, PreparedFrame& frame);
+
     /// Motion to the frame before, with the hidden pixels. The first frame's is its motion to the next one, turned
     /// round; behind a cut there is none. Nothing after an edit, and where quick estimates are compared. After compute.
     void compute_backward(const FrameWork& work, const FrameScene& here, PreparedFrame& frame);

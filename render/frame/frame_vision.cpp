@@ -1,6 +1,5 @@
 #include "render/frame/frame_vision.h"
 
-#include "motion/velocity.h"
 #include "perception/threshold.h"
 #include "perception/visible_bands.h"
 #include "render/guide/accuracy_map.h"
@@ -32,8 +31,6 @@ Image<float> find_shown_luminance(Image<Rgb> picture, const ViewingConditions& v
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings,
                           const NoiseVisibility& noise, bool maps, StageClock& clock) {
     StageSeconds& seconds = out.statistics.seconds;
-    out.velocity = compute_image_velocity(out.motion, shot.film.viewing, shot.film.frame_rate);
-    clock.add_to(seconds.motion);
     out.perception =
         compute_perception(out.estimate, out.velocity, shot.film.viewing, shot.film.frame_rate, settings.perception,
                            {.retinal_velocity = true, .conspicuity = maps, .bands = false});

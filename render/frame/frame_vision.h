@@ -12,7 +12,7 @@ namespace aleph {
 /// Notes a sanitized estimate in the frame's statistics: what sanitizing changed, and the median luminance.
 void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const ViewingConditions& viewing);
 
-/// Fills velocity, perception, threshold and alpha from `estimate` and `motion`, which are filled.
+/// Fills perception, threshold and alpha from `estimate` and `velocity`, which are filled.
 /// @param maps   also the maps that only files need: retinal velocity and conspicuity
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings,
                           const NoiseVisibility& noise, bool maps, StageClock& clock);

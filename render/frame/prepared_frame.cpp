@@ -27,7 +27,9 @@ void perceive(SequenceState& s, const FrameScene& here, const FrameWork& work, S
     clock.add_to(out.statistics.seconds.estimate);
     work.report("motion");
     s.motion.compute(work, here, s.estimate_light, clock, frame);
+    out.velocity = s.motion.find_velocity(work, here, frame);
     if (work.maps) s.motion.compute_backward(work, here, frame);
+    clock.add_to(out.statistics.seconds.motion);
     work.report("vision");
     frame.swing = blur_frame_estimate({shot, work.frame, plan, here, s.shutter}, frame.centers, indirect, out.motion,
                                       out.estimate, counts);

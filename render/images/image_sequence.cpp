@@ -7,6 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
+#include "motion/velocity.h"
 #include "perception/sanitize.h"
 #include "render/frame/frame_vision.h"
 #include "render/settings/measure.h"
@@ -189,6 +190,8 @@ FrameOutput ImageSequence::compute_maps(std::int64_t frame) {
     out.backward = s.find_backward(frame, now, out.motion);
     out.motion_from_picture = now.motion.has_value();
     if (!s.noise) s.noise.emplace(s.shot.film.viewing, s.shot.film.frame_rate, NoiseOverTime::fresh);
+    out.velocity = compute_image_velocity(out.motion, s.shot.film.viewing, s.shot.film.frame_rate);
+    clock.add_to(stats.seconds.motion);
     compute_frame_vision(out, s.shot, s.settings, *s.noise, true, clock);
     stats.peak_memory_mib = peak_memory_mib();
     total.add_to(stats.seconds.total);

@@ -30,7 +30,7 @@ const std::vector<ChannelInfo>& channel_table() {
          "0"},
         {{"velocity.image"},
          "speed on the image, degrees per second",
-         "speed on the image",
+         "speed on the image; of the slowest thing seen where glass or blended surfaces show several",
          "degrees of visual angle per second, 0 and up"},
         {{"velocity.retinal"},
          "speed on the retina, degrees per second",

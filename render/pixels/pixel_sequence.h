@@ -39,6 +39,7 @@ enum class SampleUse : std::uint8_t {
     bright_choice,   ///< which bright surface
     bright_point,    ///< the place on it
     other,           ///< free for callers
+    passing,         ///< which of the blended surfaces in its way the camera's ray shows
 };
 
 /// The points of one use. What its samples have in common is computed once.

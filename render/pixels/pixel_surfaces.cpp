@@ -97,9 +97,12 @@ CameraRay make_lens_ray(const CameraView& view, const Lens& lens, const glm::dve
 
 CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int x, int y) {
     const glm::dvec2 pixel = place_sample(place, x, y);
-    if (!(place.lens.radius > 0.0)) return make_camera_ray(view, pixel.x, pixel.y);
     const PixelSequence sequence(place.seed, place.noise_key, x, y);
-    return make_lens_ray(view, place.lens, pixel, sequence.at_2d(SampleUse::lens, place.index));
+    CameraRay ray = place.lens.radius > 0.0
+                        ? make_lens_ray(view, place.lens, pixel, sequence.at_2d(SampleUse::lens, place.index))
+                        : make_camera_ray(view, pixel.x, pixel.y);
+    if (place.blend == Blend::random) ray.choice = sequence.at_1d(SampleUse::passing, place.index);
+    return ray;
 }
 
 PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SamplePlace& place,

@@ -92,9 +92,7 @@ Rgb average_light_seen(const SampleScene& scene, ShadingTask& task, const Sample
     std::array<Hit, rays_of_a_sample> hits;
     for (int i = 0; i < rays_of_a_sample; ++i) {
         own.index = place.index * rays_of_a_sample + i;
-        const CameraRay ray = make_sample_ray(scene.view, own, pixel.x, pixel.y);
-        rays[i].origin = glm::vec3(ray.origin - scene.lighting.rays.anchor());
-        rays[i].direction = glm::vec3(ray.direction);
+        rays[i] = to_scene(scene.lighting.rays, make_sample_ray(scene.view, own, pixel.x, pixel.y));
     }
     task.tracer.intersect(rays, hits);
     task.counts.primary += rays_of_a_sample;

@@ -16,12 +16,10 @@ class SamplePacket {
     /// @param known  the hit of its ray; null: not cast yet
     void add(const SamplePlace& place, int x, int y, const Hit* known) {
         const CameraRay ray = make_sample_ray(scene_.view, place, x, y);
-        const RayScene& rays = scene_.lighting.rays;
         entries_[size_] = {place, x, y, glm::vec3(ray.direction), known == nullptr ? Hit{} : *known};
         if (known == nullptr) {
             uncast_[uncast_count_] = size_;
-            rays_[uncast_count_].origin = glm::vec3(ray.origin - rays.anchor());
-            rays_[uncast_count_++].direction = entries_[size_].direction;
+            rays_[uncast_count_++] = to_scene(scene_.lighting.rays, ray);
         }
         ++size_;
     }

@@ -99,6 +99,45 @@ TEST(AlphaBlend, CoincidentSurfacesAreIndependentToo) {
     }));
 }
 
+/// Two layers, and behind them two in one plane, of which the second is folded: five triangles in the way of each ray.
+Scene make_five_layers(double alpha) {
+    Scene scene = make_blended(alpha, 3);
+    scene.meshes.push_back(scene.meshes[0]);
+    Mesh& folded = scene.meshes[1];
+    for (std::size_t t = 0, count = folded.triangles.size(); t < count; ++t)
+        folded.triangles.push_back(folded.triangles[t]);
+    scene.nodes[2].meshes = {0, 1};
+    return scene;
+}
+
+TEST(AlphaBlend, EvenNumbersOfRaysShowSurfacesByTheirShare) {
+    const RayScene placed = place(make_five_layers(0.5));
+    std::vector<Ray> rays(1024, ray_down(0.3f, 0.1f));
+    for (std::size_t i = 0; i < rays.size(); ++i) rays[i].choice = (static_cast<float>(i) + 0.5f) / 1024.0f;
+    for (const bool in_packets : {false, true}) {
+        const std::vector<Hit> hits = trace(placed, rays, in_packets, Blend::random);
+        for (const auto& [instance, count] : {std::pair(0, 512), {1, 256}, {2, 128}, {3, 96}, {no_index, 32}})
+            EXPECT_EQ(count_on(hits, instance), count) << instance;
+    }
+}
+
+TEST(AlphaBlend, RaysGoOnFromSurfaceToSurface) {
+    const RayScene placed = place(make_five_layers(0.25));
+    Tracer tracer(placed, Blend::whole);
+    const auto list_met = [&](const Ray& ray) {
+        std::vector<int> met;
+        for (Met at = tracer.meet(ray); at.hit.instance != no_index; at = tracer.meet(ray, &at)) {
+            EXPECT_EQ(at.alpha, 0.25f);
+            met.push_back(at.hit.instance);
+        }
+        return met;
+    };
+    EXPECT_EQ(list_met(ray_down(0.3f, 0.1f)), (std::vector{0, 1, 2, 3, 3}));
+    // On the edge between two triangles a sheet is met once, and a folded one too: which of its layers is which is
+    // lost.
+    EXPECT_EQ(list_met(ray_down(0.5f, 0.5f)), (std::vector{0, 1, 2, 3}));
+}
+
 TEST(AlphaBlend, ShadowsArePartial) {
     const RayScene two = place(make_blended(0.4, 2));
     EXPECT_TRUE(holds([&](Trial& trial) {

@@ -1,0 +1,122 @@
+#include "render/estimate/sight_line.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "engine/rays/first_hits.h"
+#include "render/pixels/pixel_sequence.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int most_surfaces = 16;
+constexpr float least_left = 0.01f;
+
+/// Glass passes light unless it reflects all of it.
+constexpr float passing_side = 0x1.fffffep-1f;
+
+constexpr LobeShares make_glass_share() {
+    LobeShares shares{};
+    shares[static_cast<int>(Lobe::glass)] = 1.0f;
+    return shares;
+}
+
+constexpr int most_layers = 4;
+constexpr float good_part = 0.1f;
+
+}  // namespace
+
+SightLine::SightLine(const LightingContext& context, const CameraView& view, Tracer& tracer, const SampleHits& centers,
+                     const glm::ivec2& pixel, int number)
+    : lighting_(context),
+      view_(view),
+      tracer_(tracer),
+      centers_(centers),
+      pixel_(pixel),
+      number_(number),
+      ray_(to_scene(context.rays, make_camera_ray(view, pixel.x + 0.5, pixel.y + 0.5))),
+      behind_(context.around) {}
+
+bool SightLine::advance(RayCounts& counts) {
+    if (surfaces_ == most_surfaces || largest_channel(left_) <= least_left) {
+        left_ = Rgb(0.0f);
+        return false;
+    }
+    const float before = last_.hit.distance;
+    last_ = meet(counts);
+    ++surfaces_;
+    if (last_.hit.instance == no_index) return false;
+    Hit hit = last_.hit;
+    hit.distance += travelled_;
+    surface_ = make_pixel_surface(lighting_.shading, view_, centers_.place, hit, ray_.direction, pixel_);
+    lighting_.around = behind_;
+    SurfaceMaterial& material = surface_.material;
+    if (material.glass.volume) material.glass.ior_ratio = behind_.ratio_at(surface_);
+    left_ *= transmit(behind_.attenuation(surface_.point, material), last_.hit.distance - before);
+    share_ = left_ * last_.alpha;
+    left_ -= share_;
+    if (material.has_glass()) pass_glass(counts);
+    return true;
+}
+
+/// First hits do not tell what they passed.
+Met SightLine::meet(RayCounts& counts) {
+    known_ = surfaces_ == 0 && !tracer_.has_blended();
+    if (known_) return {centers_.hits(pixel_.x, pixel_.y)};
+    ++counts.primary;
+    return tracer_.meet(ray_, last_.hit.instance == no_index ? nullptr : &last_);
+}
+
+void SightLine::pass_glass(RayCounts& counts) {
+    GlassLayer& glass = surface_.material.glass;
+    const LitSurface lit(surface_);
+    if (glass.volume || !surface_.material.is_glass_smooth()) {
+        turn_at_glass(lit);
+    } else {
+        left_ += share_ * sheet_transmittance(lit);
+        if (known_) {  // which triangles border on the hit
+            ++counts.primary;
+            last_ = tracer_.meet(ray_);
+        }
+    }
+    glass.tint = Rgb(0.0f);  // what it passes is met
+}
+
+void SightLine::turn_at_glass(const LitSurface& lit) {
+    const glm::vec2 u = lattice_point(number_, spread_lines, glm::vec2(0.0f));
+    const ScatterSample sample = sample_scatter(lit, make_glass_share(), 0.0f, u, passing_side);
+    spread_ = spread_ || !lit.material.is_glass_smooth();
+    if (sample.weight == Rgb(0.0f)) return;
+    left_ += share_ * (sample.passes ? sheet_transmittance(lit) : sample.weight);
+    travelled_ += last_.hit.distance;
+    ray_ = {lit.ray_origin(sample.direction), sample.direction};
+    last_ = {};
+    if (sample.passes && lit.material.glass.volume) behind_.pass(surface_.point, lit.material);
+}
+
+std::vector<Image<Hit>> find_layers(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                                    RayCounts& counts) {
+    std::vector<Image<Hit>> layers(most_layers, centers.hits);
+    std::atomic<int> count = 0;
+    const auto find_row = [&](int y, RayTask& task) {
+        int most = 0;
+        for (int x = 0; x < view.width; ++x) {
+            int found = 0;
+            const auto add = [&](const Rgb& share, const Hit& hit) {
+                if (found < most_layers && largest_channel(share) >= good_part) layers[found++](x, y) = hit;
+            };
+            SightLine line(context, view, task.tracer, centers, {x, y});
+            while (line.advance(task.counts)) add(line.share(), line.surface().hit);
+            add(line.left(), {});
+            if (found > 1 || (found == 1 && layers[0](x, y) != centers.hits(x, y))) most = std::max(most, found);
+        }
+        for (int before = count; before < most && !count.compare_exchange_weak(before, most);) {
+        }
+    };
+    cast_parallel(view.height, 4, context.rays, counts, find_row, Blend::whole);
+    layers.resize(count);
+    return layers;
+}
+
+}  // namespace aleph

@@ -1,0 +1,65 @@
+#pragma once
+// The surfaces that the ray through a pixel's centre shows, without chance: those that it meets on its way through
+// blended surfaces and glass.
+
+#include "render/light/light_choice.h"
+#include "render/pixels/pixel_surfaces.h"
+
+namespace aleph {
+
+/// The ray from surface to surface. Blended surfaces and smooth sheets of glass let it pass straight on, smooth walls
+/// of volumes refract it. Rough glass spreads it over several lines, of which this is one. The reflections of glass are
+/// left out.
+class SightLine {
+  public:
+    /// Keeps references.
+    /// @param tracer   of Blend::whole
+    /// @param centers  first hits
+    /// @param number   which of spread_lines rough glass turns it to
+    SightLine(const LightingContext& context, const CameraView& view, Tracer& tracer, const SampleHits& centers,
+              const glm::ivec2& pixel, int number = 0);
+    static constexpr int spread_lines = 8;
+
+    /// Goes to the next surface. @return false: there is none, or next to no light would reach the camera from it
+    bool advance(RayCounts& counts);
+
+    const PixelSurface& surface() const { return surface_; }
+    /// Share of the surface's light that reaches the camera.
+    const Rgb& share() const { return share_; }
+    /// Light and media at the surface.
+    const LightingContext& lighting() const { return lighting_; }
+    /// Share of the light of what surrounds the scene, once there is no further surface, and the ray's direction.
+    const Rgb& left() const { return left_; }
+    const glm::vec3& direction() const { return ray_.direction; }
+    /// Returns whether it has met rough glass: others of its kind go elsewhere.
+    bool is_spread() const { return spread_; }
+
+  private:
+    Met meet(RayCounts& counts);
+    void pass_glass(RayCounts& counts);
+    void turn_at_glass(const LitSurface& lit);
+
+    LightingContext lighting_;
+    const CameraView& view_;
+    Tracer& tracer_;
+    const SampleHits& centers_;
+    glm::ivec2 pixel_;
+    int number_;
+    Ray ray_;
+    Media behind_;        ///< of the ray, from the last surface on
+    Met last_{};          ///< on this ray
+    bool known_ = false;  ///< it is a first hit
+    bool spread_ = false;
+    float travelled_ = 0.0f;  ///< m, by the rays before this one
+    int surfaces_ = 0;
+    PixelSurface surface_;
+    Rgb share_{0.0f}, left_{1.0f};
+};
+
+/// The surfaces of each pixel's line of sight that a good part of its light comes from, from near to far, and nothing
+/// where the surroundings are seen: one image for each, as many as there are before some pixel, and four at most. Where
+/// a pixel shows no further one, its first hit. Empty where no pixel shows more than that.
+std::vector<Image<Hit>> find_layers(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                                    RayCounts& counts);
+
+}  // namespace aleph
