@@ -192,6 +192,18 @@ TEST_F(PartTiming, EndsWhenItsCallerSaysSo) {
     EXPECT_GT(times.before, 0.0);
 }
 
+TEST_F(PartTiming, SmallPicturesOfLightDifferEnoughToTellItsGrowth) {
+    for (const auto& [width, height] : {std::pair(16, 12), {80, 60}, {160, 120}}) {
+        RenderSettings settings = settings_for(10.0);
+        set_size(settings, width, height);
+        const PilotSeconds seconds =
+            run_pilot({scene, "", {4}, {settings}, [](const PilotSeconds&, double) { return true; }}).seconds;
+        ASSERT_EQ(seconds.light.size(), 2u);
+        EXPECT_NEAR(seconds.light[0].pixels / seconds.light[1].pixels, 4.0, 0.01) << width;
+        EXPECT_LE(seconds.light[0].pixels, 16.01);
+    }
+}
+
 TEST_F(PartTiming, LightIsTimedOnceForEachMoment) {
     RenderSettings settings = settings_for(8.0);
     settings.cache.light_step = 10;
