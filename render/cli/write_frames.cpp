@@ -66,7 +66,10 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
     if (!options.film.empty()) outputs.push_back({options.film, "--output"});
     for (const std::filesystem::path& frame : frames) outputs.push_back({frame, "--output"});
     refuse_overwriting(prepared.read, outputs);
-    for (const OutputFile& output : outputs) try_output(output.path);
+    for (const OutputFile& output : outputs) {
+        const bool may_be_complete = output.path == cache && std::filesystem::exists(cache);  // and is not written then
+        if (!may_be_complete) try_output(output.path);
+    }
 }
 
 FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const FramePrints& prints) {
