@@ -26,6 +26,7 @@ struct SceneOptions {
     bool resume = false;          ///< frames that are finished are kept
     bool has_resume = true;       ///< the command has --resume
     bool keeps_to_error = false;  ///< without a setting that chooses the work, an error of 1 is asked for
+    bool strict = false;          ///< frames that err by more than was asked for end `render` with exit_beyond
     bool importance = false;      ///< `maps` writes this picture in place of the maps
     SceneWatch* watch = nullptr;  ///< of the files that the scene is loaded from; null: they may change
 };

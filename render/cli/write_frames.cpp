@@ -38,7 +38,10 @@ VerifiedStatistics verify_frames(Scene scene, const PreparedScene& prepared, con
                   pictures);
     std::vector<ProbeResult> probes;
     Progress progress("verify", wanted, progress_look(options.quiet, options.progress));
+    const RenderSignals signals;
     while (probes.size() < least_probes || seconds < wanted) {
+        if (signals.received() != 0 && !probes.empty()) break;
+        signals.stop_if_asked(": all frames are written, and no block is checked");
         probes.push_back(prober.measure(probes.size()));
         clock.add_to(seconds);
         const double of_least = static_cast<double>(probes.size()) / static_cast<double>(least_probes);
@@ -84,6 +87,7 @@ FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& opti
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
+    const RenderSignals signals;
     FrameWriter writer(job, options, request);
     writer.make_all();
     std::optional<BudgetStatistics> budget;
@@ -96,11 +100,18 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
     writer.finish();
     if (!options.film.empty()) finish_film(job, options);
     if (!options.quiet && budget) std::cerr << describe_budget(*budget);
-    if (!job.verify) return;
-    const VerifiedStatistics verified = job.verify(writer.estimate());
-    std::cout << describe_verified(verified);
-    writer.statistics().set_verified(verified);
-    writer.statistics().finish();
+    std::string missed = options.strict ? writer.describe_missed() : "";
+    if (job.verify) {
+        const VerifiedStatistics verified = job.verify(writer.estimate());
+        std::cout << describe_verified(verified) << std::flush;
+        writer.statistics().set_verified(verified);
+        writer.statistics().finish();
+        signals.stop_if_asked(": all frames are written, and checked as far as said");
+        if (options.strict && verified.beyond.share > most_beyond)
+            missed += fmt::format("{}measured over all frames: {} %", missed.empty() ? "" : "; ",
+                                  format_percent(verified.beyond.share));
+    }
+    if (!missed.empty()) throw Stopped("--strict: " + missed, exit_beyond);
 }
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
