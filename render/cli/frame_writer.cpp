@@ -184,7 +184,7 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
     watched.partial.is_wanted = [&] { return std::exchange(wants_picture, false); };
     watched.partial.show = [&](const Image<Rgb>& color) {
         try {
-            write_partial(file, color, fingerprint);
+            write_partial(file, color, request_.window, fingerprint);
         } catch (const OutputError& e) {  // the frame itself goes on
             std::cerr << "aleph: warning: " << e.what() << "\n";
         }

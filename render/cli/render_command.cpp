@@ -89,6 +89,13 @@ void refuse_traced(const RenderSettings& settings) {
                      "variance.Y of the files has the noise of each pixel");
 }
 
+/// @throws InputError for what measures parts of the whole picture
+void refuse_beside_crop(bool budget, bool verify) {
+    if (budget) throw InputError("--budget", "--crop", "give one of the two: a budget is for whole pictures");
+    if (verify)
+        throw InputError("--verify", "--crop", "give one of the two: blocks are judged with what is around them");
+}
+
 struct RenderOptions {
     SceneOptions scene;
     bool aovs = false;
@@ -123,6 +130,7 @@ int render(RenderOptions options) {
     options.scene.keeps_to_error = !options.budget;
     if (options.scene.resume)
         refuse_beside_resume(options.budget.has_value(), options.verify.has_value(), options.scene.strict);
+    if (!options.scene.crop.empty()) refuse_beside_crop(options.budget.has_value(), options.verify.has_value());
     const FilmFolder folder = choose_film(options.scene, {.frame = true, .maps = options.aovs, .progress = {}});
     run_maybe_watched(options.watch, options.scene, [&] { render_once(options); });
     return exit_done;

@@ -147,12 +147,14 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
             return verified;
         };
     }
-    write_frames(job, options, request);
+    FrameRequest windowed = request;
+    windowed.window = prepared.window;
+    write_frames(job, options, windowed);
 }
 
 std::string describe_content(const SceneOptions& options, const FrameRequest& request) {
-    return fmt::format("{}{}{}", request.frame ? "picture " : "", request.maps ? "maps " : "",
-                       options.importance ? "importance" : "");
+    return fmt::format("{}{}{}{}", request.frame ? "picture " : "", request.maps ? "maps " : "",
+                       options.importance ? "importance" : "", options.crop.empty() ? "" : " crop " + options.crop);
 }
 
 FramePrints fingerprint_frames(const PreparedScene& prepared, const SceneOptions& options,
