@@ -85,6 +85,23 @@ answers 1 "File name too long" aleph render first.json --frames 0 "${quick[@]}" 
 answers 1 "/proc/x.exr" aleph render first.json --frames 0 --size 4000x3000 -o /proc/x.exr
 answers 1 "/proc/s.json" aleph render first.json --frames 0 --size 4000x3000 -o x.exr --stats /proc/s.json
 
+# A window of the picture: wrong ones, the same pixels, and a film of it.
+answers 2 "--crop: '0,17,0,4': expected X0,X1,Y0,Y1 with 0 <= X0 < X1 <= 16" aleph render first.json "${quick[@]}" --crop 0,17,0,4 -o crop.exr
+answers 2 "--crop: '8,4,0,4': expected X0,X1,Y0,Y1" aleph maps first.json "${quick[@]}" --crop 8,4,0,4 -o crop.exr
+answers 2 "give one of the two" aleph render first.json --crop 0,4,0,4 --verify 5
+is [ ! -e crop.exr ]
+silent aleph maps first.json "${quick[@]}" --frames 0 -q -o whole.exr
+silent aleph maps first.json "${quick[@]}" --frames 0 -q --crop 4,12,2,9 -o crop.exr
+answers 0 "0 of 56 pixels" aleph compare whole.exr crop.exr
+answers 0 "wrote crop.mp4: 2 frames of 8x6, 30 a second" aleph render first.json --frames 0-1 "${quick[@]}" --crop 4,12,2,8 -o crop.mp4
+rm whole.exr crop.*
+
+# --strict tells whether the error asked for is kept.
+silent aleph render first.json --size 16x12 --error 8 --frames 0 --strict -q -o strict.exr
+answers 3 "in 1 of 1 frames more than 1 % of the pixels err by more than was asked for" aleph render first.json --size 16x12 --error .2 --spp 2 --frames 0 --strict -q -o strict.exr
+answers 2 "no error is asked for" aleph render first.json --spp 2 --strict -o strict.exr
+rm strict.exr
+
 # Films: a mistyped ending, and a system without ffmpeg. Nothing is rendered or left.
 answers 2 "the extension .mp5 is not known; possible are .exr and .png" aleph render first.json --size 4000x3000 -o film.mp5
 answers 1 "the program ffmpeg, which is not in PATH: install it" env PATH=/nowhere "$program" render first.json --size 4000x3000 -o film.mp4

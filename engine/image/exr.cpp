@@ -145,23 +145,33 @@ void refuse_unsupported_kinds(ByteView bytes, const std::string& name) {
     if (Imf::isNonImage(flags)) throw InputError(name, "", "deep EXR files are not read; flatten it first");
 }
 
+Imf::Slice make_slice(const Image<float>& image, const Imath::Box2i& window) {
+    auto* values = const_cast<float*>(image.pixels.data());  // a Slice is for reading and writing
+    return Imf::Slice::Make(Imf::FLOAT, values, window, sizeof(float), sizeof(float) * image.width);
+}
+
+/// The whole picture of a file, unless its pixels are all of it. OpenEXR refuses corners beyond 2^30.
+std::optional<PictureArea> find_whole(const Imf::Header& header) {
+    const Imath::Box2i &whole = header.displayWindow(), &pixels = header.dataWindow();
+    if (whole == pixels) return std::nullopt;
+    const Imath::V2i place = whole.min - pixels.min, size = whole.size() + Imath::V2i(1);
+    return PictureArea{place.x, place.y, size.x, size.y};
+}
+
 /// Reads the last row back: OpenEXR finishes a file in a destructor, which loses errors.
 void verify(const std::string& bytes, const Image<float>& first, const Channel& last) {
     MemoryInput stream({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     Imf::InputFile file(stream, 0);
-    const int y = first.height - 1;
-    std::vector<float> row(first.width);
+    const Imath::Box2i window = file.header().dataWindow();
+    Image<float> row(first.width, 1);
     Imf::FrameBuffer pixels;
-    pixels.insert(last.name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(row.data()), sizeof(float), 0));
+    pixels.insert(last.name, make_slice(row, {{window.min.x, window.max.y}, window.max}));
     file.setFrameBuffer(pixels);
-    file.readPixels(y);
-    if (!file.isComplete() || std::memcmp(row.data(), last.values.row(y), row.size() * sizeof(float)) != 0) {
+    file.readPixels(window.max.y);
+    if (!file.isComplete() ||
+        std::memcmp(row.row(0), last.values.row(first.height - 1), row.size() * sizeof(float)) != 0) {
         throw std::runtime_error("the encoded picture does not read back");
     }
-}
-
-Imf::Slice make_slice(Image<float>& image, const Imath::Box2i& window) {
-    return Imf::Slice::Make(Imf::FLOAT, image.pixels.data(), window, sizeof(float), sizeof(float) * image.width);
 }
 
 /// Turns other exceptions into InputErrors.
@@ -183,16 +193,17 @@ std::string encode_exr(const ChannelImage& image, int threads) {
     const Image<float>& first = image.channels.front().values;
     return with_input_errors("", [&]() -> std::string {
         std::string bytes;
-        Imf::Header header(first.width, first.height);
+        const PictureArea whole = image.whole.value_or(PictureArea{0, 0, first.width, first.height});
+        const Imath::V2i place(-whole.x, -whole.y);
+        const Imath::Box2i window(place, place + Imath::V2i(first.width - 1, first.height - 1));
+        Imf::Header header(Imath::Box2i({0, 0}, {whole.width - 1, whole.height - 1}), window);
         header.compression() = Imf::ZIP_COMPRESSION;
         Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec.709 with D65
         for (const auto& [name, value] : image.metadata) insert_attribute(header, name, value);
         Imf::FrameBuffer pixels;
         for (const Channel& channel : image.channels) {
             header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
-            auto* base = const_cast<float*>(channel.values.pixels.data());  // a Slice is for reading and writing
-            pixels.insert(channel.name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(base), sizeof(float),
-                                                   sizeof(float) * first.width));
+            pixels.insert(channel.name, make_slice(channel.values, window));
         }
         {
             MemoryOutput stream(bytes);
@@ -258,6 +269,7 @@ ChannelImage decode_exr(ByteView bytes, const std::string& name) {
         file.setFrameBuffer(pixels);
         file.readPixels(window.min.y, window.max.y);
         image.metadata = read_attributes(header);
+        image.whole = find_whole(header);
         return image;
     });
 }

@@ -13,7 +13,7 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/color.h"
-#include "engine/base/image.h"
+#include "engine/base/picture_area.h"
 
 namespace aleph {
 
@@ -31,6 +31,9 @@ using MetadataValue = std::variant<std::string, double, std::array<int, 2>, Matr
 struct ChannelImage {
     std::vector<Channel> channels;  ///< all of one size
     std::map<std::string, MetadataValue> metadata;
+    /// The whole picture that this is a part of, relative to the first pixel (EXR: display and data window); nothing:
+    /// this is all of it.
+    std::optional<PictureArea> whole{};
 
     const Image<float>* find(const std::string& name) const;  ///< null if there is none
 };

@@ -197,7 +197,7 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
         ScenePose posed = place_nodes(scene, seconds);
         posed.instances = instances;
         const CameraView view =
-            make_camera_view(pose_camera(scene, camera_node, posed.world[camera_node], seconds), width, height);
+            make_camera_view(scene, pose_camera(scene, camera_node, posed.world[camera_node], seconds), width, height);
         for (std::size_t i = 0; i < instances.size(); ++i) {
             if (!is_shown(scene, posed, i)) continue;
             const Mesh& mesh = scene.meshes[instances[i].mesh];

@@ -48,6 +48,17 @@ CameraView make_camera_view(const CameraValues& camera, int width, int height) {
     return view;
 }
 
+CameraView make_camera_view(const Scene& scene, const CameraValues& camera, int width, int height) {
+    try {
+        return make_camera_view(camera, width, height);
+    } catch (const InputError& e) {
+        const Node& node = scene.nodes[camera.node];
+        const std::string& own = scene.cameras[node.camera].name;
+        throw InputError(scene.source.file,
+                         fmt::format("{} \"{}\"", e.place(), printable(own.empty() ? node.name : own)), e.reason());
+    }
+}
+
 CameraRay make_camera_ray(const CameraView& view, double x, double y) {
     const glm::dvec2 at = unproject_pixel(view, x, y);
     if (view.orthographic) return {view.position + view.axes * glm::dvec3(at, 0.0), -view.axes[2]};

@@ -25,6 +25,8 @@ struct CameraView {
 /// @throws InputError where the field of view or half height is not positive and finite, the film offset is not finite,
 /// or the size is not positive
 CameraView make_camera_view(const CameraValues& camera, int width, int height);
+/// The same, where the error names the scene's file and the camera.
+CameraView make_camera_view(const Scene& scene, const CameraValues& camera, int width, int height);
 
 /// A point in the camera's own axes: x right, y up, z back (negative in front). The difference is taken first, so
 /// it stays exact far from the origin.

@@ -138,8 +138,8 @@ class Passes {
     }
 
     CameraView view_at(const ScenePose& posed) const {
-        return make_camera_view(pose_camera(scene_, camera_node_, posed.world[camera_node_], posed.seconds), width_,
-                                height_);
+        return make_camera_view(scene_, pose_camera(scene_, camera_node_, posed.world[camera_node_], posed.seconds),
+                                width_, height_);
     }
 
     void place(std::int64_t frame, ScenePose& posed) const {

@@ -17,7 +17,7 @@ struct PosedView {
 /// @throws InputError as make_camera_view
 inline PosedView make_posed_view(const Scene& scene, double seconds, int camera, int width, int height) {
     PosedView posed{pose(scene, seconds), {}, camera};
-    posed.view = make_camera_view(posed.pose.cameras[camera], width, height);
+    posed.view = make_camera_view(scene, posed.pose.cameras[camera], width, height);
     return posed;
 }
 
@@ -26,7 +26,7 @@ inline PosedView make_posed_view(const Scene& scene, double seconds, int camera,
 inline void update_posed_view(const Scene& scene, const PosePlan& plan, double seconds, int camera, PosedView& posed) {
     update_pose(scene, plan, seconds, posed.pose);
     posed.camera = camera;
-    posed.view = make_camera_view(posed.pose.cameras[camera], posed.view.width, posed.view.height);
+    posed.view = make_camera_view(scene, posed.pose.cameras[camera], posed.view.width, posed.view.height);
 }
 
 }  // namespace aleph

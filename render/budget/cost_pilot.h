@@ -36,7 +36,8 @@ struct Pilot {
     int rendered = 0;
 };
 
-/// Measures light in pictures of a quarter and of half the width, and parts of the full picture.
+/// Measures light in two small pictures, of which one has four times the pixels of the other, and parts of the full
+/// picture.
 /// @throws InputError as Sequence
 Pilot run_pilot(const PilotRequest& request);
 

@@ -26,6 +26,7 @@ void write_importance(const std::filesystem::path& path, const FrameOutput& outp
     if (output_format(path) == OutputFormat::exr) {
         ChannelImage file;
         file.channels.push_back({"Y", importance});
+        file.whole = find_whole(output);
         write_exr(path, with_texts(std::move(file), texts));
         return;
     }
@@ -65,13 +66,16 @@ void remove_unfinished(const std::filesystem::path& file) {
     std::filesystem::remove(checkpoint_file(file), ignored);
 }
 
-void write_partial(const std::filesystem::path& file, const Image<Rgb>& color, const std::string& fingerprint) {
+void write_partial(const std::filesystem::path& file, const Image<Rgb>& color, const std::optional<PictureArea>& window,
+                   const std::string& fingerprint) {
     const std::filesystem::path partial = partial_file(file);
     const PictureTexts texts{{fingerprint_key, fingerprint}};
-    if (output_format(file) == OutputFormat::png)
-        write_png(partial, color, texts);
-    else
-        write_exr(partial, with_texts(make_color_image(color), texts));
+    const PictureArea area = window.value_or(PictureArea{0, 0, color.width, color.height});
+    const Image<Rgb> shown = crop(color, area);
+    if (output_format(file) == OutputFormat::png) return write_png(partial, shown, texts);
+    ChannelImage image = with_texts(make_color_image(shown), texts);
+    if (window) image.whole = PictureArea{-area.x, -area.y, color.width, color.height};
+    write_exr(partial, image);
 }
 
 }  // namespace aleph

@@ -16,8 +16,10 @@ void write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOu
                  bool importance, const std::string& fingerprint);
 
 /// Writes the picture so far beside the frame's file, as "name.0020.partial.exr", with the frame's fingerprint.
+/// @param window  that is kept of it
 /// @throws OutputError
-void write_partial(const std::filesystem::path& file, const Image<Rgb>& color, const std::string& fingerprint);
+void write_partial(const std::filesystem::path& file, const Image<Rgb>& color, const std::optional<PictureArea>& window,
+                   const std::string& fingerprint);
 /// Removes the picture so far, unless it is a file of somebody else, and the state of a frame that is finished.
 void remove_unfinished(const std::filesystem::path& file);
 

@@ -15,6 +15,7 @@
 #include "render/cli/support/progress.h"
 #include "render/cli/watch.h"
 #include "render/guide/error_report.h"
+#include "render/settings/frame_list.h"
 
 namespace aleph {
 
@@ -122,6 +123,13 @@ std::optional<double> FrameWriter::estimate() const {
     return std::accumulate(estimates_.begin(), estimates_.end(), 0.0) / static_cast<double>(estimates_.size());
 }
 
+std::string FrameWriter::describe_missed() const {
+    if (missed_.empty()) return "";
+    return fmt::format(
+        "in {} of {} frames more than {:g} % of the pixels err by more than was asked for, or it is not known: {}",
+        missed_.size(), output_.frames.size(), 100.0 * most_beyond, printable(format_frame_list(missed_), 200));
+}
+
 void FrameWriter::finish() {
     keep_rows();
     statistics_.finish();
@@ -176,7 +184,7 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
     watched.partial.is_wanted = [&] { return std::exchange(wants_picture, false); };
     watched.partial.show = [&](const Image<Rgb>& color) {
         try {
-            write_partial(file, color, fingerprint);
+            write_partial(file, color, request_.window, fingerprint);
         } catch (const OutputError& e) {  // the frame itself goes on
             std::cerr << "aleph: warning: " << e.what() << "\n";
         }
@@ -191,6 +199,7 @@ void FrameWriter::make(std::size_t place, Progress& progress, RenderSignals& sig
     statistics_.add(place, output.statistics, fingerprint);
     if (made_.empty() && !options_.quiet) warn_of_units(output.statistics);
     if (output.statistics.error) estimates_.push_back(output.statistics.error->beyond);
+    if (!output.statistics.error || output.statistics.error->beyond > most_beyond) missed_.push_back(frame);
     made_.push_back({frame, output.statistics.copy_of});
     if (!options_.quiet && job_.settings.error > 0.0) print_error(output.statistics);
 }

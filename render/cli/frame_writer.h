@@ -33,6 +33,9 @@ struct FrameJob {
     const char* title = nullptr;            ///< of the progress; null: the picture's or that of maps
 };
 
+/// Share of the pixels that may err by more than was asked for where `--error` is kept (`--strict`).
+inline constexpr double most_beyond = 0.01;
+
 struct FinishedFrame {
     std::int64_t frame = 0;
     std::optional<std::int64_t> copy_of;
@@ -52,6 +55,9 @@ class FrameWriter {
     StatisticsFile& statistics() { return statistics_; }
     /// Share of the pixels of all frames that are estimated to err by more than was asked for, as far as frames tell.
     std::optional<double> estimate() const;
+    /// The frames whose error is not known, or whose share of pixels beyond is larger than most_beyond, in words;
+    /// empty: there are none.
+    std::string describe_missed() const;
 
   private:
     /// Makes the frame unless it is finished. Returns whether another process makes it.
@@ -76,6 +82,7 @@ class FrameWriter {
     std::vector<std::size_t> kept_;  ///< places of frames that others made
     double done_ = 0.0;              ///< frames
     std::vector<double> estimates_;  ///< of the frames that tell
+    std::vector<int> missed_;        ///< frames of describe_missed
 };
 
 }  // namespace aleph

@@ -56,6 +56,7 @@ void refuse_what_needs_a_scene(const MapsOptions& options) {
                          "names: --images 'frame.####.exr'");
     }
     if (!options.common.camera.empty()) throw InputError("", "--camera", "this needs a scene");
+    if (!options.common.crop.empty()) throw InputError("", "--crop", "this needs a scene");
     for (const auto& [key, value] : options.common.settings) {
         if (needs_scene(key)) throw InputError("", key, "this setting needs a scene");
         const auto* text = std::get_if<std::string>(&value);

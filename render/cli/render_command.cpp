@@ -55,14 +55,16 @@ constexpr const char* render_footer =
     "  aleph render scenes/pool/scene.json --frames 20 --guide none --spp 16 -o unguided.exr  the baseline\n"
     "  aleph render scenes/pool/scene.json --frames 20 --accuracy 0 --gather 4096 --spp 1 -o dense.exr";
 
-/// @throws InputError (--resume) if --budget is given, or --verify
-void refuse_beside_resume(bool budget, bool verify) {
+/// @throws InputError (--resume) if --budget is given, --verify or --strict
+void refuse_beside_resume(bool budget, bool verify, bool strict) {
     if (budget) {
         throw InputError("", "--resume",
                          "--budget may choose another error than before; give --error with the number that it chose");
     }
     if (verify)
         throw InputError("", "--resume", "--verify checks the frames that it renders; render all of them with it");
+    if (strict)
+        throw InputError("", "--resume", "files of frames do not tell what --strict asks; render all of them with it");
 }
 
 /// @throws InputError if the error is asked for as well, or a setting that it chooses, without which it means nothing;
@@ -85,6 +87,13 @@ void refuse_traced(const RenderSettings& settings) {
     throw InputError("--verify", "--integrator path",
                      "give one of the two: frames are judged by traced paths, which tell nothing of their like; "
                      "variance.Y of the files has the noise of each pixel");
+}
+
+/// @throws InputError for what measures parts of the whole picture
+void refuse_beside_crop(bool budget, bool verify) {
+    if (budget) throw InputError("--budget", "--crop", "give one of the two: a budget is for whole pictures");
+    if (verify)
+        throw InputError("--verify", "--crop", "give one of the two: blocks are judged with what is around them");
 }
 
 struct RenderOptions {
@@ -112,12 +121,16 @@ void render_once(const RenderOptions& options) {
         apply_budget(prepared, options.scene, *budget);
         if (!options.scene.quiet) std::cerr << describe_choice(budget->statistics);
     }
+    if (options.scene.strict && !(prepared.settings.error > 0.0))
+        throw InputError("--strict", "--error", "no error is asked for that frames could keep to");
     render_frames(std::move(prepared), options.scene, request, options.cache, budget, check);
 }
 
 int render(RenderOptions options) {
     options.scene.keeps_to_error = !options.budget;
-    if (options.scene.resume) refuse_beside_resume(options.budget.has_value(), options.verify.has_value());
+    if (options.scene.resume)
+        refuse_beside_resume(options.budget.has_value(), options.verify.has_value(), options.scene.strict);
+    if (!options.scene.crop.empty()) refuse_beside_crop(options.budget.has_value(), options.verify.has_value());
     const FilmFolder folder = choose_film(options.scene, {.frame = true, .maps = options.aovs, .progress = {}});
     run_maybe_watched(options.watch, options.scene, [&] { render_once(options); });
     return exit_done;
@@ -154,6 +167,12 @@ void add_render_command(CLI::App& app, Command& command) {
              "afterwards check the frames for so many seconds of a clock (at least 4 blocks of pixels): blocks of "
              "random frames are path traced, and the share of the pixels that are seen to differ is printed with its "
              "interval at 95 %");
+    render_app
+        ->add_flag(
+            "--strict", options->scene.strict,
+            "end with exit code 3 if all frames are made, but more than 1 % of the pixels of one are estimated to "
+            "err by more than was asked for, its error is not known, or --verify measures more than 1 %")
+        ->excludes("--watch");
     add_text(*render_app, "--cache", "FILE", options->cache,
              "keep the indirect light of lighting keyframes (--light-step) in this file, and use what it has; a file "
              "of another scene, other settings or another build is refused; a folder (FOLDER/) may be shared by "

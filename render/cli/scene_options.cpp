@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <map>
+#include <ranges>
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
@@ -34,6 +35,22 @@ FrameRate parse_fps(const std::string& text) {
         if (fps > 1e-3 && fps <= 1e6) return {static_cast<std::int64_t>(fps * 1000.0 + 0.5), 1000};
     }
     throw InputError("--fps", printable(text), "expected frames per second, such as 30 or 30000/1001");
+}
+
+PictureArea parse_crop(const std::string& text, const PictureSettings& picture) {
+    std::vector<int> ends;
+    for (const auto part : std::views::split(text, ','))
+        ends.push_back(parse_value<int>(std::string_view(part.begin(), part.end()), "--crop"));
+    const auto fits = [&](std::size_t i, int side) {
+        return 0 <= ends[i] && ends[i] < ends[i + 1] && ends[i + 1] <= side;
+    };
+    if (ends.size() == 4 && fits(0, picture.width) && fits(2, picture.height))
+        return {ends[0], ends[2], ends[1] - ends[0], ends[3] - ends[2]};
+    throw InputError(
+        "", "--crop",
+        fmt::format("'{}': expected X0,X1,Y0,Y1 with 0 <= X0 < X1 <= {} and 0 <= Y0 < Y1 <= {}, within the "
+                    "picture of {}x{}",
+                    printable(text), picture.width, picture.height, picture.width, picture.height));
 }
 
 namespace {
@@ -188,6 +205,10 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         app, "--fps", "N", options.fps,
         "frames per second, such as 30 or 30000/1001; range, cuts and changes of camera keep their times; default: the "
         "scene's");
+    add_text(
+        app, "--crop", "X0,X1,Y0,Y1", options.crop,
+        "only this window of the picture, in its pixels: columns X0 to X1-1 from the left, rows Y0 to Y1-1 from the "
+        "top; EXR files keep its place (data window), PNG files and films have the window alone");
     add_text(app, "--stats", "FILE.json", options.stats,
              "write counts and times of every frame as JSON; while frames are made, the file has the finished ones");
     app.add_flag("--resume", options.resume,
@@ -230,6 +251,7 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) change_frame_rate(scene.film, parse_fps(options.fps));
     prepared.settings = join_settings(scene, options.settings, options.keeps_to_error);
+    if (!options.crop.empty()) prepared.window = parse_crop(options.crop, prepared.settings.picture);
     if (!options.quiet) print_warnings(scene.source.warnings);
     const FrameRange range = frame_range(scene);
     if (options.frames.empty()) {

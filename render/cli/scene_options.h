@@ -2,9 +2,11 @@
 // Options of the commands that make frames of a scene, and the scene with its settings as these options ask for.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/base/picture_area.h"
 #include "engine/json/load_limits.h"
 #include "render/cli/support/options.h"
 #include "render/settings/settings.h"
@@ -14,7 +16,7 @@ namespace aleph {
 class SceneWatch;
 
 struct SceneOptions {
-    std::string scene, frames, fps, output, camera, stats;
+    std::string scene, frames, fps, output, camera, stats, crop;
     std::string film;     ///< that the files of --output become (choose_film); empty: none
     SettingMap settings;  ///< from options and --set
     int threads = 0;
@@ -26,6 +28,7 @@ struct SceneOptions {
     bool resume = false;          ///< frames that are finished are kept
     bool has_resume = true;       ///< the command has --resume
     bool keeps_to_error = false;  ///< without a setting that chooses the work, an error of 1 is asked for
+    bool strict = false;          ///< frames that err by more than was asked for end `render` with exit_beyond
     bool importance = false;      ///< `maps` writes this picture in place of the maps
     SceneWatch* watch = nullptr;  ///< of the files that the scene is loaded from; null: they may change
 };
@@ -56,6 +59,10 @@ void add_scene_argument(CLI::App& app, std::string& scene);
 /// @throws InputError (--fps)
 FrameRate parse_fps(const std::string& text);
 
+/// "X0,X1,Y0,Y1": a part of a picture, without X1 and Y1.
+/// @throws InputError (--crop) where it is empty or not within the picture
+PictureArea parse_crop(const std::string& text, const PictureSettings& picture);
+
 /// Behind the name of files of maps, to keep them apart from the pictures in the same folder.
 inline constexpr const char* maps_suffix = "-maps";
 
@@ -70,6 +77,7 @@ struct PreparedScene {
     Scene scene;
     RenderSettings settings;
     std::vector<int> frames;
+    std::optional<PictureArea> window;        ///< --crop
     std::string name;                         ///< of the output files
     std::vector<std::filesystem::path> read;  ///< the scene file and all that it uses, or the pictures
 };

@@ -38,7 +38,10 @@ VerifiedStatistics verify_frames(Scene scene, const PreparedScene& prepared, con
                   pictures);
     std::vector<ProbeResult> probes;
     Progress progress("verify", wanted, progress_look(options.quiet, options.progress));
+    const RenderSignals signals;
     while (probes.size() < least_probes || seconds < wanted) {
+        if (signals.received() != 0 && !probes.empty()) break;
+        signals.stop_if_asked(": all frames are written, and no block is checked");
         probes.push_back(prober.measure(probes.size()));
         clock.add_to(seconds);
         const double of_least = static_cast<double>(probes.size()) / static_cast<double>(least_probes);
@@ -66,7 +69,10 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
     if (!options.film.empty()) outputs.push_back({options.film, "--output"});
     for (const std::filesystem::path& frame : frames) outputs.push_back({frame, "--output"});
     refuse_overwriting(prepared.read, outputs);
-    for (const OutputFile& output : outputs) try_output(output.path);
+    for (const OutputFile& output : outputs) {
+        const bool may_be_complete = output.path == cache && std::filesystem::exists(cache);  // and is not written then
+        if (!may_be_complete) try_output(output.path);
+    }
 }
 
 FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const FramePrints& prints) {
@@ -81,6 +87,7 @@ FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& opti
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
+    const RenderSignals signals;
     FrameWriter writer(job, options, request);
     writer.make_all();
     std::optional<BudgetStatistics> budget;
@@ -93,11 +100,18 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
     writer.finish();
     if (!options.film.empty()) finish_film(job, options);
     if (!options.quiet && budget) std::cerr << describe_budget(*budget);
-    if (!job.verify) return;
-    const VerifiedStatistics verified = job.verify(writer.estimate());
-    std::cout << describe_verified(verified);
-    writer.statistics().set_verified(verified);
-    writer.statistics().finish();
+    std::string missed = options.strict ? writer.describe_missed() : "";
+    if (job.verify) {
+        const VerifiedStatistics verified = job.verify(writer.estimate());
+        std::cout << describe_verified(verified) << std::flush;
+        writer.statistics().set_verified(verified);
+        writer.statistics().finish();
+        signals.stop_if_asked(": all frames are written, and checked as far as said");
+        if (options.strict && verified.beyond.share > most_beyond)
+            missed += fmt::format("{}measured over all frames: {} %", missed.empty() ? "" : "; ",
+                                  format_percent(verified.beyond.share));
+    }
+    if (!missed.empty()) throw Stopped("--strict: " + missed, exit_beyond);
 }
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
@@ -133,12 +147,14 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
             return verified;
         };
     }
-    write_frames(job, options, request);
+    FrameRequest windowed = request;
+    windowed.window = prepared.window;
+    write_frames(job, options, windowed);
 }
 
 std::string describe_content(const SceneOptions& options, const FrameRequest& request) {
-    return fmt::format("{}{}{}", request.frame ? "picture " : "", request.maps ? "maps " : "",
-                       options.importance ? "importance" : "");
+    return fmt::format("{}{}{}{}", request.frame ? "picture " : "", request.maps ? "maps " : "",
+                       options.importance ? "importance" : "", options.crop.empty() ? "" : " crop " + options.crop);
 }
 
 FramePrints fingerprint_frames(const PreparedScene& prepared, const SceneOptions& options,

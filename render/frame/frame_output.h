@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/picture_area.h"
 #include "engine/pose/camera_view.h"
 #include "engine/rays/hit.h"
 #include "motion/motion_field.h"
@@ -58,6 +59,8 @@ struct FrameRequest {
     FrameProgress progress{};  ///< may be empty; what it throws ends the frame
     FrameCheckpoint* checkpoint = nullptr;  ///< keeps the state of the frame while it is made; null: it is not kept
     PartialPicture partial{};
+    /// Only this part of the picture is shaded; it alone comes out, of every image. Within the picture; nothing: all.
+    std::optional<PictureArea> window{};
 };
 
 /// The error that each pixel may have.
@@ -76,14 +79,15 @@ struct SurfaceMaps {
 
 /// Maps of motion and perception are computed for the irradiance cache with a guide, and wherever `maps` are requested.
 struct FrameOutput {
-    ShadedFrame shaded;  ///< filled if `frame`
-    CameraView view;
-    Image<Hit> hits;                   ///< through the pixel centres
-    Image<Rgb> estimate;               ///< sanitized
-    MotionField motion;                ///< pixels, x right, y down; the channel forward.v is positive upwards
-    MotionField backward;              ///< to the frame before; with `maps`, of a scene, model-based
-    bool motion_from_picture = false;  ///< as another program wrote it, not computed
-    Image<float> velocity;             ///< deg/s
+    ShadedFrame shaded;                 ///< filled if `frame`
+    CameraView view;                    ///< of the whole picture
+    std::optional<PictureArea> window;  ///< FrameRequest::window: where the images lie in it
+    Image<Hit> hits;                    ///< through the pixel centres
+    Image<Rgb> estimate;                ///< sanitized
+    MotionField motion;                 ///< pixels, x right, y down; the channel forward.v is positive upwards
+    MotionField backward;               ///< to the frame before; with `maps`, of a scene, model-based
+    bool motion_from_picture = false;   ///< as another program wrote it, not computed
+    Image<float> velocity;              ///< deg/s
     PerceptionMaps perception;
     ErrorLimits limits;
     SurfaceMaps surface;  ///< filled if `maps`

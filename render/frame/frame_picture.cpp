@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/base/pixel_loops.h"
+#include "render/frame/frame_window.h"
 #include "render/frame/prepared_frame.h"
 #include "render/frame/sequence_state.h"
 #include "render/light/seen_light_tree.h"
@@ -104,8 +105,14 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
     FrameOutput& out = prepared.out;
     FrameStatistics& stats = out.statistics;
     const FramePlan& plan = prepared.plan;
+    PicturePart part;
     if (request.frame) {
         SampleOptions options = find_sample_options(s, frame, plan);
+        if (request.window) {
+            part = choose_window_part(plan.settings, s.shot.scene.film.viewing.pixels_per_degree, *request.window);
+            options.part = &part;
+            options.part_picture = true;
+        }
         total.add_to(stats.seconds.total);
         const TracedRays by_frame = s.traced() - before;
         std::unique_ptr<CarriedLight> carried;
@@ -123,6 +130,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
             make_effect_picture(prepared.centers.hits, plan.input.facts, plan.effects, shading.instances.size());
     }
     out.hits = prepared.centers.hits;
+    if (request.window) cut_to_window(out, *request.window);
     s.rendered = frame;
     stats.traced = s.traced() - before;
     s.motion.end_edited();

@@ -102,6 +102,9 @@ FrameRange Sequence::range() const {
 
 FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     SequenceState& s = state_for(frame);
+    const PictureSettings& picture = s.shot.settings.picture;
+    if (request.window && !lies_within(*request.window, picture.width, picture.height))
+        throw InputError("", "window", "it is empty or not within the picture");
     // The first frame after an edit has a motion that no other frame has.
     const bool is_edited = s.motion.is_edited();
     const std::int64_t first = is_edited ? frame : s.static_spans.find_first(frame);

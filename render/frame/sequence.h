@@ -54,7 +54,7 @@ class Sequence {
     Sequence(Sequence&&) noexcept;
 
     /// @throws InputError if the camera has an aperture without a focus distance, a frame is beyond is_frame
-    /// (engine/base/frame_rate.h), or this has been moved from
+    /// (engine/base/frame_rate.h), a window is not within the picture, or this has been moved from
     FrameOutput render(std::int64_t frame, const FrameRequest& request = {});
 
     /// Times a part of a frame's picture with each of some settings, in their order. Its light is computed for the part

@@ -47,7 +47,7 @@ class StaticFrame {
 
   private:
     std::int64_t first_ = 0;
-    bool frame_ = false, maps_ = false;  ///< what was requested
+    bool frame_ = false, maps_ = false;  ///< what was requested; the output has its window
     std::optional<FrameOutput> output_;
 };
 

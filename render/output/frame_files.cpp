@@ -210,6 +210,11 @@ ChannelImage make_color_image(const Image<Rgb>& color) {
     return file;
 }
 
+std::optional<PictureArea> find_whole(const FrameOutput& output) {
+    if (!output.window) return std::nullopt;
+    return PictureArea{-output.window->x, -output.window->y, output.view.width, output.view.height};
+}
+
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure) {
     ChannelImage file;
@@ -219,6 +224,7 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
         add(file, "variance.Y", output.shaded.variance);
     }
     if (maps) add_maps(file, output, scene);
+    file.whole = find_whole(output);
     add_descriptions(file);
     file.metadata["software"] = "aleph " ALEPH_VERSION;
     file.metadata["framesPerSecond"] = std::array<int, 2>{static_cast<int>(scene.film.frame_rate.numerator),

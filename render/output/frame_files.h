@@ -48,6 +48,9 @@ struct VerifiedStatistics {
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure);
 
+/// Where the images of a window lie (ChannelImage::whole).
+std::optional<PictureArea> find_whole(const FrameOutput& output);
+
 /// Adds the channels R, G and B with a prefix; none of an empty picture.
 void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& color);
 /// The channels R, G and B alone.

@@ -42,10 +42,10 @@ Json error_json(const std::optional<ErrorShares>& error) {
 }
 
 /// Whole numbers without a decimal point.
-Json setting_json(const Setting& setting, const RenderSettings& settings) {
+Json exact_setting(const Setting& setting, const RenderSettings& settings) {
     const SettingValue value = setting.get(settings);
     if (setting.type == SettingType::whole_number) return static_cast<std::int64_t>(std::get<double>(value));
-    return std::visit([](const auto& v) { return Json(v); }, value);
+    return setting_json(value);
 }
 
 Json budget_json(const BudgetStatistics& budget) {
@@ -150,7 +150,7 @@ std::string format_statistics(std::string_view frames, const Scene& scene, const
     json["schema_version"] = 2;
     json["scene"] = scene.source.file;
     json["frames"] = Json::array();
-    for (const Setting& setting : setting_table()) json["settings"][setting.key] = setting_json(setting, settings);
+    for (const Setting& setting : setting_table()) json["settings"][setting.key] = exact_setting(setting, settings);
     json["exposure"] = exposure;
     if (budget) json["budget"] = budget_json(*budget);
     if (verified) json["verified"] = verified_json(*verified);

@@ -18,6 +18,13 @@ PicturePart choose_part(int width, int height, int every, int block) {
     return part;
 }
 
+void mark_area(PicturePart& part, const PictureArea& area, int around) {
+    for (int y = std::max(0, area.y - around); y < std::min(part.height, area.y + area.height + around); ++y) {
+        for (int x = std::max(0, area.x - around); x < std::min(part.width, area.x + area.width + around); ++x)
+            part(x, y) = 1;
+    }
+}
+
 double find_share(const PicturePart& part) {
     const auto pixels = std::ranges::count(part.pixels, std::uint8_t{1});
     return static_cast<double>(pixels) / static_cast<double>(part.size());

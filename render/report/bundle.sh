@@ -7,8 +7,10 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 folder=$1
 out=$2
 viewer=$3
-mkdir -p "$folder" "$(dirname "$out")"
+mkdir -p "$folder" "$(dirname "$out")" "$(dirname "$viewer")"
 folder=$(cd "$folder" && pwd)
+out=$(realpath "$out")
+viewer=$(realpath "$viewer")
 
 without() {
   : >"$out"

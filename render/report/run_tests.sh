@@ -21,7 +21,8 @@ for name in "${CHROMIUM:-}" chromium chromium-browser google-chrome; do
 done
 [ -n "$browser" ] || skip "Chromium is not installed; scenes/setup.sh chromium can"
 modules=$build/report
-bash "$here/bundle.sh" "$modules" "$modules/report-template.html" "$modules/viewer-template.html"
+mkdir -p "$modules"
+(cd "$modules" && bash "$here/bundle.sh" . report-template.html viewer-template.html)
 [ -f "$modules/installed" ] || skip "npm could not install the packages of the page, perhaps for want of a network"
 
 code=0

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/errors.h"
 #include "engine/json/close_names.h"
@@ -163,6 +164,10 @@ SettingMap setting_map(const RenderSettings& settings) {
 
 std::string setting_text(const SettingValue& value) {
     return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+nlohmann::ordered_json setting_json(const SettingValue& value) {
+    return std::visit([](const auto& v) { return nlohmann::ordered_json(v); }, value);
 }
 
 void parse_setting(const std::string& text, SettingMap& into) {

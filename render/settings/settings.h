@@ -3,6 +3,7 @@
 // setting_table.h has the key, range and description of each: keys have the names of the fields, without the groups.
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -179,6 +180,8 @@ float find_caustic_width(const RenderSettings& settings);
 
 /// As JSON and the command line write it: true, 0.5, saliency.
 std::string setting_text(const SettingValue& value);
+
+nlohmann::ordered_json setting_json(const SettingValue& value);
 
 /// All keys with their values, as in a scene file. apply_settings of the map gives equal settings.
 SettingMap setting_map(const RenderSettings& settings);

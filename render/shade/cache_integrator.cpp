@@ -32,13 +32,13 @@ class CacheIntegrator final : public LightIntegrator {
 
     bool shares_light() const override { return cached_ || needs_further() || needs_bright(); }
 
-    void fill(const SampleHits& first) override {
+    void fill(const SampleHits& first, const SampleHits& whole) override {
         if (cached_ && input_.options.risk != nullptr)
             context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
         if (needs_further() && context_.carried != nullptr)
             further_bounces_ =
                 restore_further_bounces(context_, context_.carried->find_further(context_.lighting.shading));
-        const std::vector<PixelSurface> seen = find_seen(first);
+        const std::vector<PixelSurface> seen = find_seen(whole);
         if (needs_bright()) bright_ = find_bright_surfaces(context_.lighting, seen, input_.out.counts.rays);
         if (!bright_.empty()) context_.bright = &bright_;
         solve_further(seen);

@@ -58,8 +58,13 @@ class FrameShading {
             cast_first_ = cast_sample(context_.lighting.rays, context_.view, place_, &out_.counts.rays.primary);
             first_ = &cast_first_;
         }
-        if (options_.part != nullptr) leave_part();
-        integrator_->fill(*first_);
+        if (options_.part == nullptr) {
+            integrator_->fill(*first_, *first_);
+        } else {
+            SampleHits part = *first_;
+            forget_others(*options_.part, part.hits);
+            integrator_->fill(part, options_.part_picture ? *first_ : part);
+        }
         if (options_.at_sample) first_ = nullptr;  // of the shutter's centre
     }
 
@@ -86,12 +91,6 @@ class FrameShading {
     }
 
   private:
-    void leave_part() {
-        if (first_ != &cast_first_) cast_first_ = *first_;
-        forget_others(*options_.part, cast_first_.hits);
-        first_ = &cast_first_;
-    }
-
     SamplePlace place(int index) const {
         SamplePlace place = place_;
         place.index = index;

@@ -15,8 +15,8 @@ class LightIntegrator {
 
     /// Returns whether light is computed before the samples, which share it.
     virtual bool shares_light() const { return false; }
-    /// Computes it.
-    virtual void fill(const SampleHits& /*first*/) {}
+    /// Computes it. @param whole  hits of the whole picture, of which `first` may be a part
+    virtual void fill(const SampleHits& /*first*/, const SampleHits& /*whole*/) {}
 
     /// Samples are taken at this time until the next call.
     virtual void begin(const SampleScene& scene) = 0;

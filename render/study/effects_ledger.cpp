@@ -47,11 +47,12 @@ Json to_json(const std::optional<MeasuredValue>& value) {
 }  // namespace
 
 std::vector<StudyVariant> list_ledger_variants(const std::vector<PreparedStudyScene>& scenes, const Study& study) {
-    EffectSet simulated, allowed;
+    EffectSet simulated, allowed, forced;
     for (const PreparedStudyScene& scene : scenes) {
         const SceneWithSettings own = with_settings_of(scene, study, {});
         for (const EffectName& effect : effect_list) {
             if (!own.settings.effects.forbid.contains(effect.id)) allowed.add(effect.id);
+            if (own.settings.effects.force.contains(effect.id)) forced.add(effect.id);
         }
         Sequence sequence(own.scene, own.settings);
         for (const int frame : scene.frames) {
@@ -67,8 +68,15 @@ std::vector<StudyVariant> list_ledger_variants(const std::vector<PreparedStudySc
     }
     std::vector<StudyVariant> variants{{complete, {}}};
     for (const EffectName& effect : effect_list) {
-        if (simulated.contains(effect.id))
-            variants.push_back({variant_without(effect.name), {{"forbid", effect.name + others}}, {}, true});
+        if (!simulated.contains(effect.id)) continue;
+        StudyVariant without{.name = variant_without(effect.name), .settings = {}, .forbids_more = true};
+        without.settings["forbid"] = effect.name + others;
+        if (forced.contains(effect.id)) {
+            EffectSet left = forced;
+            left.remove(effect.id);
+            without.settings["force"] = format_effects(left);
+        }
+        variants.push_back(std::move(without));
     }
     return variants;
 }

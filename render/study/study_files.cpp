@@ -34,13 +34,9 @@ Json values_json(const std::map<std::string, MeasuredValue>& values, const std::
     return json;
 }
 
-Json value_json(const SettingValue& value) {
-    return std::visit([](const auto& v) { return Json(v); }, value);
-}
-
 Json settings_json(const SettingMap& settings) {
     Json json = Json::object();
-    for (const auto& [key, value] : settings) json[key] = value_json(value);
+    for (const auto& [key, value] : settings) json[key] = setting_json(value);
     return json;
 }
 
@@ -113,7 +109,7 @@ Json axes_json(const std::vector<StudyAxis>& axes) {
     Json json = Json::array();
     for (const StudyAxis& axis : axes) {
         Json values = Json::array();
-        for (const SettingValue& value : axis.values) values.push_back(value_json(value));
+        for (const SettingValue& value : axis.values) values.push_back(setting_json(value));
         json.push_back({{"setting", axis.setting}, {"values", values}});
     }
     return json;

@@ -119,7 +119,9 @@ std::optional<KeyframeRecords> LightStore::find(std::int64_t keyframe) const {
     const ShotRecords read = is_folder_ ? read_cache_file(file_of(keyframe), fingerprint_) : ShotRecords();
     const ShotRecords& known = is_folder_ ? read : records_;
     const auto found = known.find(keyframe);
-    return found == known.end() ? std::nullopt : std::optional(found->second);
+    if (found != known.end()) return found->second;
+    if (!is_folder_) try_output(path_);  // before the keyframe is computed
+    return std::nullopt;
 }
 
 void LightStore::keep(std::int64_t keyframe, const KeyframeRecords& records) {

@@ -44,7 +44,7 @@ class LightStore {
 
     /// The records of a keyframe, if they are kept. The name of a folder's file has the fingerprint: files of other
     /// scenes, settings and programs may lie beside it.
-    /// @throws InputError as read_cache_file
+    /// @throws InputError as read_cache_file; OutputError if it is not in the file, and the file cannot be written
     std::optional<KeyframeRecords> find(std::int64_t keyframe) const;
 
     /// Keeps the records of a keyframe: in a folder at once.

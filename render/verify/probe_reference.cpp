@@ -75,20 +75,12 @@ MotionMaps crop_maps(const MotionMaps& maps, const PictureArea& area) {
     return {crop(maps.u, area), crop(maps.v, area), crop(maps.valid, area), crop(maps.object, area)};
 }
 
-/// Marks an area and the pixels around it.
-void mark(PicturePart& part, const PictureArea& area, int around) {
-    for (int y = std::max(0, area.y - around); y < std::min(part.height, area.y + area.height + around); ++y) {
-        for (int x = std::max(0, area.x - around); x < std::min(part.width, area.x + area.width + around); ++x)
-            part(x, y) = 1;
-    }
-}
-
 PicturePart tracked_part(const PicturePart& part, const TrackImage& track) {
     PicturePart out(part.width, part.height, std::uint8_t{0});
     for (std::size_t i = 0; i < part.size(); ++i) {
         const glm::vec2 p = track.pixels[i];
         if (part.pixels[i] == 0 || std::isnan(p.x)) continue;
-        mark(out, {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)), 1, 1}, track_reach);
+        mark_area(out, {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)), 1, 1}, track_reach);
     }
     return out;
 }
@@ -195,7 +187,7 @@ ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence) {
     for (const ProbeFrame& each : window.frames) motion.push_back(&each.motion);
     const auto [after, before] = track_surfaces(motion, own);
     PicturePart part(width, height, std::uint8_t{0});
-    mark(part, place.block, margin);
+    mark_area(part, place.block, margin);
     window.frames[own].part = part;
     for (std::size_t k = 0; k < after.size(); ++k) window.frames[own + 1 + k].part = tracked_part(part, after[k]);
     for (std::size_t k = 0; k < before.size(); ++k) window.frames[own - 1 - k].part = tracked_part(part, before[k]);

@@ -1,7 +1,6 @@
 #pragma once
 // Where probes lie, the frames around them, and the reference of a block in each of these.
 
-#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -11,19 +10,6 @@
 #include "render/pixels/picture_part.h"
 
 namespace aleph {
-
-/// A rectangle of a picture, pixels.
-struct PictureArea {
-    int x = 0, y = 0, width = 0, height = 0;
-    bool operator==(const PictureArea&) const = default;
-};
-
-template <class T>
-Image<T> crop(const Image<T>& image, const PictureArea& area) {
-    Image<T> out(area.width, area.height);
-    for (int y = 0; y < area.height; ++y) std::copy_n(image.row(area.y + y) + area.x, area.width, out.row(y));
-    return out;
-}
 
 /// A block of a frame's picture.
 struct ProbePlace {

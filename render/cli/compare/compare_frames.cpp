@@ -95,6 +95,45 @@ ProgressLook terminal_look(bool quiet) {
     return look;
 }
 
+/// The pixels of a picture within the whole one.
+PictureArea find_window(const ChannelImage& image) {
+    const Image<float>& first = image.channels.front().values;
+    if (!image.whole) return {0, 0, first.width, first.height};
+    return {-image.whole->x, -image.whole->y, first.width, first.height};
+}
+
+/// Size of the whole picture.
+glm::ivec2 find_whole_size(const ChannelImage& image) {
+    const PictureArea window = find_window(image);
+    return image.whole ? glm::ivec2(image.whole->width, image.whole->height) : glm::ivec2(window.width, window.height);
+}
+
+/// Cuts pictures and maps to the window that all of them have. Those of other sizes are left as they are, to be
+/// refused.
+/// @throws InputError if they have no pixel in common
+void cut_to_common_window(const std::vector<ChannelImage*>& images) {
+    PictureArea common = find_window(*images.front());
+    for (const ChannelImage* image : images) {
+        if (find_whole_size(*image) != find_whole_size(*images.front())) return;
+        const PictureArea window = find_window(*image);
+        const int right = std::min(common.x + common.width, window.x + window.width);
+        const int bottom = std::min(common.y + common.height, window.y + window.height);
+        common.x = std::max(common.x, window.x);
+        common.y = std::max(common.y, window.y);
+        common.width = right - common.x;
+        common.height = bottom - common.y;
+    }
+    if (common.width <= 0 || common.height <= 0)
+        throw InputError("", "", "the pictures are windows of one that have no pixel in common");
+    for (ChannelImage* image : images) {
+        const PictureArea window = find_window(*image);
+        if (window == common) continue;
+        for (Channel& channel : image->channels)
+            channel.values =
+                crop(channel.values, {common.x - window.x, common.y - window.y, common.width, common.height});
+    }
+}
+
 struct JunitCase {
     std::string name;
     std::string failure;  ///< why the test failed; empty: it passed
@@ -177,10 +216,14 @@ int compare_frames(const CompareOptions& options) {
     {
         Progress progress("compare", static_cast<double>(first.size()), terminal_look(options.quiet || !is_sequence));
         for (const auto& [frame, file] : first) {
-            const ChannelImage a = read_image(file), b = read_image(second.at(frame));
-            const ChannelImage threshold = thresholds.empty() ? ChannelImage{} : read_image(thresholds.at(frame));
-            const ChannelImage visible = seen.empty() ? ChannelImage{} : read_image(seen.at(frame));
+            ChannelImage a = read_image(file), b = read_image(second.at(frame));
+            ChannelImage threshold = thresholds.empty() ? ChannelImage{} : read_image(thresholds.at(frame));
+            ChannelImage visible = seen.empty() ? ChannelImage{} : read_image(seen.at(frame));
+            std::vector<ChannelImage*> all{&a, &b};
+            if (!thresholds.empty()) all.push_back(&threshold);
+            if (!seen.empty()) all.push_back(&visible);
             try {
+                cut_to_common_window(all);
                 sequence.add(frame, a, b,
                              {thresholds.empty() ? nullptr : &threshold, seen.empty() ? nullptr : &visible});
             } catch (const InputError& e) {

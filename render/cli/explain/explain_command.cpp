@@ -105,10 +105,8 @@ Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
 
 ordered_json describe_settings(const std::vector<SettingOrigin>& settings) {
     ordered_json list = ordered_json::array();
-    for (const SettingOrigin& setting : settings) {
-        list.push_back({{"key", setting.key}, {"value", nullptr}, {"from", setting.from}});
-        std::visit([&](const auto& value) { list.back()["value"] = value; }, setting.value);
-    }
+    for (const SettingOrigin& setting : settings)
+        list.push_back({{"key", setting.key}, {"value", setting_json(setting.value)}, {"from", setting.from}});
     return list;
 }
 

@@ -50,6 +50,7 @@ std::vector<std::string> list_arguments(const FarmOptions& options) {
     };
     add("--fps", scene.fps);
     add("--camera", scene.camera);
+    add("--crop", scene.crop);
     if (scene.limits.memory != LoadLimits().memory) add("--load-memory", fmt::format("{}", scene.limits.memory >> 20));
     if (scene.threads > 0) add("--threads", fmt::format("{}", scene.threads));
     for (const auto& [key, value] : scene.settings) add("--set", key + "=" + setting_text(value));
@@ -68,6 +69,7 @@ void refuse_other_options(const FarmOptions& options, const std::string& command
     const std::tuple<const char*, bool, const char*> given[] = {
         {"--fps", !scene.fps.empty(), "render, maps"},
         {"--camera", !scene.camera.empty(), "render, maps"},
+        {"--crop", !scene.crop.empty(), "render, maps"},
         {"--load-memory", scene.limits.memory != LoadLimits().memory, "render, maps"},
         {"--stats", !scene.stats.empty(), "render, maps"},
         {"--cache", !options.cache.empty(), "render"},

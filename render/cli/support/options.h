@@ -17,6 +17,7 @@ enum ExitCode : int {
     exit_different = 1,  ///< of `aleph compare`
     exit_failed = 1,
     exit_bad_input = 2,  ///< wrong usage, or a scene or picture that cannot be read
+    exit_beyond = 3,     ///< `aleph render --strict`: all is written, but errs by more than was asked for
     exit_again = 75,     ///< a signal stopped it; the same command goes on from there (EX_TEMPFAIL of sysexits)
 };
 

@@ -8,7 +8,7 @@
 
 namespace aleph {
 
-/// Ends a command that a signal stopped.
+/// Ends a command with an exit code of its own: a signal stopped it, or its frames err by more than was asked for.
 class Stopped : public std::runtime_error {
   public:
     Stopped(const std::string& what, int exit_code) : std::runtime_error(what), exit_code_(exit_code) {}

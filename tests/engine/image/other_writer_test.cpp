@@ -1,4 +1,5 @@
-// Pictures that OpenImageIO has written: straight alpha, grey, JPEG; and JPEG files that are refused.
+// Pictures that OpenImageIO has written: straight alpha, grey, JPEG; JPEG files that are refused; and what it reads of
+// ours.
 
 #include <OpenImageIO/imageio.h>
 
@@ -102,6 +103,24 @@ TEST(ImageIo, CutAndOversizedJpegsAreRefused) {
     }
     const Refusal found = find_refusal([&] { decode_texture(huge, "huge.jpg"); });
     EXPECT_NE(found.reason.find("65535x65535"), std::string::npos) << found.message;
+}
+
+TEST(ImageIo, EXRKeepsThePlaceInAWholePicture) {
+    const ScratchFolder folder;
+    ChannelImage image{{{"R", Image<float>(7, 5, 0.5f)}}, {}};
+    for (const PictureArea& whole : {PictureArea{-3, -2, 20, 10}, PictureArea{1, 1, 3, 2}}) {
+        image.whole = whole;
+        write_exr(folder / "a.exr", image);
+        const ChannelImage back = read_image(folder / "a.exr");
+        EXPECT_EQ(back.whole, whole);
+        EXPECT_EQ(*back.find("R"), image.channels.front().values);
+    }
+    const auto input = OIIO::ImageInput::open(folder / "a.exr");
+    EXPECT_EQ(input->spec().x, -1) << "the data window";
+    EXPECT_EQ(input->spec().full_width, 3) << "the display window";
+    image.whole.reset();
+    write_exr(folder / "a.exr", image);
+    EXPECT_EQ(read_image(folder / "a.exr").whole, std::nullopt);
 }
 
 }  // namespace

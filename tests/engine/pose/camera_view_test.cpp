@@ -1,7 +1,9 @@
 // Known answers of engine/pose/camera_view.h.
 
 #include "engine/pose/camera_view.h"
+#include "engine/pose/posed_view.h"
 #include "engine/scene/transforms.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -19,6 +21,18 @@ TEST(CameraView, FocalLengthInPixels) {
     camera.orthographic = true;
     camera.half_height = 3.0;
     EXPECT_DOUBLE_EQ(make_camera_view(camera, 640, 480).pixels_per_unit, 80.0);
+}
+
+TEST(CameraView, AFieldOfViewThatOvershootsIsRefusedWithTheNameOfItsCamera) {
+    Scene scene;
+    scene.source.file = "s.json";
+    scene.cameras.push_back(
+        {.fov = keyed<double>({0.0, 1.0}, {0.0, 1.0, 20.0, -20.0, 1.0, 0.0}, Interpolation::cubic)});
+    scene.nodes.push_back({.name = "zoom", .camera = 0});
+    EXPECT_NO_THROW(make_posed_view(scene, 0.0, 0, 8, 6));
+    const Refusal refusal = find_refusal([&] { make_posed_view(scene, 0.5, 0, 8, 6); });
+    EXPECT_EQ(refusal.file, "s.json");
+    EXPECT_EQ(refusal.place, "camera \"zoom\"");
 }
 
 TEST(CameraView, TheCentreLooksAlongMinusZAndRowsGoDown) {

@@ -107,6 +107,12 @@ TEST(SceneJson, CamerasAndLights) {
     EXPECT_EQ(scene.lights[1].kind, Light::Kind::directional);
 }
 
+TEST(SceneJson, AnAlphaCutoffAboveOneCutsOutEverythingAsInGltf) {
+    const Scene scene = read(R"(, "materials": {"m": {"alpha_mode": "mask", "alpha_cutoff": 1.5}})");
+    EXPECT_EQ(scene.materials[0].opacity.cutoff, 1.5);
+    EXPECT_EQ(again(scene), scene);
+}
+
 TEST(SceneJson, SpotLightsShiftedLensesAndWhatMaterialsDo) {
     const Scene scene =
         read(R"(, "lights": {"s": {"type": "spot", "inner_cone": 20, "outer_cone": {"keys": [[0, 30], [30, 60]]},

@@ -192,6 +192,19 @@ TEST_F(PartTiming, EndsWhenItsCallerSaysSo) {
     EXPECT_GT(times.before, 0.0);
 }
 
+TEST_F(PartTiming, SmallPicturesOfLightDifferEnoughToTellItsGrowth) {
+    for (const auto& [width, height] : {std::pair(16, 12), {80, 60}, {160, 120}}) {
+        RenderSettings settings = settings_for(10.0);
+        set_size(settings, width, height);
+        const PilotSeconds seconds =
+            run_pilot({scene, "", {4}, {settings}, [](const PilotSeconds&, double) { return true; }}).seconds;
+        ASSERT_EQ(seconds.light.size(), 2u);
+        const double first = seconds.light[0].pixels, second = seconds.light[1].pixels;
+        EXPECT_NEAR(std::max(first, second) / std::min(first, second), 4.0, 0.01) << width;
+        EXPECT_EQ(first < second, width < 128) << "where time may allow only one";
+    }
+}
+
 TEST_F(PartTiming, LightIsTimedOnceForEachMoment) {
     RenderSettings settings = settings_for(8.0);
     settings.cache.light_step = 10;

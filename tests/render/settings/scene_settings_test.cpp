@@ -14,10 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const SettingValue& value) {
-    return std::visit([](const auto& v) { return Json(v); }, value);
-}
-
 /// A number as people write it: 1024, 0.15.
 Json short_number(double value) {
     return value == std::floor(value) ? Json(static_cast<std::int64_t>(value)) : Json(value);
@@ -26,7 +22,7 @@ Json short_number(double value) {
 Json default_of(const Setting& setting) {
     const SettingValue value = setting.get(RenderSettings());
     const double* const number = std::get_if<double>(&value);
-    return number != nullptr ? short_number(*number) : to_json(value);
+    return number != nullptr ? short_number(*number) : setting_json(value);
 }
 
 /// "Least reach of a record (pixels)."

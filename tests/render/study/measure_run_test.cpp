@@ -173,6 +173,17 @@ Study ledger_study(const char* more = "") {
                        "ledger.json");
 }
 
+TEST(EffectsLedger, LeavesOutWhatIsForcedToo) {
+    const PreparedStudy prepared = prepare_study(ledger_study(R"(, "force": "emission,direct_light")"));
+    const auto without = std::ranges::find(prepared.variants, "without emission", &StudyVariant::name);
+    ASSERT_NE(without, prepared.variants.end());
+    EXPECT_EQ(without->settings.at("forbid"), SettingValue(std::string("emission")));
+    EXPECT_EQ(without->settings.at("force"), SettingValue(std::string("direct_light")));
+    const auto other = std::ranges::find(prepared.variants, "without area_shadows", &StudyVariant::name);
+    ASSERT_NE(other, prepared.variants.end());
+    EXPECT_FALSE(other->settings.contains("force")) << "the study's own stays";
+}
+
 const LedgerEntry& entry_of(const SceneLedger& ledger, Effect effect) {
     return ledger.entries.at(static_cast<std::size_t>(effect));
 }

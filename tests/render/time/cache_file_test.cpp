@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cstdlib>
@@ -66,6 +67,29 @@ TEST_F(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
     RenderSettings exact = settings;
     exact.effects.force.add(Effect::caustics);
     EXPECT_THROW(Sequence(scene, exact).load_light(folder / "light"), InputError) << "its caustics are blurred";
+}
+
+TEST_F(CacheFile, IC22_AFileThatCannotBeWrittenServesWhatItHas) {
+    const Fingerprint print = make_cache_fingerprint(scene, settings, list_camera_shots(scene, ""));
+    std::filesystem::create_directory(folder / "sealed");
+    write_cache_file(folder / "sealed/light", print, {{3, {}}});
+    ::chmod(folder.path().c_str(), 0755);
+    ::chmod((folder / "sealed/light").c_str(), 0444);
+    ::chmod((folder / "sealed").c_str(), 0555);
+    LightStore store(folder / "sealed/light", print);
+    const uid_t user = ::geteuid();
+    ASSERT_EQ(::seteuid(user == 0 ? 65534 : user), 0);  // root may write anywhere
+    std::string missing;
+    try {
+        EXPECT_TRUE(store.find(3).has_value());
+        store.save();
+        store.find(4);
+    } catch (const OutputError& e) {
+        missing = e.what();
+    }
+    ASSERT_EQ(::seteuid(user), 0);
+    EXPECT_THAT(missing, testing::HasSubstr("Permission denied")) << "before the keyframe is computed";
+    ::chmod((folder / "sealed").c_str(), 0755);
 }
 
 TEST_F(CacheFile, IC22_ItKeepsLightOfFurtherBounces) {

@@ -1,5 +1,7 @@
 // `aleph render --verify`, and shares with their intervals from counts in blocks.
 
+#include <thread>
+
 #include "render/cli/write_frames.h"
 #include "render/verify/probe.h"
 #include "tests/render/cli/answers.h"
@@ -36,6 +38,35 @@ TEST_F(VerifyCommand, PrintsAndKeepsWhatItFound) {
     EXPECT_LE(verified.at("beyond").at("share"), verified.at("seen").at("share"));
     EXPECT_LE(verified.at("seen").at("low"), verified.at("seen").at("share"));
     EXPECT_TRUE(verified.at("estimated_beyond").is_number());
+}
+
+TEST_F(VerifyCommand, ASignalEndsItWithWhatIsMeasured) {
+    const std::string scene = (source_folder() / "scenes/cornell/scene.json").string(), log = file("log");
+    std::ofstream{log};
+    StartedProgram program({"render", scene, "--size", "8x6", "--frames", "8", "--error", "8", "--verify", "1e6", "-o",
+                            file("a.exr"), "--stats", file("a.json"), "--progress", "json"},
+                           log);
+    while (read_bytes(log).find(" block") == std::string::npos)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    program.send(SIGINT);
+    expect_answer(program.wait(), 130, "all frames are written, and checked as far as said");
+    EXPECT_GE(nlohmann::json::parse(read_bytes(file("a.json"))).at("verified").at("blocks"), 1);
+}
+
+TEST_F(VerifyCommand, StrictEndsWithACodeOfItsOwn) {
+    EXPECT_EQ(run({"--error", "8", "--strict"}), exit_done) << errors;
+    EXPECT_EQ(run({"--error", "0.2", "--spp", "4", "--strict"}), exit_beyond);
+    EXPECT_THAT(errors,
+                HasSubstr("--strict: in 1 of 1 frames more than 1 % of the pixels err by more than was asked for"));
+    EXPECT_TRUE(fs::exists(file("a.exr"))) << "all is written";
+    EXPECT_EQ(run({"--error", "0.2", "--spp", "1", "--strict"}), exit_beyond) << "one sample tells nothing";
+    EXPECT_EQ(run({"--error", "0.2", "--spp", "1", "--strict", "--verify", "0.01", "-o", file("b.exr")}), exit_beyond);
+    EXPECT_THAT(errors, HasSubstr("; measured over all frames: "));
+    EXPECT_THAT(out, HasSubstr("aleph: verified: "));
+    EXPECT_EQ(run({"--spp", "4", "--strict"}), exit_bad_input);
+    EXPECT_THAT(errors, HasSubstr("no error is asked for"));
+    EXPECT_EQ(run({"--resume", "--strict"}), exit_bad_input);
+    EXPECT_THAT(errors, HasSubstr("--resume: files of frames do not tell"));
 }
 
 TEST(VerifiedText, HasShareIntervalAndEstimate) {
