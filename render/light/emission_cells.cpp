@@ -1,6 +1,7 @@
 // Lamps whose emission is uneven over their area: screens, signs, strings of small lights on one texture.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -43,7 +44,7 @@ SurfacePoint make_flat_point(const Mesh& mesh, int material, const glm::uvec3& t
     return point;
 }
 
-/// Texels along the triangle's longest edge.
+/// Texels along the second of the triangle's edges by length: cells of half a rectangle are halves of texels.
 double count_texels(const TextureSet& set, const TextureUse& use, const SurfacePoint& point) {
     if (use.texture == no_index) return 1.0;
     const Texture& texture = set.textures[use.texture];
@@ -51,7 +52,9 @@ double count_texels(const TextureSet& set, const TextureUse& use, const SurfaceP
     const glm::vec2 size(texture.width, texture.height);
     const glm::vec2 e1 = to_image * point.uv_edges[use.uv_set][0] * size;
     const glm::vec2 e2 = to_image * point.uv_edges[use.uv_set][1] * size;
-    const double texels = std::max({glm::length(e1), glm::length(e2), glm::length(e2 - e1)});
+    std::array<float, 3> edges{glm::length(e1), glm::length(e2), glm::length(e2 - e1)};
+    std::ranges::sort(edges);
+    const double texels = edges[1];
     return texels < most_divisions ? std::max(texels, 1.0) : std::isfinite(texels) ? most_divisions : 1.0;
 }
 
