@@ -44,8 +44,9 @@ SurfacePoint make_flat_point(const Mesh& mesh, int material, const glm::uvec3& t
     return point;
 }
 
-/// Texels along the second of the triangle's edges by length: cells of half a rectangle are halves of texels.
-double count_texels(const TextureSet& set, const TextureUse& use, const SurfacePoint& point) {
+/// Half texels along the second of the edges by length: no texel border crosses cells of a rectangle, and few of a
+/// cell change much within.
+double count_half_texels(const TextureSet& set, const TextureUse& use, const SurfacePoint& point) {
     if (use.texture == no_index) return 1.0;
     const Texture& texture = set.textures[use.texture];
     const glm::mat2 to_image = use.transformed ? use.matrix : glm::mat2(1.0f);
@@ -54,7 +55,7 @@ double count_texels(const TextureSet& set, const TextureUse& use, const SurfaceP
     const glm::vec2 e2 = to_image * point.uv_edges[use.uv_set][1] * size;
     std::array<float, 3> edges{glm::length(e1), glm::length(e2), glm::length(e2 - e1)};
     std::ranges::sort(edges);
-    const double texels = edges[1];
+    const double texels = 2.0 * double{edges[1]};
     return texels < most_divisions ? std::max(texels, 1.0) : std::isfinite(texels) ? most_divisions : 1.0;
 }
 
@@ -65,8 +66,8 @@ std::size_t divide_triangles(const ShadingScene& shading, CellTexels& cells) {
     double sum = 0.0;
     for (const glm::uvec3& t : cells.mesh->triangles) {
         const SurfacePoint point = make_flat_point(*cells.mesh, cells.material, t, {});
-        texels.push_back(std::max(count_texels(*shading.textures, uses[TextureSlot::emission], point),
-                                  count_texels(*shading.textures, uses[TextureSlot::base_color], point)));
+        texels.push_back(std::max(count_half_texels(*shading.textures, uses[TextureSlot::emission], point),
+                                  count_half_texels(*shading.textures, uses[TextureSlot::base_color], point)));
         sum += texels.back() * texels.back();
     }
     const double scale = std::min(1.0, std::sqrt(static_cast<double>(cells.most) / sum));
