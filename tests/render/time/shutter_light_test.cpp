@@ -218,12 +218,6 @@ TEST(MotionBlur, MC27_IndirectLightOfALampThatFadesIn) {
     expect_same_light(scene, 0.5);
 }
 
-TEST(MotionBlur, MC27_IndirectLightOfALampThatMoves) {
-    Scene scene = make_shot();
-    scene.nodes[3].transform.translation = move_between({-2.0, 0.5, -2.0}, {3.0, 2.5, 0.0});
-    expect_same_light(scene, 0.5);
-}
-
 /// Light is linear: while a lamp goes from 0 to twice its power, its light is on average that of its power. Most of the
 /// picture is under a plate, so that it shows indirect light alone.
 TEST(MotionBlur, MC27_IndirectLightOfAFadeIsThatOfItsMean) {
