@@ -256,8 +256,9 @@ struct EstimatedLight {
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                             const EstimateOptions& options, RayCounts& counts) {
     const EstimateKind kind = options.kind;
-    LightTree seen;
-    if (kind == EstimateKind::direct) seen = make_seen_light_tree(context, view, centers, counts);
+    HiddenLights hidden;
+    if (kind == EstimateKind::direct) hidden = find_hidden_lights(context, view, centers, counts);
+    const LightTree seen = make_seen_light_tree(context.shading, context.lights, hidden);
     LightingContext lighting = context;
     if (!seen.groups.empty()) lighting.seen = &seen;
     Image<Rgb> estimate(view.width, view.height);

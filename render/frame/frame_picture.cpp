@@ -76,8 +76,18 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     if (carried != nullptr) risk = find_risk(s, frame);
     if (risk) options.risk = &*risk;
     LightingContext lighting = s.here.lighting();
-    const LightTree seen = make_seen_light_tree(lighting, out.view, prepared.centers, out.statistics.counts.rays);
+    const HiddenLights hidden = find_hidden_lights(lighting, out.view, prepared.centers, out.statistics.counts.rays);
+    const LightTree seen = make_seen_light_tree(lighting.shading, lighting.lights, hidden);
     if (!seen.groups.empty()) lighting.seen = &seen;
+    LightTree seen_at_sample;
+    if (options.at_sample && !hidden.empty()) {
+        options.at_sample = [&, at_sample = options.at_sample](int sample, int pixel_class) {
+            SampleScene scene = at_sample(sample, pixel_class);
+            seen_at_sample = make_seen_light_tree(scene.lighting.shading, scene.lighting.lights, hidden);
+            scene.lighting.seen = &seen_at_sample;
+            return scene;
+        };
+    }
     const IndirectContext context{.lighting = lighting,
                                   .view = out.view,
                                   .settings = prepared.plan.settings,

@@ -32,7 +32,7 @@ std::size_t FrameScene::prepare() {
     } else {
         shading_ = make_shading_scene(shot_.scene, posed_->pose, *rays_, shot_.textures);
     }
-    lights_ = make_light_set(*shading_);
+    lights_ = make_light_set(*shading_, std::move(lights_.kept));
     around_ = {};
     leave_out(shot_.settings.effects.forbid);
     shading_->points_unshadowed = false;

@@ -47,7 +47,7 @@ LightNode make_node(const Emitter& emitter) {
     node.center = emitter.center;
     node.radius = emitter.radius;
     const float radiance = luminance(emitter.brightest);
-    node.strength = finite_strength(radiance * emitter.area);
+    node.strength = finite_strength(radiance * emitter.mean_of_brightest * emitter.area);
     node.most = finite_strength(std::numbers::pi_v<float> * radiance);
     if (emitter.double_sided) return node;
     node.axis = emitter.triangles.front().normal;

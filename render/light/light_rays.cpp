@@ -32,7 +32,8 @@ std::vector<double> find_powers(const LightingContext& context, const LightTarge
     std::vector<double> powers;
     for (const Emitter& emitter : lights.emitters) {
         const double sides = emitter.double_sided ? 2.0 : 1.0;
-        powers.push_back(std::numbers::pi * luminance(emitter.brightest) * emitter.area * sides);
+        powers.push_back(std::numbers::pi * luminance(emitter.brightest) * emitter.mean_of_brightest * emitter.area *
+                         sides);
     }
     for (const PunctualLight& light : lights.punctual) {
         const bool is_far = light.kind == Light::Kind::directional;
@@ -47,10 +48,9 @@ std::vector<double> find_powers(const LightingContext& context, const LightTarge
 }
 
 Ray leave_emitter(const ShadingScene& shading, const Emitter& emitter, float place, RandomStream& random) {
-    const auto end = std::ranges::upper_bound(emitter.cumulative_area, place);
-    const auto i = std::min<std::ptrdiff_t>(end - emitter.cumulative_area.begin(), std::ssize(emitter.triangles) - 1);
-    const Emitter::Triangle& t = emitter.triangles[static_cast<std::size_t>(i)];
-    const glm::vec2 b = sample_triangle(random.next_2d());
+    const auto chosen = static_cast<std::size_t>(choose_part(emitter.cumulative, place));
+    const glm::vec2 b = sample_place(emitter, chosen, random.next_2d()).b;
+    const Emitter::Triangle& t = emitter.triangles[chosen];
     const bool other_side = emitter.double_sided && random.next() < 0.5f;
     const glm::vec3 normal = other_side ? -t.normal : t.normal;
     const glm::vec3 direction = make_basis(normal).to_world(sample_cosine_hemisphere(random.next_2d()));

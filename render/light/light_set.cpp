@@ -29,7 +29,7 @@ void add_sides(Emitter& emitter) {
     for (std::size_t i = 0; i < emitter.triangles.size(); ++i) {
         const Emitter::Triangle& t = emitter.triangles[i];
         const glm::vec4 plane(t.normal, glm::dot(t.normal, t.corner - emitter.center));
-        const float begin = i == 0 ? 0.0f : emitter.cumulative_area[i - 1];
+        const float begin = i == 0 ? 0.0f : emitter.cumulative[i - 1];
         if (const int side = find_side(t); side != last) {
             emitter.sides.push_back({plane, plane, begin});
             last = side;
@@ -37,19 +37,30 @@ void add_sides(Emitter& emitter) {
         Emitter::Side& side = emitter.sides.back();
         side.low = glm::min(side.low, plane);
         side.high = glm::max(side.high, plane);
-        side.end = emitter.cumulative_area[i];
+        side.end = emitter.cumulative[i];
     }
 }
 
-Emitter make_emitter(const ShadingScene& shading, int index) {
+bool is_textured(const ShadingMaterial& material) {
+    return material.material != nullptr && material.material->textures[TextureSlot::emission].image != no_index;
+}
+
+bool has_alpha(const ShadingMaterial& material) {
+    return material.material != nullptr && material.material->opacity.mode != Opacity::Mode::opaque;
+}
+
+/// Cells of all lamps together.
+constexpr std::size_t most_cells = 1 << 16;
+
+/// @param cells, kept  divide_by_emission
+Emitter make_emitter(const ShadingScene& shading, int index, std::size_t cells, KeptTexels& kept) {
     const PosedInstance& instance = shading.instances[index];
     const ShadingMaterial& material = shading.materials[instance.material];
     Emitter emitter;
     emitter.instance = index;
     emitter.double_sided = material.double_sided;
-    emitter.textured =
-        material.material != nullptr && material.material->textures[TextureSlot::emission].image != no_index;
-    emitter.has_alpha = material.material != nullptr && material.material->opacity.mode != Opacity::Mode::opaque;
+    emitter.textured = is_textured(material);
+    emitter.has_alpha = has_alpha(material);
     emitter.radiance = emitter.brightest = material.values.emission;
     if (const int texture = shading.textures->materials[instance.material][TextureSlot::emission].texture;
         texture != no_index) {
@@ -72,7 +83,9 @@ Emitter make_emitter(const ShadingScene& shading, int index) {
     }
     emitter.area = static_cast<float>(area);
     set_sphere(emitter);
-    for (const double a : cumulative) emitter.cumulative_area.push_back(static_cast<float>(a / area));
+    for (const double a : cumulative) emitter.cumulative.push_back(static_cast<float>(a / area));
+    if ((emitter.textured || emitter.has_alpha) && !emitter.triangles.empty())
+        divide_by_emission(shading, cells, kept, emitter);
     if (has_sides) add_sides(emitter);
     return emitter;
 }
@@ -81,9 +94,9 @@ Emitter make_emitter(const ShadingScene& shading, int index) {
 void add_punctual(const ShadingScene& shading, std::size_t i, LightSet& lights) {
     const LightValues& light = shading.pose->lights[i];
     if (light.intensity == Rgb(0.0f)) return;
-    lights.punctual.push_back({light.kind, glm::vec3(light.position - shading.anchor), glm::vec3(light.direction),
-                               light.intensity, static_cast<float>(light.range), versine(light.inner_cone),
-                               versine(light.outer_cone)});
+    lights.punctual.push_back({static_cast<int>(i), light.kind, glm::vec3(light.position - shading.anchor),
+                               glm::vec3(light.direction), light.intensity, static_cast<float>(light.range),
+                               versine(light.inner_cone), versine(light.outer_cone)});
 }
 
 /// Computes what depends on all lights.
@@ -113,14 +126,20 @@ void set_sphere(Emitter& emitter) {
     }
 }
 
-LightSet make_light_set(const ShadingScene& shading) {
+LightSet make_light_set(const ShadingScene& shading, KeptTexels kept) {
     LightSet lights;
+    lights.kept = std::move(kept);
     lights.emitter_of_instance.assign(shading.instances.size(), no_index);
+    const auto divided = std::ranges::count_if(shading.emitting, [&](int i) {
+        const ShadingMaterial& material = shading.materials[shading.instances[i].material];
+        return is_textured(material) || has_alpha(material);
+    });
+    const std::size_t cells = most_cells / static_cast<std::size_t>(std::max<std::ptrdiff_t>(divided, 1));
     for (const int i : shading.emitting) {
         const PosedInstance& instance = shading.instances[i];
         const ShadingMaterial& material = shading.materials[instance.material];
         if (!instance.visible || !material.emits) continue;
-        Emitter emitter = make_emitter(shading, i);
+        Emitter emitter = make_emitter(shading, i, cells, lights.kept);
         if (emitter.triangles.empty()) continue;
         lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());
         lights.emitters.push_back(std::move(emitter));
@@ -134,7 +153,9 @@ LightSet make_light_set(const ShadingScene& shading) {
 
 void remove_all_lights(LightSet& lights) {
     const std::size_t instances = lights.emitter_of_instance.size();
+    KeptTexels kept = std::move(lights.kept);
     lights = {};
+    lights.kept = std::move(kept);
     lights.emitter_of_instance.assign(instances, no_index);
 }
 

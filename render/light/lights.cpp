@@ -43,10 +43,6 @@ constexpr float any_cosine = 0.5f;
 
 constexpr float before_end = 0x1.fffffep-1f;
 
-float pdf_by_area(const Emitter& emitter, const FacingSides& facing, float cos_at_light, float distance) {
-    return distance * distance / (cos_at_light * emitter.area * facing.share);
-}
-
 FacingSides find_facing_sides(const Emitter& emitter, const glm::vec3& position) {
     FacingSides facing;
     if (emitter.sides.empty()) return facing;
@@ -106,27 +102,54 @@ glm::vec2 meet_triangle(const Emitter::Triangle& t, const glm::vec3& position, c
     return b.x + b.y > 1.0f ? b / (b.x + b.y) : b;
 }
 
+/// The place of a triangle in this direction; u in [0,1)^2.
+EmitterPlace sample_by_angle(const Emitter& emitter, const SolidAngles& angles, const glm::vec3& position,
+                             glm::vec2 u) {
+    std::array<float, max_spherical_triangles> ends{};
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < emitter.triangles.size(); ++i) ends[i] = (sum += angles.of[i]) / angles.total;
+    const auto chosen = static_cast<std::size_t>(choose_part(std::span(ends.data(), emitter.triangles.size()), u.x));
+    const Emitter::Triangle& t = emitter.triangles[chosen];
+    const glm::vec3 corner = t.corner - position;
+    const glm::vec2 b = meet_triangle(
+        t, position, sample_spherical_triangle(corner, corner + t.edge1, corner + t.edge2, angles.of[chosen], u));
+    return {chosen, b, spread_of(emitter, t.primitive, b)};
+}
+
+/// Share of the samples of a near emitter that go by solid angle.
+float share_by_angle(const Emitter& emitter, const SeenLight& seen) {
+    if (!(seen.angles.total > 0.0f)) return 0.0f;
+    return emitter.cells.empty() ? 1.0f : 0.5f;
+}
+
+EmitterPlace choose_place(const Emitter& emitter, const SeenLight& seen, const glm::vec3& position, glm::vec2 u) {
+    const float by_angle = share_by_angle(emitter, seen);
+    if (u.x < by_angle) return sample_by_angle(emitter, seen.angles, position, {u.x / by_angle, u.y});
+    u.x = place_in_sides(emitter, seen.facing, (u.x - by_angle) / (1.0f - by_angle));
+    const int triangle = choose_part(emitter.cumulative, u.x);
+    return sample_place(emitter, static_cast<std::size_t>(triangle), u);
+}
+
+/// Density per solid angle of choose_place.
+float pdf_place(const Emitter& emitter, const SeenLight& seen, float spread, float cosine, float distance) {
+    const float by_angle = share_by_angle(emitter, seen);
+    float pdf = by_angle > 0.0f ? by_angle / seen.angles.total : 0.0f;
+    if (by_angle < 1.0f) pdf += (1.0f - by_angle) * distance * distance / (cosine * spread * seen.facing.share);
+    return pdf;
+}
+
+SeenLight see_emitter(const Emitter& emitter, int light, const glm::vec3& position) {
+    SeenLight seen{light, find_solid_angles(emitter, position), {}};
+    if (!(seen.angles.total > 0.0f)) seen.facing = find_facing_sides(emitter, position);
+    return seen;
+}
+
 LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const SeenLight& seen,
-                           const glm::vec3& position, glm::vec2 u, float share) {
-    const SolidAngles& angles = seen.angles;
+                           const glm::vec3& position, const glm::vec2& u, float share) {
     if (!(seen.facing.share > 0.0f)) return {};
-    int chosen = 0;
-    glm::vec2 b;
-    if (angles.total > 0.0f) {
-        std::array<float, max_spherical_triangles> ends{};
-        float sum = 0.0f;
-        for (std::size_t i = 0; i < emitter.triangles.size(); ++i) ends[i] = (sum += angles.of[i]) / angles.total;
-        chosen = choose_part(std::span(ends.data(), emitter.triangles.size()), u.x);
-        const Emitter::Triangle& t = emitter.triangles[chosen];
-        const glm::vec3 corner = t.corner - position;
-        b = meet_triangle(t, position,
-                          sample_spherical_triangle(corner, corner + t.edge1, corner + t.edge2, angles.of[chosen], u));
-    } else {
-        u.x = place_in_sides(emitter, seen.facing, u.x);
-        chosen = choose_part(emitter.cumulative_area, u.x);
-        b = sample_triangle(u);
-    }
-    const Emitter::Triangle& triangle = emitter.triangles[chosen];
+    const EmitterPlace place = choose_place(emitter, seen, position, u);
+    const Emitter::Triangle& triangle = emitter.triangles[place.triangle];
+    const glm::vec2 b = place.b;
     const glm::vec3 to_light = triangle.corner + triangle.edge1 * b.x + triangle.edge2 * b.y - position;
     const float distance2 = glm::dot(to_light, to_light);
     LightSample sample;
@@ -137,14 +160,13 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
     if (emitter.double_sided) cosine = std::abs(cosine);
     if (!(cosine > 0.0f)) return sample;
     sample.distance = shadow_length(distance, largest_coordinate(emitter.center) + emitter.radius, cosine);
-    sample.pdf = angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, seen.facing, cosine, distance);
+    sample.pdf = pdf_place(emitter, seen, place.spread, cosine, distance);
     Rgb radiance = emitter.radiance;
     if (emitter.textured || emitter.has_alpha) {
         const Hit hit{emitter.instance, triangle.primitive, b.x, b.y, distance};
-        const SurfacePoint point = make_surface_point(shading, hit, sample.direction);
-        const RayFootprint footprint{{}, {}, std::sqrt(share * emitter.area * seen.facing.share)};
-        if (emitter.textured) radiance = evaluate_material(shading, point, footprint).emission;
-        if (emitter.has_alpha) radiance *= surface_coverage(shading, point, footprint);
+        const float width = std::sqrt(share * place.spread * seen.facing.share);
+        radiance =
+            emitted_radiance(shading, emitter, make_surface_point(shading, hit, sample.direction), {.width = width});
     }
     sample.incoming = radiance / sample.pdf;
     return sample;
@@ -251,20 +273,17 @@ float pdf_environment(const ShadingScene& shading, const Receiver& receiver, con
     return pdf_cosine_hemisphere(glm::dot(receiver.normal, direction));
 }
 
-float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance) {
-    if (!(cos_at_light > 0.0f)) return 0.0f;
-    const SolidAngles angles = find_solid_angles(emitter, position);
-    if (angles.total > 0.0f) return 1.0f / angles.total;
-    const FacingSides facing = find_facing_sides(emitter, position);
-    return facing.share > 0.0f ? pdf_by_area(emitter, facing, cos_at_light, distance) : 0.0f;
+float pdf_emitter(const Emitter& emitter, const glm::vec3& position, const MetEmitter& met) {
+    if (!(met.cosine > 0.0f)) return 0.0f;
+    const SeenLight seen = see_emitter(emitter, no_index, position);
+    if (!(seen.facing.share > 0.0f)) return 0.0f;
+    return pdf_place(emitter, seen, spread_of(emitter, met.hit.primitive, {met.hit.u, met.hit.v}), met.cosine,
+                     met.distance);
 }
 
 SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position) {
-    SeenLight seen{light, {}, {}};
-    if (light >= std::ssize(lights.emitters)) return seen;
-    seen.angles = find_solid_angles(lights.emitters[light], position);
-    if (!(seen.angles.total > 0.0f)) seen.facing = find_facing_sides(lights.emitters[light], position);
-    return seen;
+    if (light >= std::ssize(lights.emitters)) return {light, {}, {}};
+    return see_emitter(lights.emitters[light], light, position);
 }
 
 LightSample sample_seen_light(const ShadingScene& shading, const LightSet& lights, const SeenLight& seen,

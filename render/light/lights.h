@@ -5,47 +5,16 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
+#include "render/light/emitter.h"
 #include "render/light/light_tree.h"
-#include "render/surface/shading_scene.h"
 
 namespace aleph {
 
-/// One emissive instance: all its triangles together are one light.
-struct Emitter {
-    struct Triangle {
-        glm::vec3 corner, edge1, edge2;  ///< m, relative to the anchor
-        glm::vec3 normal;                ///< unit, on the side that emits
-        int primitive;
-    };
-    /// Triangles that face about the same way.
-    struct Side {
-        glm::vec4 low, high;             ///< of normals, and of the planes' distances along them from `center`, m
-        float begin = 0.0f, end = 0.0f;  ///< of `cumulative_area`
-    };
-    int instance = no_index;
-    bool double_sided = false;
-    bool textured = false;
-    bool has_alpha = false;  ///< some rays may pass it: a mask, or blended
-    Rgb radiance{0.0f};      ///< without texture
-    Rgb brightest{0.0f};     ///< no less than the radiance anywhere: where its texture is brightest, or white
-    float area = 0.0f;       ///< m2, of all triangles
-    glm::vec3 center{0.0f};  ///< m, of a sphere around all triangles
-    float radius = 0.0f;     ///< m, of that sphere
-    std::vector<Triangle> triangles;
-    std::vector<float> cumulative_area;  ///< share of the area up to and including each triangle
-    std::vector<Side> sides;             ///< in the order of the triangles; empty: all may face any point
-};
-
-/// A triangle of an instance on the side of its winding. The normal is not finite if the triangle has no area.
-Emitter::Triangle place_triangle(const PosedInstance& instance, int primitive);
-/// Sets centre and radius of the sphere around all triangles.
-void set_sphere(Emitter& emitter);
-
 struct PunctualLight {
+    int index = no_index;  ///< into ScenePose::lights
     Light::Kind kind = Light::Kind::point;
     glm::vec3 position{0.0f};   ///< m, relative to the anchor
     glm::vec3 direction{0.0f};  ///< unit, in which light travels
@@ -78,12 +47,14 @@ struct LightSet {
     std::vector<int> emitter_of_instance;  ///< per ScenePose instance: its emitter or no_index
     LightBounds bounds;                    ///< per light
     LightTree tree;                        ///< over all lights
+    KeptTexels kept;                       ///< of the lamps with textures or alpha
 
     /// Lights are numbered: emitters, then punctual lights, then the environment.
     int count() const { return static_cast<int>(emitters.size() + punctual.size()) + (has_environment ? 1 : 0); }
 };
 
-LightSet make_light_set(const ShadingScene& shading);
+/// @param kept  LightSet::kept of this scene at another time: saves work and changes nothing
+LightSet make_light_set(const ShadingScene& shading, KeptTexels kept = {});
 
 /// In LightSet::emitter_of_instance, of an emitter that is no light: rays that meet it find all of its emission.
 inline constexpr int left_out_emitter = -2;
@@ -109,15 +80,23 @@ float pdf_environment(const ShadingScene& shading, const Receiver& receiver, con
 /// A sample of one light as a point sees it, u in [0,1)^2. `incoming` is 0 if the light cannot reach the point even
 /// without obstacles (behind an emitter, zero area, out of range, outside a spot's cone). A constant environment is
 /// sampled by cosine around the receiver's normal, a picture by its luminance.
-/// @param share  of an area light's area that the sample represents: its texture is averaged over that much of it.
-///               0: the texture is read at the sampled point
+/// @param share  of an area light's samples that this one represents: its texture is averaged over its part of the
+///               area. 0: the texture is read at the sampled point
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
                          const glm::vec2& u, float share = 0.0f);
 
-/// Density per solid angle of sample_light, for a receiver at `position` and a point of the emitter at this distance
-/// whose normal has this cosine with the ray. Emitters of few triangles are sampled by solid angle if they are near,
-/// all others by area, of those sides that may face the receiver.
-float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance);
+/// A point of an emitter, as a ray from a receiver meets it.
+struct MetEmitter {
+    const Hit& hit;
+    float cosine = 0.0f;    ///< of its normal with the ray
+    float distance = 0.0f;  ///< m, from the receiver
+};
+
+/// Density per solid angle of sample_light. Emitters of few triangles are sampled by solid angle if they are near, all
+/// others by area, of those sides that may face the receiver; those with cells by these, and near ones half by solid
+/// angle.
+/// @param position  of the receiver
+float pdf_emitter(const Emitter& emitter, const glm::vec3& position, const MetEmitter& met);
 
 /// Solid angle of a triangle with corners at these offsets from the eye, sr (Van Oosterom and Strackee 1983). Accurate
 /// for small triangles; 0 if the triangle is seen edge-on or a corner lies at the eye.
@@ -141,7 +120,7 @@ struct SolidAngles {
 /// The sides of an emitter that may face a point.
 struct FacingSides {
     std::uint32_t which = 0;  ///< a bit for each of Emitter::sides
-    float share = 1.0f;       ///< of the emitter's area
+    float share = 1.0f;       ///< of the emitter's samples
 };
 
 struct SeenLight {

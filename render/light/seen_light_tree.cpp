@@ -51,10 +51,19 @@ Reach find_reach(const LightingContext& context, RayTask& task, const std::vecto
     return reach;
 }
 
+/// Into HiddenLights::which.
+std::size_t place_of(const ShadingScene& shading, const LightSet& lights, std::size_t light) {
+    const std::size_t emitters = lights.emitters.size(), instances = shading.instances.size();
+    if (light < emitters) return static_cast<std::size_t>(lights.emitters[light].instance);
+    if (light - emitters < lights.punctual.size())
+        return instances + static_cast<std::size_t>(lights.punctual[light - emitters].index);
+    return instances + shading.pose->lights.size();
+}
+
 }  // namespace
 
-LightTree make_seen_light_tree(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                               RayCounts& counts) {
+HiddenLights find_hidden_lights(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                                RayCounts& counts) {
     const int count = context.lights.count();
     const int wanted = std::min(many_places, most_test_rays / std::max(count, 1));
     if (count <= LightCut::few || wanted < few_places) return {};
@@ -65,12 +74,21 @@ LightTree make_seen_light_tree(const LightingContext& context, const CameraView&
     double seen = 0.0, hidden = 0.0;
     for (const Reach& reach : reaches) (reach.seen ? seen : hidden) += reach.without_shadows;
     if (!(seen > 0.0 && hidden_share * seen < hidden)) return {};  // also where one of them is not a number
-    std::vector<LightNode> nodes = make_light_nodes(context.shading, context.lights);
-    const float scale = std::max(static_cast<float>(hidden_share * seen / hidden), 1e-12f);
+    HiddenLights found;
+    found.scale = std::max(static_cast<float>(hidden_share * seen / hidden), 1e-12f);
+    found.which.resize(context.shading.instances.size() + context.shading.pose->lights.size() + 1);
+    for (std::size_t i = 0; i < reaches.size(); ++i)
+        found.which[place_of(context.shading, context.lights, i)] = !reaches[i].seen;
+    return found;
+}
+
+LightTree make_seen_light_tree(const ShadingScene& shading, const LightSet& lights, const HiddenLights& hidden) {
+    if (hidden.empty()) return {};
+    std::vector<LightNode> nodes = make_light_nodes(shading, lights);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (reaches[i].seen) continue;
-        nodes[i].strength *= scale;
-        nodes[i].most *= scale;
+        if (!hidden.which[place_of(shading, lights, i)]) continue;
+        nodes[i].strength *= hidden.scale;
+        nodes[i].most *= hidden.scale;
     }
     return make_light_tree(nodes);
 }

@@ -52,17 +52,17 @@ int count_light_samples(const PathState& state) {
 }
 
 /// Emission of a surface that a ray met.
-Rgb met_emission(const LightingContext& context, const PathState& state, const ViewedSurface& surface, int instance) {
+Rgb met_emission(const LightingContext& context, const PathState& state, const ViewedSurface& surface, const Hit& hit) {
     const Rgb& emission = surface.material.emission;
     if (emission == Rgb(0.0f) || state.emission == EmissionWeight::none) return Rgb(0.0f);
-    const int emitter = context.lights.emitter_of_instance[instance];
+    const int emitter = context.lights.emitter_of_instance[hit.instance];
     if (emitter == left_out_emitter) return emission;
     if (emitter == no_index) return state.emission == EmissionWeight::full ? emission : Rgb(0.0f);  // unlit
     float light_pdf = 0.0f;
     if (state.emission == EmissionWeight::weighted) {
         light_pdf = pdf_emitter(context.lights.emitters[emitter], state.from.position,
-                                std::abs(glm::dot(surface.point.geometric, surface.view)),
-                                glm::distance(surface.point.position, state.from.position));
+                                {hit, std::abs(glm::dot(surface.point.geometric, surface.view)),
+                                 glm::distance(surface.point.position, state.from.position)});
     }
     return emission * weigh(state, light_pdf);
 }
@@ -134,7 +134,7 @@ class Path {
         next = view_surface(context_.shading, make_surface_point(context_.shading, hit, ray.direction), -ray.direction,
                             {});
         state_.throughput *= transmit(state_.media.attenuation(next.point, next.material), hit.distance);
-        light_ += state_.throughput * met_emission(context_, state_, next, hit.instance);
+        light_ += state_.throughput * met_emission(context_, state_, next, hit);
         return true;
     }
 

@@ -166,6 +166,11 @@ bool leaks(const SurfaceMaterial& material, float width, float cosine) {
     return std::asin(ratio) - std::acos(std::min(cosine, 1.0f)) < 2.0f * width;
 }
 
+Rgb emission_of(const ShadingMaterial& material, const Lookup& look_up) {
+    if (!material.emits || !(look_up.point.front || material.double_sided)) return Rgb(0.0f);
+    return material.values.emission * Rgb(look_up(TextureSlot::emission));
+}
+
 }  // namespace
 
 void blur_caustics(const ShadingScene& shading, ViewedSurface& surface) {
@@ -242,10 +247,17 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
         add_refraction(values, values.glass.thickness * look_up(TextureSlot::thickness).y, point.front, surface);
     }
     if (entry.layered) add_layers(values.layers, look_up, surface);
-    if (entry.emits && (point.front || entry.double_sided))
-        surface.emission = values.emission * Rgb(look_up(TextureSlot::emission));
+    surface.emission = emission_of(entry, look_up);
     if (!shading.skipped.empty()) remove_lobes(shading.skipped, surface);
     return surface;
+}
+
+Rgb emission_texel(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint) {
+    return Rgb(Lookup(shading, point, footprint)(TextureSlot::emission));
+}
+
+Rgb surface_emission(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint) {
+    return emission_of(shading.materials[point.material], Lookup(shading, point, footprint));
 }
 
 float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint) {

@@ -97,6 +97,11 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
 /// beyond the critical angle. Without caustics there are no lobes.
 void blur_caustics(const ShadingScene& shading, ViewedSurface& surface);
 
+/// SurfaceMaterial::emission of a material that is not unlit.
+Rgb surface_emission(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint);
+/// The texture that emission is multiplied by; white without one.
+Rgb emission_texel(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint);
+
 /// Share of the rays that the surface stops: less than 1 where a mask or blending lets some pass (Blend::random).
 float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint);
 

@@ -33,6 +33,45 @@ float hidden_share(float radius, float distance) {
     return radius < distance ? radius * radius / (distance * distance) : 1.0f;
 }
 
+float find_turn(const glm::mat3& from, const glm::mat3& to) {
+    float turn = 0.0f;
+    for (int i = 0; i < 3; ++i) turn = std::max(turn, glm::length(to[i] - from[i]) / glm::length(from[i]));
+    return turn;
+}
+
+const glm::vec3 far_away(infinite);
+
+/// Adds the lights without surfaces that move.
+void add_lights(const ShadingScene& frame, const ShadingScene& sample, std::vector<ShutterMover>& movers) {
+    for (std::size_t i = 0; i < frame.pose->lights.size(); ++i) {
+        const LightValues &before = frame.pose->lights[i], &after = sample.pose->lights[i];
+        ShutterMover mover{.centers = {far_away, far_away}, .shines = true};
+        if (before.kind != Light::Kind::directional) {
+            mover.centers[0] = before.position - frame.anchor;
+            mover.centers[1] = after.position - frame.anchor;
+            mover.moved = static_cast<float>(glm::distance(after.position, before.position));
+        }
+        if (before.kind != Light::Kind::point)
+            mover.turned = static_cast<float>(glm::distance(after.direction, before.direction));
+        const bool is_dark = before.intensity == Rgb(0.0f) && after.intensity == Rgb(0.0f);
+        if (!is_dark && mover.moved + mover.turned > 0.0f) movers.push_back(mover);
+    }
+    if (frame.environment.map == nullptr || frame.environment.rotation == sample.environment.rotation) return;
+    movers.push_back({.centers = {far_away, far_away},
+                      .shines = true,
+                      .turned = find_turn(frame.environment.rotation, sample.environment.rotation)});
+}
+
+/// m, of the point from the mover.
+float find_distance(const ShutterMover& mover, const glm::vec3& position, const glm::vec3& moved) {
+    return std::min(glm::length(position - mover.centers[0]), glm::length(position + moved - mover.centers[1]));
+}
+
+/// In distances, three times how far the mover and the point move.
+float find_steps(const ShutterMover& mover, float distance, const glm::vec3& moved) {
+    return distance > 0.0f ? 3.0f * (mover.moved + glm::length(moved)) / distance : infinite;
+}
+
 }  // namespace
 
 std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingScene& sample) {
@@ -45,26 +84,35 @@ std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingSc
         const BoundingSphere first = find_sphere(before.visible ? before : after),
                              last = find_sphere(after.visible ? after : before);
         ShutterMover mover{i, {first.center, last.center}, std::max(first.radius, last.radius), infinite};
+        mover.shines = frame.materials[before.material].emits || sample.materials[after.material].emits;
+        mover.turned = find_turn(before.linear, after.linear);
         if (after.visible) mover.centers[1] += shift;
         if (!before.visible) mover.centers[0] += shift;
         if (both) mover.moved = find_longest_way(before, after, shift);
         movers.push_back(mover);
     }
+    add_lights(frame, sample, movers);
     return movers;
 }
 
 float find_hidden_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved,
                          int instance, float enough) {
-    const float way = glm::length(moved);
     float change = 0.0f;
     for (const ShutterMover& mover : movers) {
-        if (mover.instance == instance) continue;
-        const float distance =
-            std::min(glm::length(position - mover.centers[0]), glm::length(position + moved - mover.centers[1]));
-        const float hidden = hidden_share(mover.radius, distance);
-        const float steps = distance > 0.0f ? 3.0f * (mover.moved + way) / distance : infinite;
-        change += hidden * std::min(1.0f, steps);
+        if (mover.instance == instance || !(mover.radius > 0.0f)) continue;
+        const float distance = find_distance(mover, position, moved);
+        change += hidden_share(mover.radius, distance) * std::min(1.0f, find_steps(mover, distance, moved));
         if (change > enough) break;
+    }
+    return change;
+}
+
+float find_light_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved) {
+    float change = 0.0f;
+    for (const ShutterMover& mover : movers) {
+        if (!mover.shines) continue;
+        const float steps = find_steps(mover, find_distance(mover, position, moved), moved);
+        change = std::max(change, std::min(1.0f, steps + 3.0f * mover.turned));
     }
     return change;
 }
@@ -87,7 +135,7 @@ std::optional<Rgb> ShutterLight::find(const PixelSurface& surface, float accurac
     if (!(turn <= accuracy)) return std::nullopt;
     const glm::vec3 moved = surface.point.position + shift_ - point->position;
     const float hidden = find_hidden_change(movers_, point->position, moved, surface.hit.instance, accuracy);
-    if (hidden > accuracy) return std::nullopt;
+    if (hidden + find_light_change(movers_, point->position, moved) > accuracy) return std::nullopt;
     PixelSurface still = surface;
     still.point = *point;
     RecordUse of_these;

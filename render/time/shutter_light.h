@@ -8,6 +8,8 @@
 //   more than a record's may (irradiance_record.h).
 // - What moves. A sphere of radius r at distance d hides at most F = min(1, r^2 / d^2) of the light that arrives. If it
 //   moves by s, F changes by no more than min(F, 3 F s / d). The sum over all things that move is at most alpha.
+// - Lights that move. What one brings from a distance d changes by about min(1, 3 (s / d + a)) of it, a the angle by
+//   which it turns. All of the light may be that of the one that changes most.
 // Elsewhere light is found at the sample's own time, by a path.
 
 #include <optional>
@@ -17,16 +19,18 @@
 
 namespace aleph {
 
-/// A thing that moves between the shutter's centre and a sample's time: two spheres around it, in the frame's
-/// coordinates.
+/// A thing or a light that moves between the shutter's centre and a sample's time: two spheres around it, in the
+/// frame's coordinates.
 struct ShutterMover {
     int instance = no_index;
-    glm::vec3 centers[2]{};  ///< m, at the frame's time and at the sample's
+    glm::vec3 centers[2]{};  ///< m, at the frame's time and at the sample's; infinite for light from afar
     float radius = 0.0f;     ///< m, the larger one
     float moved = 0.0f;      ///< m, of its point that moves farthest; infinite if it is seen at one of the times only
+    bool shines = false;
+    float turned = 0.0f;  ///< radians, about; of what shines
 };
 
-/// Instances whose points differ between two poses of a scene.
+/// Instances and lights that differ in place or direction between two poses of a scene.
 std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingScene& sample);
 
 /// An upper bound of the share of a point's light that things hide at one of the two times and not at the other.
@@ -35,6 +39,9 @@ std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingSc
 /// @param instance  that the point is on: it moves along. The sum stops above `enough`
 float find_hidden_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved,
                          int instance, float enough);
+
+/// About the share of a point's light that changes because lights move; the other parameters as above.
+float find_light_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved);
 
 /// Known indirect light of a frame, for surfaces seen at the time of one of its samples.
 class ShutterLight {

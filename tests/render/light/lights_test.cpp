@@ -58,7 +58,7 @@ TEST(Lights, AreaAndNormalsFollowTheInstance) {
         const glm::vec3 middle = t.corner + (t.edge1 + t.edge2) / 3.0f - glm::vec3(-stage.shading.anchor);
         EXPECT_GT(glm::dot(t.normal, middle), 1.5f);  // outwards, although mirrored
     }
-    EXPECT_EQ(emitter.cumulative_area.back(), 1.0f);
+    EXPECT_EQ(emitter.cumulative.back(), 1.0f);
 }
 
 /// Up to a few rounding errors before the lamp: a shade 1 mm below a lamp that is 100 m away hides it.
@@ -258,8 +258,8 @@ TEST(Lights, UnlitSurfacesAreSeenAsTheyAreAndLightNothing) {
 TEST(Lights, WhatCannotBeSeenBringsNothing) {
     const Stage stage(make_lamp_scene(2.0, 1.5));
     EXPECT_EQ(sample_light(stage.shading, stage.lights, 0, {{0.0f, 3.0f, 0.0f}, up}, {0.3f, 0.4f}).incoming, Rgb(0.0f));
-    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, 0.0f, 1.0f), 0.0f);
-    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, -1.0f, 1.0f), 0.0f);
+    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, {{}, 0.0f, 1.0f}), 0.0f);
+    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, {{}, -1.0f, 1.0f}), 0.0f);
     Scene scene;
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.0, 0.0, 0.0});
     const Stage at_light(std::move(scene));

@@ -98,6 +98,30 @@ TEST(ShutterLight, NothingIsKnownBesideThingsThatMoveOrAppear) {
     EXPECT_FALSE(find_middle(plate.scene, 0.15f).has_value());
 }
 
+TEST(ShutterLight, NothingIsKnownWhereLightsMoveFar) {
+    const auto is_known = [](Light::Kind kind, const glm::dvec3& to, double radians) {
+        Plate plate;
+        add_light(plate.scene, kind, glm::dvec3(5.0), {0.0, 4.0, 0.0}, z_to_up);
+        plate.scene.nodes.back().transform.translation = move_between({0.0, 4.0, 0.0}, to);
+        const glm::dquat turn = glm::angleAxis(radians, glm::dvec3(0.0, 0.0, 1.0));
+        plate.scene.nodes.back().transform.rotation.values = {z_to_up, turn * z_to_up};
+        return find_middle(plate.scene, 0.15f).has_value();
+    };
+    const glm::dvec3 here(0.0, 4.0, 0.0);
+    EXPECT_TRUE(is_known(Light::Kind::point, {0.1, 4.0, 0.0}, 1.0)) << "it has no direction";
+    EXPECT_FALSE(is_known(Light::Kind::point, {0.5, 4.0, 0.0}, 0.0));
+    EXPECT_TRUE(is_known(Light::Kind::spot, here, 0.02));
+    EXPECT_FALSE(is_known(Light::Kind::spot, here, 0.2));
+    EXPECT_TRUE(is_known(Light::Kind::directional, {50.0, 4.0, 0.0}, 0.02)) << "it has no place";
+    EXPECT_FALSE(is_known(Light::Kind::directional, here, 0.2));
+
+    Plate plate;
+    plate.scene.nodes[2].transform.translation = move_between({2.0, 0.1, 0.0}, {3.0, 0.1, 0.0});
+    EXPECT_TRUE(find_middle(plate.scene, 0.15f).has_value());
+    plate.scene.meshes[2].material = add_lambert(plate.scene, glm::dvec3(0.0), glm::dvec3(5.0));
+    EXPECT_FALSE(find_middle(plate.scene, 0.15f).has_value()) << "a lamp, not a box";
+}
+
 TEST(ShutterLight, TheBoundHoldsForSpheres) {
     // A sphere that lies wholly above the horizon hides cos / d^2 of the irradiance, by r^2 (closed form).
     std::mt19937 random(5);

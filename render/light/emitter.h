@@ -1,0 +1,100 @@
+#pragma once
+// Emissive instances as lights, and the places on them that are sampled.
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <vector>
+
+#include "engine/rays/ray_scene.h"
+#include "render/surface/shading_scene.h"
+
+namespace aleph {
+
+struct RayFootprint;
+
+/// The triangles of a mesh, each divided into n x n cells of the same shape, about a texel large. What they emit does
+/// not depend on the pose, so it is kept.
+struct CellTexels {
+    struct Part {
+        int divisions = 1;  ///< n
+        std::size_t first = 0;
+        std::size_t size() const { return static_cast<std::size_t>(divisions) * static_cast<std::size_t>(divisions); }
+    };
+    const Mesh* mesh = nullptr;
+    int material = no_index;
+    float alpha = 1.0f;
+    std::size_t most = 0;     ///< of cells, about; at least one for each triangle
+    std::vector<Part> parts;  ///< per primitive
+    std::vector<Rgb> texels;  ///< per cell: the mean of its texture, times what alpha leaves of it
+};
+using KeptTexels = std::vector<std::shared_ptr<const CellTexels>>;
+
+/// Cells of a lamp whose emission is uneven, sampled in proportion to their emission.
+struct EmissionCells {
+    std::shared_ptr<const CellTexels> texels;  ///< null: places are sampled by area
+    std::vector<float> ends;                   ///< per cell: the share of its triangle's samples up to and including it
+    std::vector<float> spreads;                ///< per cell, m2: its area over its share of all samples
+
+    bool empty() const { return texels == nullptr; }
+};
+
+/// One emissive instance: all its triangles together are one light.
+struct Emitter {
+    struct Triangle {
+        glm::vec3 corner, edge1, edge2;  ///< m, relative to the anchor
+        glm::vec3 normal;                ///< unit, on the side that emits
+        int primitive;
+    };
+    /// Triangles that face about the same way.
+    struct Side {
+        glm::vec4 low, high;             ///< of normals, and of the planes' distances along them from `center`, m
+        float begin = 0.0f, end = 0.0f;  ///< of `cumulative`
+    };
+    int instance = no_index;
+    bool double_sided = false;
+    bool textured = false;
+    bool has_alpha = false;          ///< some rays may pass it: a mask, or blended
+    Rgb radiance{0.0f};              ///< without texture
+    Rgb brightest{0.0f};             ///< no less than the radiance anywhere: where its texture is brightest, or white
+    float mean_of_brightest = 1.0f;  ///< the mean of the radiance over the area, as a share of `brightest`; above 0
+    float area = 0.0f;               ///< m2, of all triangles
+    glm::vec3 center{0.0f};          ///< m, of a sphere around all triangles
+    float radius = 0.0f;             ///< m, of that sphere
+    std::vector<Triangle> triangles;
+    std::vector<float>
+        cumulative;           ///< share of the samples up to and including each triangle: of the area, or by cells
+    std::vector<Side> sides;  ///< in the order of the triangles; empty: all may face any point
+    EmissionCells cells;
+};
+
+/// A triangle of an instance on the side of its winding. The normal is not finite if the triangle has no area.
+Emitter::Triangle place_triangle(const PosedInstance& instance, int primitive);
+/// Sets centre and radius of the sphere around all triangles.
+void set_sphere(Emitter& emitter);
+
+/// Looks at the emission of a lamp with a texture or alpha. Sets its mean and, where it is uneven, the cells and the
+/// shares of the triangles.
+/// @param most_cells  CellTexels::most
+/// @param kept        of this scene at any time; new ones are added
+void divide_by_emission(const ShadingScene& shading, std::size_t most_cells, KeptTexels& kept, Emitter& emitter);
+
+/// Radiance that rays find at a point of a lamp, in the mean over those that pass it.
+Rgb emitted_radiance(const ShadingScene& shading, const Emitter& emitter, const SurfacePoint& point,
+                     const RayFootprint& footprint);
+
+/// A place on one of the triangles.
+struct EmitterPlace {
+    std::size_t triangle = 0;  ///< into Emitter::triangles
+    glm::vec2 b{0.0f};         ///< barycentric
+    float spread = 0.0f;       ///< m2: 1 / density per area of places sampled on the whole emitter
+};
+
+/// A place of a triangle that was chosen by Emitter::cumulative: uniform in its area, or by cells. u in [0,1)^2.
+EmitterPlace sample_place(const Emitter& emitter, std::size_t triangle, glm::vec2 u);
+
+/// EmitterPlace::spread of a place of a triangle, b barycentric.
+float spread_of(const Emitter& emitter, int primitive, const glm::vec2& b);
+
+}  // namespace aleph
