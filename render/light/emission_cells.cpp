@@ -182,8 +182,9 @@ void divide_by_emission(const ShadingScene& shading, std::size_t most_cells, Kep
     }
     const double brightest = luminance(emitter.brightest);
     if (!std::isfinite(all.squares) || !(brightest > 0.0)) return;
-    emitter.mean_of_brightest = static_cast<float>(std::clamp(all.power / (emitter.area * brightest), least_mean, 1.0));
+    // Where places are sampled by area, what shines more than the mean makes noise: such a light counts as all bright.
     if (!(all.power * all.power < even_enough * emitter.area * all.squares)) return;
+    emitter.mean_of_brightest = static_cast<float>(std::clamp(all.power / (emitter.area * brightest), least_mean, 1.0));
     found.ends.resize(texels.size());
     found.spreads.resize(texels.size());
     double end = 0.0;

@@ -58,7 +58,7 @@ struct Emitter {
     bool has_alpha = false;          ///< some rays may pass it: a mask, or blended
     Rgb radiance{0.0f};              ///< without texture
     Rgb brightest{0.0f};             ///< no less than the radiance anywhere: where its texture is brightest, or white
-    float mean_of_brightest = 1.0f;  ///< the mean of the radiance over the area, as a share of `brightest`; above 0
+    float mean_of_brightest = 1.0f;  ///< with cells, the mean radiance as a share of `brightest`; above 0
     float area = 0.0f;               ///< m2, of all triangles
     glm::vec3 center{0.0f};          ///< m, of a sphere around all triangles
     float radius = 0.0f;             ///< m, of that sphere
@@ -74,8 +74,8 @@ Emitter::Triangle place_triangle(const PosedInstance& instance, int primitive);
 /// Sets centre and radius of the sphere around all triangles.
 void set_sphere(Emitter& emitter);
 
-/// Looks at the emission of a lamp with a texture or alpha. Sets its mean and, where it is uneven, the cells and the
-/// shares of the triangles.
+/// Looks at the emission of a lamp with a texture or alpha. Where it is uneven, sets its mean, the cells and the shares
+/// of the triangles.
 /// @param most_cells  CellTexels::most
 /// @param kept        of this scene at any time; new ones are added
 void divide_by_emission(const ShadingScene& shading, std::size_t most_cells, KeptTexels& kept, Emitter& emitter);

@@ -2,26 +2,13 @@
 
 #include "render/frame/frame_window.h"
 #include "render/frame/sequence.h"
-#include "tests/support/scenes/render_scenes.h"
+#include "tests/support/scenes/moving_box.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
 constexpr PictureArea window{9, 7, 14, 11};
-
-/// A lamp over a floor, a box that moves, and a ball that reflects.
-Scene make_window_scene() {
-    Scene scene;
-    const int grey = add_lambert(scene, glm::dvec3(0.5));
-    add_mesh(scene, make_quad(8.0, 8.0, grey), glm::dvec3(0.0), z_to_up);
-    add_mesh(scene, make_box(glm::dvec3(0.6), grey));
-    scene.nodes[1].transform.translation.values = {{-1.0, 0.5, 0.0}, {1.0, 0.5, 0.0}};
-    add_lamp(scene, 1.0, glm::dvec3(10.0), {0.0, 3.0, 0.0});
-    scene.cameras.emplace_back();
-    scene.nodes.push_back({.transform = {.translation = glm::dvec3(0.0, 1.0, 5.0)}, .camera = 0});
-    return scene;
-}
 
 RenderSettings window_settings() {
     RenderSettings settings = quick_settings(40, 30);
@@ -36,7 +23,7 @@ FrameOutput render_window(Sequence& sequence, std::optional<PictureArea> area, s
 }
 
 FrameOutput render_window(const RenderSettings& settings, std::optional<PictureArea> area) {
-    Sequence sequence(make_window_scene(), settings);
+    Sequence sequence(make_moving_scene(), settings);
     return render_window(sequence, area);
 }
 
@@ -100,7 +87,7 @@ TEST(FrameWindow, TakesSamplesAndRecordsForItsOwnPixelsAlone) {
 }
 
 TEST(FrameWindow, IsRefusedWhereItIsNotWithinThePicture) {
-    Sequence sequence(make_window_scene(), window_settings());
+    Sequence sequence(make_moving_scene(), window_settings());
     for (const PictureArea& bad :
          {PictureArea{0, 0, 0, 5}, PictureArea{0, 0, 5, -1}, PictureArea{-1, 0, 5, 5}, PictureArea{36, 0, 5, 5},
           PictureArea{0, 26, 5, 5}, PictureArea{2000000000, 0, 2000000000, 5}})
@@ -109,7 +96,7 @@ TEST(FrameWindow, IsRefusedWhereItIsNotWithinThePicture) {
 }
 
 TEST(FrameWindow, OfAStaticSpanIsNoCopyOfAnother) {
-    Scene scene = make_window_scene();
+    Scene scene = make_moving_scene();
     scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.5, 0.0);
     Sequence sequence(scene, window_settings());
     const FrameOutput first = render_window(sequence, window, 3);

@@ -102,18 +102,18 @@ TEST(EmissionCells, RaysFindTheDensityOfSamples) {
     }
 }
 
-TEST(EmissionCells, StrengthIsTheMean) {
+TEST(EmissionCells, StrengthIsTheMeanOfCells) {
     for (const bool nearest : {false, true}) {
         const Stage stage(make_spotted_lamp(nearest));
         const double expected = spot_radiance * 4.0 * static_cast<double>(spots.size()) / (texels * texels);
         EXPECT_NEAR(stage.lights.bounds.strength[0], expected, 0.03 * expected);
     }
-    // A texture that shines evenly needs no cells.
+    // A texture that shines evenly needs no cells, and counts as all bright.
     Scene even = make_spotted_lamp(true);
     for (glm::vec4& texel : even.images[0].floats.pixels) texel = glm::vec4(0.5f);
     const Stage stage(std::move(even));
     EXPECT_TRUE(stage.lights.emitters[0].cells.empty());
-    EXPECT_NEAR(stage.lights.bounds.strength[0], 0.5f * spot_radiance * 4.0f, 1e-3f);
+    EXPECT_NEAR(stage.lights.bounds.strength[0], spot_radiance * 4.0f, 1e-3f);
 }
 
 TEST(EmissionCells, PartsThatAMaskLeavesOutAreNotSampled) {
