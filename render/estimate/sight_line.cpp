@@ -97,6 +97,8 @@ void SightLine::turn_at_glass(const LitSurface& lit) {
 
 std::vector<Image<Hit>> find_layers(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                                     RayCounts& counts) {
+    const auto is_glass = [](const ShadingMaterial& m) { return m.values.glass.transmission > 0.0f; };
+    if (!Tracer(context.rays).has_blended() && std::ranges::none_of(context.shading.materials, is_glass)) return {};
     std::vector<Image<Hit>> layers(most_layers, centers.hits);
     std::atomic<int> count = 0;
     const auto find_row = [&](int y, RayTask& task) {
