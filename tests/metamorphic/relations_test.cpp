@@ -41,14 +41,16 @@ const std::vector<Authored>& authored_scenes() {
     return scenes;
 }
 
-FrameOutput render(const Scene& scene, std::int64_t frame, std::uint32_t seed = 0, int spp = 1) {
+RenderSettings relation_settings() {
     RenderSettings settings = quick_settings(24, 18);
-    settings.seed = seed;
-    settings.sampling.spp = spp;
     settings.cache.gather = 32;
     settings.cache.accuracy = 0.3;
     settings.perception.guide = Guide::none;
-    return Sequence(scene, settings).render(frame, {.maps = true, .progress = {}});
+    return settings;
+}
+
+FrameOutput render(const Scene& scene, std::int64_t frame) {
+    return Sequence(scene, relation_settings()).render(frame, {.maps = true, .progress = {}});
 }
 
 const FrameOutput& original(std::size_t i) {
@@ -104,8 +106,12 @@ struct Relation {
 
 Mean mean_light(const Scene& scene, std::int64_t frame, const Trial& trial, std::uint32_t seed) {
     Mean mean;
-    for (std::uint32_t run = 0; run < trial.times(8u); ++run)
-        mean.add(total(render(scene, frame, trial.seed + seed + run, 2)));
+    RenderSettings settings = relation_settings();
+    settings.sampling.spp = 2;
+    for (std::uint32_t run = 0; run < trial.times(8u); ++run) {
+        settings.seed = trial.seed + seed + run;
+        mean.add(total(Sequence(scene, settings).render(frame)));
+    }
     return mean;
 }
 

@@ -24,7 +24,7 @@ inline const Scene& pool_scene() {
 
 /// Two samples per pixel, so that a later pass of filling happens as well.
 inline RenderSettings small_settings() {
-    RenderSettings settings = quick_settings(160, 120);
+    RenderSettings settings = quick_settings(80, 60);
     settings.sampling.spp = 2;
     settings.light.light_samples = 2;
     settings.cache.gather = 32;

@@ -218,7 +218,7 @@ TEST_F(PartTiming, LightIsTimedOnceForEachMoment) {
 
 class Budgets : public RenderCommand {
   protected:
-    int run(const std::vector<std::string>& more) { return RenderCommand::run({"--size", "8x6", "-t", "1"}, more); }
+    int run(const std::vector<std::string>& more) { return RenderCommand::run({"--size", "4x3", "-t", "1"}, more); }
 };
 
 TEST_F(Budgets, WrongOnesAreRefused) {

@@ -76,7 +76,7 @@ TEST_F(KilledRender, ASignalBeforeTheFirstFrameIsResumedToo) {
 
 TEST_F(KilledRender, ATimeLimitStopsItAndTheFrameGoesOn) {
     const Words frame{"render", folder_ / "scene.json", "--frames", "1",     "--size", "32x24", "-q", "--integrator",
-                      "path",   "--light-samples",      "1",        "--spp", "6000"};
+                      "path",   "--light-samples",      "1",        "--spp", "3000"};
     ASSERT_EQ(run(joined(frame, {"-o", folder_ / "whole/f.exr"})).code, 0);
     const Words limited = joined(frame, {"-o", folder_ / "out/f.exr", "--resume", "--time-limit"});
     bool was_kept = false;
@@ -110,7 +110,7 @@ TEST_F(KilledRender, KilledAnywhereAResumedRenderCompletesIt) {
     const Words stats{"--stats", folder_ / "out.json", "--resume"};
     ASSERT_EQ(run(words("1-12", folder_ / "whole/f.####.exr")).code, 0);
     // Every frame is created under a temporary name and renamed; the lock file and trials of names come first.
-    for (int event = 1; event <= 60; event += 4) {
+    for (int event = 1; event <= 60; event += 7) {
         SCOPED_TRACE(event);
         for (const std::string& name : names_in(folder_ / "out")) fs::remove(folder_ / "out" / name);
         Inodes before;
@@ -242,7 +242,7 @@ TEST_F(KilledRender, AStudyThatIsStoppedGoesOn) {
 TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
     // Later options count. The frame takes seconds, in which it is asked how far it is, stopped, killed and finished.
     const auto long_frame = [&](const fs::path& output, const Words& more) {
-        return joined(words("7", output, {"--size", "120x90", "--spp", "150", "--accuracy", "0"}), more);
+        return joined(words("7", output, {"--size", "120x90", "--spp", "80", "--accuracy", "0"}), more);
     };
     const fs::path file = folder_ / "out/f.exr", state = folder_ / "out/.f.exr.checkpoint";
     ASSERT_EQ(run(long_frame(folder_ / "whole/f.exr", {})).code, 0);

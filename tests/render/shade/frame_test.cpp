@@ -5,7 +5,6 @@
 #include "render/cache/aimed_rays.h"
 #include "render/frame/sequence.h"
 #include "tests/support/indirect_pictures.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -140,26 +139,6 @@ TEST(Frame, KF17_MirroredSceneIsTheMirroredPicture) {
     EXPECT_LE(differing, width * height / 100);  // rays along edges and shadow borders
 }
 
-TEST(Frame, KF17_MirroredWithLampAndBounce) {
-    const Stage plain(make_everything(false), 32, 24), mirrored(make_everything(true), 32, 24);
-    EXPECT_TRUE(holds([&](Trial& trial) {
-        Mean one, other;
-        for (std::uint32_t run = 0; run < trial.times(8u); ++run) {
-            RenderSettings settings = plain_settings(0.2, 128);
-            settings.seed = run + trial.seed;
-            const Image<Rgb> a = shade(plain, settings).color, b = shade(mirrored, settings).color;
-            double sum_a = 0.0, sum_b = 0.0;  // of the left half and of its mirror image
-            for (const auto [x, y] : all_pixels(16, 24)) {
-                sum_a += a(x, y).x;
-                sum_b += b(31 - x, y).x;
-            }
-            one.add(sum_a);
-            other.add(sum_b);
-        }
-        trial.near(one, other, 0.002 * one.mean());
-    }));
-}
-
 TEST(Frame, KF18_FlattenedObjectsLeaveAPictureWithoutHoles) {
     const auto render = [](const glm::dvec3& scale, bool keep) {
         Scene scene = make_everything();
@@ -172,29 +151,6 @@ TEST(Frame, KF18_FlattenedObjectsLeaveAPictureWithoutHoles) {
     };
     const Image<Rgb> without = render(glm::dvec3(1.0), false);
     for (const glm::dvec3 scale : {glm::dvec3(1.0, 0.0, 1.0), glm::dvec3(0.0)}) EXPECT_EQ(render(scale, true), without);
-}
-
-TEST(Frame, KF20_ScaleThroughZero) {
-    Scene scene = make_everything();
-    scene.nodes[3].transform.scale =
-        keyed<glm::dvec3>({0.0, 2.0 / 30.0}, {glm::dvec3(1.0), glm::dvec3(1.0, -1.0, 1.0)});
-    RenderSettings settings = plain_settings(0.3, 16);
-    settings.picture = {.width = 40, .height = 30, .filter = PixelFilter::box};
-    settings.perception.guide = Guide::saliency;
-    Sequence sequence(scene, settings);
-    for (const int frame : {0, 1, 2}) {
-        const FrameOutput out = sequence.render(frame, {.maps = true, .progress = {}});
-        EXPECT_EQ(out.statistics.counts.invalid_samples, 0u);
-        bool box_seen = false;
-        for (std::size_t i = 0; i < out.hits.size(); ++i) {
-            box_seen = box_seen || out.hits.pixels[i].instance == 2;
-            ASSERT_TRUE(std::isfinite(out.velocity.pixels[i]) && std::isfinite(out.limits.alpha.pixels[i]));
-            ASSERT_GE(out.limits.alpha.pixels[i], 0.3f * 0.9999f);
-            ASSERT_TRUE(std::isfinite(out.shaded.color.pixels[i].x));
-        }
-        // Upright, without volume, upside down.
-        EXPECT_EQ(box_seen, frame != 1) << frame;
-    }
 }
 
 }  // namespace

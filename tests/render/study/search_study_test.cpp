@@ -34,7 +34,7 @@ std::size_t frames_in(const VariantResult& variant, const std::string& scene) {
     return static_cast<std::size_t>(std::ranges::count(variant.frames, scene, &FrameResult::scene));
 }
 
-TEST(SearchStudy, StoppedAnywhereGoesOnToTheSameEnd) {
+TEST(SearchStudy, StoppedAnywhereGoesOnAndLeavesTheBestOfEachSceneBesideTheStudysVariants) {
     const ScratchFolder folder;
     const PreparedStudy prepared = prepare_study(small_search());
     ASSERT_EQ(prepared.candidates.size(), 6u);
@@ -56,20 +56,13 @@ TEST(SearchStudy, StoppedAnywhereGoesOnToTheSameEnd) {
         }
     }
     EXPECT_GE(stops, 2);
-    const StudyResults first = search_study(prepared, folder.path());
-    EXPECT_EQ(first.made + first.found, 2u * (6 + 3 + 2 + 1));
+    const StudyResults results = search_study(prepared, folder.path());
+    EXPECT_EQ(results.made + results.found, 2u * (6 + 3 + 2 + 1));
     const StudyResults again = search_study(prepared, folder.path());
     EXPECT_EQ(again.made, 0u);
-    EXPECT_EQ(again.found, first.made + first.found);
-    EXPECT_EQ(text_of(prepared, again, folder.path()), text_of(prepared, first, folder.path()))
+    EXPECT_EQ(again.found, results.made + results.found);
+    EXPECT_EQ(text_of(prepared, again, folder.path()), text_of(prepared, results, folder.path()))
         << "seconds are those of the finished runs";
-}
-
-TEST(SearchStudy, LeavesTheBestOfEachSceneBesideTheStudysVariants) {
-    const ScratchFolder folder;
-    const PreparedStudy prepared = prepare_study(small_search());
-    const StudyResults results = search_study(prepared, folder.path());
-    EXPECT_EQ(results.made, 2u * (6 + 3 + 2 + 1));
     ASSERT_GE(results.variants.size(), 3u);
     EXPECT_EQ(results.variants[0].name, "asked");
     EXPECT_EQ(frames_in(results.variants[0], "cornell"), 2u);
