@@ -1,10 +1,8 @@
 #include "render/cache/gather.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "render/cache/aimed_rays.h"
 #include "render/settings/numbers.h"
+#include "render/surface/lambert_hit.h"
 
 namespace aleph {
 

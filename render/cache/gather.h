@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
@@ -15,7 +16,6 @@
 #include "render/cache/hemisphere_strata.h"
 #include "render/light/light_choice.h"
 #include "render/path/path.h"
-#include "render/surface/lambert_hit.h"
 
 namespace aleph {
 
@@ -64,8 +64,8 @@ struct FreeSpace {
 
 /// Change of an irradiance, per colour channel.
 struct IrradianceGradients {
-    std::array<glm::vec3, 3> rotation{};     ///< dE = dot(cross(N_i, N), gradient)
-    std::array<glm::vec3, 3> translation{};  ///< per m, in the tangent plane
+    glm::mat3 rotation{0.0f};     ///< dE = dot(cross(N_i, N), gradient)
+    glm::mat3 translation{0.0f};  ///< per m, in the tangent plane
 };
 
 /// Indirect irradiance at a point with its gradients (Ward and Heckbert 1992, "Irradiance Gradients").
@@ -144,14 +144,13 @@ struct GatherScratch {
     std::vector<Ray> rays;
     std::vector<Hit> hits;
     std::vector<RayPlace> places;
-    std::vector<Rgb> light;  ///< radiance that the ray finds
-    // One for every cell.
-    std::vector<std::uint8_t> below;    ///< no ray is cast: all directions are below the true surface
-    std::vector<FurtherLight> further;  ///< not in `light`; of MultiBounceLight::noted
+    std::vector<Rgb> light;             ///< radiance that the ray finds
     std::vector<glm::vec3> normals;     ///< of the hits (Tracer::intersect)
+    std::vector<FurtherLight> further;  ///< not in `light`, nor one for every ray; of MultiBounceLight::noted
     // One for every cell.
-    std::vector<Rgb> radiance;     ///< black below the true surface
-    std::vector<float> distances;  ///< m; infinite where nothing is met
+    std::vector<std::uint8_t> below;  ///< no ray is cast: all directions are below the true surface
+    std::vector<Rgb> radiance;        ///< black below the true surface
+    std::vector<float> distances;     ///< m; infinite where nothing is met
     // One for every shadow ray.
     std::vector<Ray> shadow_rays;
     std::vector<ShadowSample> shadow_samples;

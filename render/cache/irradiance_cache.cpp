@@ -168,27 +168,22 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
         }
         const float weight = 1.0f - error / accuracy;
         smooth.irradiance += value * weight;
-        for (int c = 0; c < 3; ++c) {
-            smooth.gradients.translation[c] += other.gradients.translation[c] * weight;
-            smooth.gradients.rotation[c] += other.gradients.rotation[c] * weight;
-        }
+        smooth.gradients.translation += other.gradients.translation * weight;
+        smooth.gradients.rotation += other.gradients.rotation * weight;
         total += weight;
         return true;
     });
     if (!(total > 0.0f)) return record;
     smooth.irradiance /= total;
-    for (int c = 0; c < 3; ++c) {
-        smooth.gradients.translation[c] /= total;
-        smooth.gradients.rotation[c] /= total;
-    }
+    smooth.gradients.translation /= total;
+    smooth.gradients.rotation /= total;
     return smooth;
 }
 
 void IrradianceCache::finish(std::size_t kept) {
     std::vector<IrradianceRecord> smooth(records_.size());
-    parallel_for(records_.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) smooth[i] = i < kept ? records_[i] : smoothed(records_[i]);
-    });
+    parallel_each(records_.size(), 64,
+                  [&](std::size_t i) { smooth[i] = i < kept ? records_[i] : smoothed(records_[i]); });
     std::vector<IrradianceRecord> ordered;
     ordered.reserve(smooth.size());
     for (const int i : index_.ordered()) ordered.push_back(smooth[i]);
