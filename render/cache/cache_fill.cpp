@@ -9,7 +9,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "render/cache/gather.h"
 #include "render/cache/gather_at.h"
 
 namespace aleph {

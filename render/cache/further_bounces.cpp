@@ -4,8 +4,6 @@
 #include <numbers>
 
 #include "render/cache/bounce_places.h"
-#include "render/cache/gather.h"
-#include "render/surface/bsdf.h"
 
 namespace aleph {
 
@@ -56,7 +54,6 @@ std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& poi
     return multi_bounce.cache->interpolate(query);
 }
 
-/// Lamps that the ray meets, or sees straight through sheets of glass, are direct light of the point.
 Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
                                    const SurfaceMaterial* material, const MultiBounceLight& multi_bounce, int depth,
                                    RandomStream& random) {
@@ -65,13 +62,9 @@ Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task
     const glm::vec3 direction = make_basis(point.normal).to_world(local);
     if (!(glm::dot(direction, point.geometric) > 0.0f)) return Rgb(0.0f);
     ++task.counts.multi_bounce;
-    PathState state;
-    state.left = {multi_bounce.bounces - 1, depth};
+    PathState state = start_indirect({multi_bounce.bounces - 1, depth}, context.around);
     // Where a cache knows most of this light, long paths would cost more than all the rest.
     if (multi_bounce.cache != nullptr) state.roulette_after = 0;
-    state.turned = true;
-    state.emission = EmissionWeight::none;
-    state.media = context.around;
     const float enters = material == nullptr ? 1.0f : UpperLayers(*material, point.normal).entering(direction, local.z);
     return enters * std::numbers::pi_v<float> *
            follow_ray(context, task, {point.ray_origin(), direction}, state, random);

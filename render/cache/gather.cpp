@@ -102,17 +102,13 @@ class FurtherOnPath final : public KnownIrradiance {
     const std::size_t ray_;
 };
 
-/// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
-/// straight through sheets of glass are direct light, which is computed elsewhere.
+/// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's.
 Rgb follow_lobes(const Lighting& lighting, std::size_t ray, const LitSurface& lit, const LobeShares& shares) {
     RandomStream& random = lighting.random;
     const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
     if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
-    PathState state;
-    state.left = {lighting.options.multi_bounce.bounces, lighting.options.depth};
-    state.turned = true;
-    state.emission = EmissionWeight::none;
-    state.media = lighting.context.around;
+    PathState state =
+        start_indirect({lighting.options.multi_bounce.bounces, lighting.options.depth}, lighting.context.around);
     const FurtherOnPath further(lighting, ray);
     if (further.is_known()) state.known = &further;
     return follow_sample(lighting.context, lighting.task, lit, sample, state, random);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "render/cache/gather.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {

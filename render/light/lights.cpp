@@ -1,11 +1,8 @@
 #include "render/light/lights.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <span>
 
 #include "engine/base/sampling.h"
 #include "render/surface/environment_map.h"

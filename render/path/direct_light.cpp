@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/light/light_cut.h"
-#include "render/light/lights.h"
 
 namespace aleph {
 

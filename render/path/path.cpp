@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "render/pixels/pixel_sequence.h"
-
 namespace aleph {
 
 namespace {

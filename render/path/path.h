@@ -46,11 +46,11 @@ struct PathState {
     Rgb throughput{1.0f};
     EmissionWeight emission = EmissionWeight::full;
     float pdf = 0.0f;        ///< density of the last turn, per steradian, if `weighted`
-    Receiver from;           ///< where it turned
+    Receiver from{};         ///< where it turned
     int roulette_after = 4;  ///< surfaces that scatter before Russian roulette may end the path
     float survival = 1.0f;   ///< chance to survive it, times the path's weight; at most 1
     bool turned = false;     ///< at a Lambert layer
-    Media media;
+    Media media{};
     /// Used at surfaces that the path meets while the bounces that are left are those that it holds; null: nothing is
     /// known, and all light is found without bias.
     const KnownIrradiance* known = nullptr;
@@ -61,6 +61,12 @@ struct PathState {
     const BrightSampler* bright = nullptr;  ///< weighs what the next ray meets; null: by 1
     int patch = no_index;                   ///< that this ray is aimed at
 };
+
+/// A path of indirect light, after a turn at a Lambert layer: lamps that its ray meets straight away are direct light,
+/// which is computed elsewhere.
+inline PathState start_indirect(const PathLimits& left, const Media& media) {
+    return {.left = left, .emission = EmissionWeight::none, .turned = true, .media = media};
+}
 
 /// Light that the surface scatters towards its viewer, without its own emission.
 Rgb scatter_light(const LightingContext& context, RayTask& task, ViewedSurface surface, PathState state,

@@ -1,7 +1,6 @@
 #include "render/pixels/frame_checkpoint.h"
 
 #include <system_error>
-#include <utility>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "render/shade/frame.h"
-#include "render/shade/sample_shading.h"
 
 namespace aleph {
 

@@ -52,11 +52,8 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
     const RenderSettings& settings = shading.context.settings;
     const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
     RandomStream random = path_stream(settings.seed, shading.noise_key, surface, irradiance_seed_mask);
-    PathState state;
-    state.left = {settings.light.bounces - 1, settings.light.path_depth - 1};
-    state.emission = EmissionWeight::none;
-    state.media = scene.lighting.around;
-    state.turned = true;
+    PathState state =
+        start_indirect({settings.light.bounces - 1, settings.light.path_depth - 1}, scene.lighting.around);
     state.known = shading.known;
     state.accuracy = shading.context.accuracy(surface.x, surface.y);
     const Basis basis = make_basis(surface.point.normal);
@@ -138,10 +135,7 @@ RandomStream path_stream(std::uint32_t seed, std::uint32_t noise_key, const Pixe
 }
 
 PathState start_path(const RenderSettings& settings, const Media& around) {
-    PathState state;
-    state.media = around;
-    state.left = {settings.light.bounces, settings.light.path_depth};
-    return state;
+    return {.left = {settings.light.bounces, settings.light.path_depth}, .media = around};
 }
 
 SampleScene scene_before(const SampleScene& scene, ShadingTask& task, const PixelSurface& surface) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/surface/bsdf.h"
-#include "render/surface/fresnel.h"
 #include "render/surface/sheen.h"
 
 namespace aleph {

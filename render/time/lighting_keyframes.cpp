@@ -29,6 +29,21 @@ bool is_end(const LightingKeyframes& keyframes, std::int64_t frame) {
 
 constexpr float max_change = 0.25f;  // from one frame to the next, of the largest value in the span
 
+/// With other lamps the lists differ in length: that is a jump by itself.
+bool differ_by(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& largest) {
+    if (a.size() != b.size()) return true;
+    for (std::size_t k = 0; k < std::min(largest.size(), a.size()); ++k) {
+        if (std::abs(a[k] - b[k]) > max_change * largest[k]) return true;
+    }
+    return false;
+}
+
+void raise_to(std::vector<float>& largest, const std::vector<float>& values) {
+    for (std::size_t k = 0; k < std::min(largest.size(), values.size()); ++k) {
+        largest[k] = std::max(largest[k], values[k]);
+    }
+}
+
 }  // namespace
 
 KeyframePair find_keyframes(const LightingKeyframes& keyframes, std::int64_t frame) {
@@ -106,25 +121,6 @@ LightBreaks::Sources LightBreaks::look(double seconds) {
     }
     return sources;
 }
-
-namespace {
-
-/// With other lamps the lists differ in length: that is a jump by itself.
-bool differ_by(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& largest) {
-    if (a.size() != b.size()) return true;
-    for (std::size_t k = 0; k < std::min(largest.size(), a.size()); ++k) {
-        if (std::abs(a[k] - b[k]) > max_change * largest[k]) return true;
-    }
-    return false;
-}
-
-void raise_to(std::vector<float>& largest, const std::vector<float>& values) {
-    for (std::size_t k = 0; k < std::min(largest.size(), values.size()); ++k) {
-        largest[k] = std::max(largest[k], values[k]);
-    }
-}
-
-}  // namespace
 
 const std::vector<std::int64_t>& LightBreaks::find(std::int64_t first, std::int64_t last) {
     const auto [entry, is_new] = found_.try_emplace({first, last});
