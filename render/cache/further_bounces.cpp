@@ -37,8 +37,6 @@ float choose_alpha(const RenderSettings& settings) {
 
 }  // namespace
 
-FurtherIrradiance::FurtherIrradiance(const MultiBounceLight& light) : KnownIrradiance(light.bounces), light_(light) {}
-
 std::optional<Rgb> FurtherIrradiance::find(const ViewedSurface& surface, const Hit&, float, const Rgb&,
                                            RayTask& task) const {
     return find_cached_irradiance(task, surface.point, light_);
@@ -73,9 +71,6 @@ Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task
 int count_bounces(const RenderSettings& settings) {
     return std::min(settings.light.bounces, settings.light.path_depth - 1);
 }
-
-FrameIrradiance::FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache)
-    : KnownIrradiance(count_bounces(context.settings)), context_(context), cache_(cache) {}
 
 std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb&,
                                          RayTask& task) const {

@@ -25,7 +25,7 @@ MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const F
 /// The same for paths, which use it after their first turn at a Lambert layer.
 class FurtherIrradiance final : public KnownIrradiance {
   public:
-    explicit FurtherIrradiance(const MultiBounceLight& light);
+    explicit FurtherIrradiance(const MultiBounceLight& light) : KnownIrradiance(light.bounces), light_(light) {}
 
     std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
                             RayTask& task) const override;
@@ -38,7 +38,8 @@ class FurtherIrradiance final : public KnownIrradiance {
 class FrameIrradiance final : public KnownIrradiance {
   public:
     /// Keeps references. Light that the context carries comes first, then the frame's cache, which may be null.
-    FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache);
+    FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache)
+        : KnownIrradiance(count_bounces(context.settings)), context_(context), cache_(cache) {}
 
     std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
                             RayTask& task) const override;

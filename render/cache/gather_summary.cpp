@@ -64,8 +64,10 @@ void add_gradients(const HemisphereStrata& strata, const Basis& basis, GatherScr
         const glm::vec3 u = basis.tangent * std::cos(middle) + basis.bitangent * std::sin(middle);
         const glm::vec3 v = basis.bitangent * std::cos(middle) - basis.tangent * std::sin(middle);
         const glm::vec3 v_edge = basis.bitangent * std::cos(edge) - basis.tangent * std::sin(edge);
-        out.gradients.rotation += glm::outerProduct(v, rotation * pi / static_cast<float>(strata.count()));
-        out.gradients.translation += glm::outerProduct(u, along * column_width) + glm::outerProduct(v_edge, across);
+        for (int c = 0; c < 3; ++c) {
+            out.gradients.rotation[c] += v * (rotation[c] * pi / static_cast<float>(strata.count()));
+            out.gradients.translation[c] += u * (along[c] * column_width) + v_edge * across[c];
+        }
     }
 }
 

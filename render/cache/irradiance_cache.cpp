@@ -238,9 +238,8 @@ std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {
         const IrradianceRecord& record = records_[i];
         sum += extrapolate(record, query.position, query.normal) * weight;
         total += weight;
-        if (query.used != nullptr) {
-            query.used->add(weight, RecordReach{record.radius, record.spread()}.at(accuracy));
-        }
+        if (query.used != nullptr)
+            query.used->add({1.0f, weight, weight * RecordReach{record.radius, record.spread()}.at(accuracy)});
     });
     if (!(total > 0.0f)) return std::nullopt;
     return sum / total;

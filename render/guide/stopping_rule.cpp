@@ -77,10 +77,7 @@ Image<float> deviations_around(const Image<PixelSamples>& pixels, const Image<st
 }
 
 MeanEstimate estimate_own_mean(const PixelSamples& pixel) {
-    MeanEstimate estimate{pixel.taken()};
-    estimate.error2 = static_cast<double>(pixel.error().total);
-    estimate.variance = pixel.sample_variance();
-    return estimate;
+    return {pixel.taken(), static_cast<double>(pixel.error().total), pixel.sample_variance()};
 }
 
 bool is_enough(Sampling rule, Stopping stopping, const MeanEstimate& mean, double tolerance) {

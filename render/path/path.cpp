@@ -58,9 +58,9 @@ Rgb met_emission(const LightingContext& context, const PathState& state, const V
     if (emitter == no_index) return state.emission == EmissionWeight::full ? emission : Rgb(0.0f);  // unlit
     float light_pdf = 0.0f;
     if (state.emission == EmissionWeight::weighted) {
-        light_pdf = pdf_emitter(context.lights.emitters[emitter], state.from.position,
-                                {hit, std::abs(glm::dot(surface.point.geometric, surface.view)),
-                                 glm::distance(surface.point.position, state.from.position)});
+        light_pdf = pdf_emitter(context.lights.emitters[emitter], state.from.position, hit,
+                                std::abs(glm::dot(surface.point.geometric, surface.view)),
+                                glm::distance(surface.point.position, state.from.position));
     }
     return emission * weigh(state, light_pdf);
 }

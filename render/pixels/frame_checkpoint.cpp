@@ -58,10 +58,6 @@ void FrameCheckpoint::end_round() {
     for (; round_ < next_; ++round_) gathers_[round_].found = {};
 }
 
-std::string FrameCheckpoint::take_samples() {
-    return std::exchange(samples_, {});
-}
-
 void FrameCheckpoint::offer(const std::function<std::string()>& find_samples) {
     if (has_gathers() || !samples_.empty() || !is_due_()) return;
     ByteWriter out;

@@ -22,12 +22,20 @@ class CacheIntegrator final : public LightIntegrator {
           blurred_(static_cast<bool>(input.options.at_sample)),
           cache_(make_cache(context_.lighting.shading)),
           known_(context_, cached_ ? &cache_ : nullptr),
-          direct_(context_.max_radius) {
+          direct_(context_.max_radius),
+          shading_{.context = context_,
+                   .noise_key = input.noise_key,
+                   .indirect = indirect_,
+                   .cache = cached_ ? &cache_ : nullptr,
+                   .known = blurred_ ? nullptr : &known_,
+                   .blurred = blurred_} {
         if (cached_) context_.direct = &direct_;
         if (context_.settings.error > 0.0 && !input.sampling_tolerance.empty())
             context_.tolerance = &input.sampling_tolerance;
         context_.bounces.further = make_multi_bounce_light(context_.settings, nullptr);
-        if (input.options.record_maps) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
+        if (!input.options.record_maps) return;
+        uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
+        shading_.uses = &uses_;
     }
 
     bool shares_light() const override { return cached_ || needs_further() || needs_bright(); }
@@ -52,22 +60,13 @@ class CacheIntegrator final : public LightIntegrator {
 
     void begin(const SampleScene& scene) override {
         scene_ = &scene;
-        shutter_.reset();
-        if (blurred_ && cached_) {
-            shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_);
-        }
-        shading_.emplace(SampleShading{.context = context_,
-                                       .noise_key = input_.noise_key,
-                                       .indirect = indirect_,
-                                       .cache = cached_ ? &cache_ : nullptr,
-                                       .known = blurred_ ? nullptr : &known_,
-                                       .blurred = blurred_,
-                                       .shutter = shutter_ ? &*shutter_ : nullptr,
-                                       .uses = uses_.empty() ? nullptr : &uses_});
+        if (!blurred_ || !cached_) return;
+        shading_.shutter =
+            &shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_);
     }
 
     void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) override {
-        shade_sample(*shading_, scene_before(*scene_, task, surface), task, surface, pixel, light);
+        shade_sample(shading_, scene_before(*scene_, task, surface), task, surface, pixel, light);
     }
 
     void save(ByteWriter& out) const override { out.add(uses_.pixels); }
@@ -119,7 +118,7 @@ class CacheIntegrator final : public LightIntegrator {
     BrightSurfaces bright_;
     Image<RecordUse> uses_;  ///< empty: not asked for
     std::optional<ShutterLight> shutter_;
-    std::optional<SampleShading> shading_;  ///< since `begin`
+    SampleShading shading_;
     const SampleScene* scene_ = nullptr;
 };
 

@@ -114,10 +114,6 @@ Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
     return probes;
 }
 
-bool is_place(float u) {
-    return std::abs(u) < max_texture_coordinate;
-}
-
 }  // namespace
 
 glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm::vec2& uv,
@@ -132,7 +128,7 @@ glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm
     } else {
         probes = place_probes(texture, footprint);
     }
-    center = {is_place(center.x) ? center.x : 0.0f, is_place(center.y) ? center.y : 0.0f};
+    for (float* u : {&center.x, &center.y}) *u = std::abs(*u) < max_texture_coordinate ? *u : 0.0f;
     const auto wrap = [&](const glm::vec2& place) {
         return glm::vec2(wrap_coordinate(place.x, use.wrap_u), wrap_coordinate(place.y, use.wrap_v));
     };

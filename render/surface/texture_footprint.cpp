@@ -6,16 +6,6 @@
 
 namespace aleph {
 
-namespace {
-
-/// At smaller cosines a footprint grows no further: its texture is already blurred to the mean.
-constexpr float min_cosine = 1e-4f;
-
-/// The same for cones, whose texture need not be sharp.
-constexpr float min_cone_cosine = 0.05f;
-
-}  // namespace
-
 RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& point, const glm::vec3& direction,
                                   float distance, float spacing) {
     const glm::vec3 right(view.axes[0]), up(view.axes[1]), back(view.axes[2]);
@@ -24,6 +14,7 @@ RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& po
     const float depth = view.orthographic ? 1.0f : -distance * glm::dot(direction, back);
     const float size = depth * spacing / static_cast<float>(view.pixels_per_unit);
     const float cosine = -glm::dot(point.geometric, direction);
+    constexpr float min_cosine = 1e-4f;  // at smaller ones the texture is already blurred to the mean
     const glm::vec3 slide = direction / std::max(cosine, min_cosine);
     return {size * (right + slide * glm::dot(point.geometric, right)),
             -size * (up + slide * glm::dot(point.geometric, up)), 0.0f, spacing == 1.0f};
@@ -36,7 +27,8 @@ RayFootprint make_cone_footprint(const SurfacePoint& point, const glm::vec3& dir
 }
 
 float cone_footprint_area(float cosine, float distance, float solid_angle) {
-    return distance * distance * solid_angle / std::max(cosine, min_cone_cosine);
+    constexpr float min_cosine = 0.05f;  // the texture of a cone need not be sharp
+    return distance * distance * solid_angle / std::max(cosine, min_cosine);
 }
 
 UvFootprint make_uv_footprint(const SurfacePoint& point, const RayFootprint& footprint, int uv_set) {
