@@ -19,8 +19,10 @@ void add_gradients(const Rgb& light, const glm::vec3& to, const glm::vec3& norma
     glm::vec3 moved = 4.0f * to / glm::dot(to, to) - bright / glm::dot(bright, to) - normal / along;
     moved -= normal * glm::dot(normal, moved);
     const glm::vec3 turned = glm::cross(normal, to) / along;
-    gradients.translation += glm::outerProduct(moved, light);
-    gradients.rotation += glm::outerProduct(turned, light);
+    for (int c = 0; c < 3; ++c) {
+        gradients.translation[c] += light[c] * moved;
+        gradients.rotation[c] += light[c] * turned;
+    }
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
@@ -64,8 +63,8 @@ struct FreeSpace {
 
 /// Change of an irradiance, per colour channel.
 struct IrradianceGradients {
-    glm::mat3 rotation{0.0f};     ///< dE = dot(cross(N_i, N), gradient)
-    glm::mat3 translation{0.0f};  ///< per m, in the tangent plane
+    std::array<glm::vec3, 3> rotation{};     ///< dE = dot(cross(N_i, N), gradient)
+    std::array<glm::vec3, 3> translation{};  ///< per m, in the tangent plane
 };
 
 /// Indirect irradiance at a point with its gradients (Ward and Heckbert 1992, "Irradiance Gradients").

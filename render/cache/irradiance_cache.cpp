@@ -168,15 +168,19 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
         }
         const float weight = 1.0f - error / accuracy;
         smooth.irradiance += value * weight;
-        smooth.gradients.translation += other.gradients.translation * weight;
-        smooth.gradients.rotation += other.gradients.rotation * weight;
+        for (int c = 0; c < 3; ++c) {
+            smooth.gradients.translation[c] += other.gradients.translation[c] * weight;
+            smooth.gradients.rotation[c] += other.gradients.rotation[c] * weight;
+        }
         total += weight;
         return true;
     });
     if (!(total > 0.0f)) return record;
     smooth.irradiance /= total;
-    smooth.gradients.translation /= total;
-    smooth.gradients.rotation /= total;
+    for (int c = 0; c < 3; ++c) {
+        smooth.gradients.translation[c] /= total;
+        smooth.gradients.rotation[c] /= total;
+    }
     return smooth;
 }
 

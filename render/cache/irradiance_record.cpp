@@ -1,6 +1,7 @@
 #include "render/cache/irradiance_record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "engine/base/color.h"
@@ -29,9 +30,12 @@ glm::vec3 limit_gradient(const glm::vec3& gradient, float irradiance, float radi
 }
 
 /// Length of the luminance's gradient, per m.
-float steepness(const glm::mat3& gradients) {
-    const glm::mat3 by_axis = glm::transpose(gradients);
-    const float length = glm::length(glm::vec3(luminance(by_axis[0]), luminance(by_axis[1]), luminance(by_axis[2])));
+float steepness(const std::array<glm::vec3, 3>& gradient) {
+    glm::vec3 slope;
+    for (int axis = 0; axis < 3; ++axis) {
+        slope[axis] = luminance({gradient[0][axis], gradient[1][axis], gradient[2][axis]});
+    }
+    const float length = glm::length(slope);
     return std::isfinite(length) ? length : infinite;
 }
 
@@ -86,8 +90,12 @@ bool is_beyond_clearance(const IrradianceRecord& record, const glm::vec3& positi
 
 Rgb extrapolate(const IrradianceRecord& record, const glm::vec3& position, const glm::vec3& normal) {
     const glm::vec3 offset = position - record.position, turn = glm::cross(record.normal, normal);
-    const Rgb change = turn * record.gradients.rotation + offset * record.gradients.translation;
-    return glm::clamp(record.irradiance + change, Rgb(0.0f), 2.0f * record.irradiance);
+    Rgb value = record.irradiance;
+    for (int c = 0; c < 3; ++c) {
+        value[c] += glm::dot(turn, record.gradients.rotation[c]) + glm::dot(offset, record.gradients.translation[c]);
+        value[c] = std::clamp(value[c], 0.0f, 2.0f * record.irradiance[c]);
+    }
+    return value;
 }
 
 float measure_growth(const IrradianceRecord& a, const IrradianceRecord& b) {

@@ -123,7 +123,7 @@ TEST(GatherSummary, WithoutHitsDistancesAreInfinite) {
     EXPECT_EQ(found.nearest_distance, float_infinity);
     EXPECT_EQ(found.space.headroom, float_infinity);
     for (const float clear : found.space.sectors) EXPECT_EQ(clear, float_infinity);
-    EXPECT_EQ(found.gradients.translation, glm::mat3(0.0f));
+    for (const glm::vec3& gradient : found.gradients.translation) EXPECT_EQ(gradient, glm::vec3(0.0f));
 }
 
 TEST(GatherSummary, RowsOfTwoRaysPerSectorClearTheWay) {

@@ -142,8 +142,8 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
     // An float_infinity gradient, as from a distance of 0, counts as 0.
     IrradianceSample broken{.irradiance = Rgb(1.0f)};
     broken.nearest_distance = 1.0f;
-    broken.gradients.translation = glm::outerProduct(glm::vec3(float_infinity, 0.0f, 0.0f), glm::vec3(1.0f));
-    broken.gradients.rotation = glm::outerProduct(glm::vec3(float_nan, 0.0f, 0.0f), glm::vec3(1.0f));
+    broken.gradients.translation.fill(glm::vec3(float_infinity, 0.0f, 0.0f));
+    broken.gradients.rotation.fill(glm::vec3(float_nan, 0.0f, 0.0f));
     const IrradianceRecord record = make_record(glm::vec3(0.0f), up, 1.0f, broken, any_radius).value();
     EXPECT_EQ(extrapolate(record, glm::vec3(0.1f), {1.0f, 0.0f, 0.0f}), Rgb(1.0f));
     // Luminance hardly shows how steep the blue of yellow light is.

@@ -174,8 +174,8 @@ TEST(IrradianceCacheValues, FinishAveragesWhatDiffersByNoise) {
         std::vector<IrradianceRecord> records = {make_record_at(0.0f, 1.0f, 1.0f, 0.25f),
                                                  make_record_at(0.125f, 1.0f, value, 0.25f)};
         for (IrradianceRecord& record : records) record.noise.error = 0.1f;
-        records[1].gradients.translation = glm::outerProduct(glm::vec3(0.4f, 0.0f, 0.8f), glm::vec3(1.0f));
-        records[1].gradients.rotation = glm::outerProduct(glm::vec3(0.0f, 0.0f, 0.3f), glm::vec3(1.0f));
+        records[1].gradients.translation.fill({0.4f, 0.0f, 0.8f});
+        records[1].gradients.rotation.fill({0.0f, 0.0f, 0.3f});
         return records;
     };
     // The error of 1/8 against 2 alpha: a weight of 3/4, beside the record's own of 1.

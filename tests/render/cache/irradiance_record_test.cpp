@@ -19,8 +19,8 @@ constexpr RadiusBounds wide_bounds{0.01f, 10.0f, 0.2f};
 /// Grey light of 2 with gradients of the length 5.
 IrradianceSample make_steep_sample(float nearest = 1.0f) {
     IrradianceSample sample{.irradiance = Rgb(2.0f)};
-    sample.gradients.translation = glm::outerProduct(glm::vec3(3.0f, 0.0f, 4.0f), glm::vec3(1.0f));
-    sample.gradients.rotation = glm::outerProduct(glm::vec3(3.0f, 0.0f, 4.0f), glm::vec3(1.0f));
+    sample.gradients.translation.fill({3.0f, 0.0f, 4.0f});
+    sample.gradients.rotation.fill({3.0f, 0.0f, 4.0f});
     sample.nearest_distance = nearest;
     sample.rays = 200;
     sample.relative_error = 0.3f;
@@ -55,7 +55,7 @@ TEST(IrradianceRecord, SteepLightHasASmallRadiusAndThenALimitedGradient) {
     // Near surfaces bound it, far ones do not.
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 0.5f, make_steep_sample(0.1f), wide_bounds)->radius, 3.5f * 0.1f);
     IrradianceSample flat = make_steep_sample(float_infinity);
-    flat.gradients.translation = glm::outerProduct(glm::vec3(0.0f), glm::vec3(1.0f));
+    flat.gradients.translation.fill(glm::vec3(0.0f));
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 0.5f, flat, wide_bounds)->radius, 10.0f);
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 0.5f, flat, {12.0f, 10.0f, 0.2f})->radius, 12.0f);
 }
@@ -63,7 +63,7 @@ TEST(IrradianceRecord, SteepLightHasASmallRadiusAndThenALimitedGradient) {
 TEST(IrradianceRecord, SlopeIsTheLuminances) {
     for (int channel = 0; channel < 3; ++channel) {
         IrradianceSample sample = make_steep_sample();
-        sample.gradients.translation = glm::outerProduct(glm::vec3(0.0f), glm::vec3(1.0f));
+        sample.gradients.translation.fill(glm::vec3(0.0f));
         sample.gradients.translation[static_cast<std::size_t>(channel)] = {0.0f, -60.0f, 80.0f};
         Rgb one(0.0f);
         one[channel] = 1.0f;
@@ -172,10 +172,10 @@ TEST(IrradianceRecord, GrowthIsTheDifferenceBeyondNoise) {
     EXPECT_NEAR(measure_growth(a, b), expected, 1e-3);
     EXPECT_NEAR(measure_growth(b, a), expected, 1e-3);
     // The worse of both extrapolations counts: from a it is off by .1, from b by .4.
-    a.gradients.translation = glm::outerProduct(glm::vec3(0.0f, 0.0f, -1.5f), glm::vec3(1.0f));
+    a.gradients.translation.fill({0.0f, 0.0f, -1.5f});
     EXPECT_NEAR(measure_growth(a, b), expected, 1e-3);
     EXPECT_NEAR(measure_growth(b, a), expected, 1e-3);
-    b.gradients.translation = glm::outerProduct(glm::vec3(0.0f, 0.0f, -1.0f), glm::vec3(1.0f));  // off by .2
+    b.gradients.translation.fill({0.0f, 0.0f, -1.0f});  // off by .2
     EXPECT_NEAR(measure_growth(a, b), std::sqrt(0.0625 - 0.01) / (0.5 * 0.04), 1e-3);
     a.noise.error = 0.5f;
     EXPECT_EQ(measure_growth(a, b), 0.0f);
@@ -189,7 +189,7 @@ TEST(IrradianceRecord, GrowthIsTheDifferenceBeyondNoise) {
 TEST(RecordCorrection, ContactsHaveNoGradientBeyondThem) {
     const auto gradient = [](float nearest) {
         IrradianceSample sample{.irradiance = Rgb(1.0f)};
-        sample.gradients.translation = glm::outerProduct(glm::vec3(0.5f, 0.0f, 0.0f), glm::vec3(1.0f));
+        sample.gradients.translation.fill({0.5f, 0.0f, 0.0f});
         sample.nearest_distance = nearest;
         return make_record(glm::vec3(0.0f), up, 0.2f, sample, {0.7f, 10.0f, 0.01f})->gradients.translation[0].x;
     };
