@@ -27,12 +27,12 @@ struct NoiseSum {
     }
 };
 
-template <class Counts>
-NoiseSum sum_around(const Image<PixelSamples>& pixels, const Image<std::uint8_t>& silent, int x, int y,
-                    const Counts& counts) {
+NoiseSum sum_around(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
+                    const Image<std::uint8_t>& silent, int x, int y) {
     NoiseSum sum;
     visit_around(pixels, x, y, 2, [&](int nx, int ny) {
-        const bool tells = (nx != x || ny != y) && counts(nx, ny) && (silent.empty() || silent(nx, ny) == 0);
+        const bool tells =
+            (nx != x || ny != y) && are_alike(outlines, x, y, nx, ny) && (silent.empty() || silent(nx, ny) == 0);
         if (tells) sum.add(pixels(nx, ny));
     });
     return sum;
@@ -54,9 +54,8 @@ bool is_shown_white(const PixelSamples& pixel, double white) {
 
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
                            const Image<std::uint8_t>& silent, int x, int y) {
-    const auto alike = [&](int nx, int ny) { return are_alike(outlines, x, y, nx, ny); };
-    NoiseSum sum = sum_around(pixels, silent, x, y, alike);
-    if (sum.count == 0) sum = sum_around(pixels, silent, x, y, [](int, int) { return true; });
+    NoiseSum sum = sum_around(pixels, outlines, silent, x, y);
+    if (sum.count == 0) sum = sum_around(pixels, {}, silent, x, y);
     if (pixels.size() == 1) sum.add(pixels(x, y));
     MeanEstimate estimate{pixels(x, y).taken()};
     if (sum.count == 0) return estimate;

@@ -17,10 +17,6 @@ constexpr float narrow_lobe = 0.05f;
 /// averages over many places, but by no more than this.
 constexpr float loosest_accuracy = 0.5f;
 
-void count_ray(RayCounts& counts, const ScatterSample& sample) {
-    ++(sample.lobe == Lobe::diffuse ? counts.path : sample.pdf > 0.0f ? counts.glossy : counts.specular);
-}
-
 /// Weight of light that was met, against the density with which the light would have been sampled.
 float weigh(const PathState& state, float light_pdf) {
     if (state.emission == EmissionWeight::weighted) return power_heuristic(state.pdf, light_pdf);
@@ -108,7 +104,8 @@ class Path {
         }
         if (sample.passes && lit.material.glass.volume) state_.media.pass(lit.point, lit.material);
         const Ray ray{lit.ray_origin(sample.direction), sample.direction};
-        count_ray(task_.counts, sample);
+        RayCounts& counts = task_.counts;
+        ++(sample.lobe == Lobe::diffuse ? counts.path : sample.pdf > 0.0f ? counts.glossy : counts.specular);
         return meet(ray, next);
     }
 

@@ -43,6 +43,5 @@ struct IntegratorInput {
 };
 
 std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input);
-std::unique_ptr<LightIntegrator> make_cache_integrator(const IntegratorInput& input);
 
 }  // namespace aleph

@@ -86,14 +86,6 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
     return sum * (pi / static_cast<float>(rays));
 }
 
-/// Adds what the surface reflects of its irradiance.
-/// @param left  share of light that reaches the camera
-void add_irradiance(const PixelSurface& surface, const Rgb& irradiance, const Rgb& left, SampleLight& light) {
-    const LitSurface lit(surface);
-    light.indirect = diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen * left;
-    light[LightPart::surface] += light.indirect;
-}
-
 PathState start_beyond(const SampleShading& shading, const SampleScene& scene, const PixelSurface& surface) {
     PathState beyond = start_path(shading.context.settings, scene.lighting.around);
     --beyond.left.depth;
@@ -171,7 +163,10 @@ void shade_sample(const SampleShading& shading, const SampleScene& scene, Shadin
     const Rgb left = share_left(scene.lighting.around, surface);
     for (Rgb& part : light.parts) part *= left;
     if (!needs_irradiance) return;
-    add_irradiance(surface, irradiance ? *irradiance : sample_irradiance(shading, scene, task, surface), left, light);
+    if (!irradiance) irradiance = sample_irradiance(shading, scene, task, surface);
+    const LitSurface lit(surface);
+    light.indirect = diffuse_radiance(surface.material, lit.cos_view, *irradiance) * lit.below_sheen * left;
+    light[LightPart::surface] += light.indirect;
 }
 
 }  // namespace aleph

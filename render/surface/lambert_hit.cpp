@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/surface/texture_footprint.h"
+#include "render/surface/texture.h"
 
 namespace aleph {
 

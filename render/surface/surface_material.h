@@ -9,7 +9,7 @@
 #include "engine/base/color.h"
 #include "render/surface/microfacets.h"
 #include "render/surface/shading_scene.h"
-#include "render/surface/texture_footprint.h"
+#include "render/surface/texture.h"
 
 namespace aleph {
 

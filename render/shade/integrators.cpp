@@ -1,5 +1,4 @@
-// Direct light and gloss by samples; indirect light from the irradiance cache, or by samples as well. Light of the
-// second and further bounces comes from a coarse cache either way.
+// How light is found: by a cache and samples, or by paths alone.
 
 #include "render/cache/aimed_rays.h"
 #include "render/cache/bounce_places.h"
@@ -12,6 +11,8 @@ namespace aleph {
 
 namespace {
 
+/// Direct light and gloss by samples; indirect light from the irradiance cache, or by samples as well. Light of the
+/// second and further bounces comes from a coarse cache either way.
 class CacheIntegrator final : public LightIntegrator {
   public:
     explicit CacheIntegrator(const IntegratorInput& input)
@@ -122,9 +123,36 @@ class CacheIntegrator final : public LightIntegrator {
     const SampleScene* scene_ = nullptr;
 };
 
+/// All light along paths, without bias.
+class PathIntegrator final : public LightIntegrator {
+  public:
+    explicit PathIntegrator(const IntegratorInput& input) : input_(input) {}
+
+    void begin(const SampleScene& scene) override { scene_ = &scene; }
+
+    void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples&, SampleLight& light) override {
+        const RenderSettings& settings = input_.context.settings;
+        RandomStream random = path_stream(settings.seed, input_.noise_key, surface);
+        const LightingContext lighting = scene_before(*scene_, task, surface).lighting;
+        const Rgb left = share_left(lighting.around, surface);
+        light[LightPart::surface] = surface.material.emission * left;
+        light[LightPart::gloss] =
+            scatter_light(lighting, task, surface, start_path(settings, lighting.around), random) * left;
+    }
+
+    void resolve(const Image<PixelSamples>& pixels, double exposure) override {
+        resolve_pixels(pixels, exposure, false, input_.context.settings.sampling.spp > 1, input_.out);
+    }
+
+  private:
+    const IntegratorInput input_;
+    const SampleScene* scene_ = nullptr;
+};
+
 }  // namespace
 
-std::unique_ptr<LightIntegrator> make_cache_integrator(const IntegratorInput& input) {
+std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input) {
+    if (input.context.settings.light.integrator == Integrator::path) return std::make_unique<PathIntegrator>(input);
     return std::make_unique<CacheIntegrator>(input);
 }
 
