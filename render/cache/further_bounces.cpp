@@ -37,9 +37,10 @@ float choose_alpha(const RenderSettings& settings) {
 
 }  // namespace
 
-std::optional<Rgb> FurtherIrradiance::find(const ViewedSurface& surface, const Hit&, float, const Rgb&,
-                                           RayTask& task) const {
-    return find_cached_irradiance(task, surface.point, light_);
+KnownIrradiance make_further_irradiance(const MultiBounceLight& light) {
+    return {light.bounces, [light](const ViewedSurface& surface, const Hit&, float, const Rgb&, RayTask& task) {
+                return find_cached_irradiance(task, surface.point, light);
+            }};
 }
 
 std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
@@ -72,15 +73,18 @@ int count_bounces(const RenderSettings& settings) {
     return std::min(settings.light.bounces, settings.light.path_depth - 1);
 }
 
-std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb&,
-                                         RayTask& task) const {
-    if (context_.carried != nullptr) {
-        PixelSurface place{surface};
-        place.hit = hit;
-        if (const std::optional<Rgb> found = context_.carried->find(place, accuracy, task)) return found;
-    }
-    if (cache_ == nullptr) return std::nullopt;
-    return cache_->interpolate({surface.point.position, surface.point.normal, accuracy * shade_reach, &task});
+KnownIrradiance make_frame_irradiance(const IndirectContext& context, const IrradianceCache* cache) {
+    const auto find = [&context, cache](const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb&,
+                                        RayTask& task) -> std::optional<Rgb> {
+        if (context.carried != nullptr) {
+            PixelSurface place{surface};
+            place.hit = hit;
+            if (const std::optional<Rgb> found = context.carried->find(place, accuracy, task)) return found;
+        }
+        if (cache == nullptr) return std::nullopt;
+        return cache->interpolate({surface.point.position, surface.point.normal, accuracy * shade_reach, &task});
+    };
+    return {count_bounces(context.settings), find};
 }
 
 MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const FurtherBounces* known) {

@@ -2,6 +2,7 @@
 // Light along paths: what reaches a surface point by any number of scattering events, without bias. Path tracing with
 // next-event estimation (Kajiya 1986) and multiple importance sampling (Veach 1997), ended by Russian roulette.
 
+#include <functional>
 #include <optional>
 
 #include "render/light/bright_surfaces.h"
@@ -13,17 +14,13 @@ namespace aleph {
 /// Indirect irradiance that is known at surfaces which paths meet. There a path takes it in place of a random ray from
 /// the Lambert layer, and goes on by the other lobes alone.
 struct KnownIrradiance {
-    /// @param held  bounces of the light that is known (PathLimits::bounces)
-    explicit KnownIrradiance(int held) : bounces(held) {}
-    virtual ~KnownIrradiance() = default;
-
+    int bounces = 0;  ///< of the light that is known (PathLimits::bounces)
     /// Irradiance at a surface; nothing where it is not known to this accuracy. Called from any thread.
     /// @param accuracy  alpha: the relative error that is allowed
     /// @param weight    radiance that the path brings of a unit of it
-    virtual std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
-                                    RayTask& task) const = 0;
-
-    const int bounces;
+    std::function<std::optional<Rgb>(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
+                                     RayTask& task)>
+        find{};
     const KnownIrradiance* fewer = nullptr;  ///< light of fewer bounces; null: none is known
 };
 

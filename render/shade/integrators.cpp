@@ -22,7 +22,7 @@ class CacheIntegrator final : public LightIntegrator {
           cached_(indirect_ && context_.settings.cache.accuracy > 0.0 && input.options.light_lasts),
           blurred_(static_cast<bool>(input.options.at_sample)),
           cache_(make_cache(context_.lighting.shading)),
-          known_(context_, cached_ ? &cache_ : nullptr),
+          known_(make_frame_irradiance(context_, cached_ ? &cache_ : nullptr)),
           direct_(context_.max_radius),
           shading_{.context = context_,
                    .noise_key = input.noise_key,
@@ -104,7 +104,8 @@ class CacheIntegrator final : public LightIntegrator {
         if (!further_bounces_) further_bounces_ = solve_further_bounces(context_, seen, input_.out.counts);
         if (!further_bounces_) return;
         context_.bounces.further = make_multi_bounce_light(context_.settings, &*further_bounces_);
-        known_.fewer = &further_.emplace(context_.bounces.further);
+        further_ = make_further_irradiance(context_.bounces.further);
+        known_.fewer = &further_;
     }
 
     const IntegratorInput input_;
@@ -112,9 +113,9 @@ class CacheIntegrator final : public LightIntegrator {
     const bool indirect_, cached_, blurred_;
     IrradianceCache cache_;
     std::optional<CheckedLight> checked_;
-    FrameIrradiance known_;
+    KnownIrradiance known_;
     std::optional<FurtherBounces> further_bounces_;
-    std::optional<FurtherIrradiance> further_;  ///< the same to paths
+    KnownIrradiance further_;  ///< the same to paths
     DirectGrid direct_;
     BrightSurfaces bright_;
     Image<RecordUse> uses_;  ///< empty: not asked for
