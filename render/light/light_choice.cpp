@@ -47,26 +47,26 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             const LightNumbers& numbers) {
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()};
-    return sample_one_light(
-        context, receiver, numbers, [&](const LightSample& sample, float probability) -> ScatteredLight {
-            if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
-            return {make_shadow_ray(lit, sample),
-                    scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / probability,
-                    context.shading.needs_shadow_ray(sample.pdf)};
-        });
+    const auto scatter = [&](const LightSample& sample, float probability) -> ScatteredLight {
+        if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
+        return {make_shadow_ray(lit, sample),
+                scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / probability,
+                context.shading.needs_shadow_ray(sample.pdf)};
+    };
+    return sample_one_light(context, receiver, numbers, scatter);
 }
 
 ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
                                     const LightNumbers& numbers) {
     const Receiver receiver{place.ray_origin(), place.normal};
-    return sample_one_light(context, receiver, numbers,
-                            [&](const LightSample& sample, float probability) -> ScatteredLight {
-                                const float cosine = glm::dot(place.normal, sample.direction);
-                                if (!(cosine > 0.0f && glm::dot(place.geometric, sample.direction) > 0.0f)) return {};
-                                return {{receiver.position, sample.direction, 0.0f, sample.distance},
-                                        sample.incoming * (cosine / (std::numbers::pi_v<float> * probability)),
-                                        context.shading.needs_shadow_ray(sample.pdf)};
-                            });
+    const auto scatter = [&](const LightSample& sample, float probability) -> ScatteredLight {
+        const float cosine = glm::dot(place.normal, sample.direction);
+        if (!(cosine > 0.0f && glm::dot(place.geometric, sample.direction) > 0.0f)) return {};
+        return {{receiver.position, sample.direction, 0.0f, sample.distance},
+                sample.incoming * (cosine / (std::numbers::pi_v<float> * probability)),
+                context.shading.needs_shadow_ray(sample.pdf)};
+    };
+    return sample_one_light(context, receiver, numbers, scatter);
 }
 
 Rgb transmit_to_light(const Media& around, const LitSurface& lit, const Ray& shadow_ray) {
