@@ -132,23 +132,6 @@ SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position
 LightSample sample_seen_light(const ShadingScene& shading, const LightSet& lights, const SeenLight& seen,
                               const Receiver& receiver, const glm::vec2& u, float share = 0.0f);
 
-/// The lights that one receiver has seen last.
-class SeenLights {
-  public:
-    SeenLights(const LightSet& lights, const Receiver& receiver) : lights_(lights), position_(receiver.position) {}
-
-    const SeenLight& at(int light) {
-        SeenLight& place = seen_[static_cast<std::size_t>(light) % seen_.size()];
-        if (place.light != light) place = see_light(lights_, light, position_);
-        return place;
-    }
-
-  private:
-    const LightSet& lights_;
-    glm::vec3 position_;
-    std::array<SeenLight, 16> seen_;
-};
-
 /// LightSet::bounds.
 LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights);
 
