@@ -42,7 +42,7 @@ void aim_rays(const BrightSampler& sampler, const SurfacePlace& point, RandomStr
         if (aim.patch == no_index || !(glm::dot(aim.direction, point.geometric) > 0.0f)) continue;
         scratch.rays.push_back({point.ray_origin(), aim.direction});
         scratch.places.push_back({0, i, 0});  // for its light numbers
-        scratch.aimed.push_back({aim.patch, aim.normal});
+        scratch.aimed.push_back(aim);
     }
     scratch.hits.resize(scratch.rays.size());
     scratch.normals.resize(scratch.rays.size());

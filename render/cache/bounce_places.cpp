@@ -7,8 +7,6 @@
 
 #include "engine/base/pixel_loops.h"
 #include "render/cache/further_bounces.h"
-#include "render/cache/gather.h"
-#include "render/surface/media.h"
 #include "render/surface/scatter.h"
 
 namespace aleph {

@@ -9,7 +9,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "render/cache/gather.h"
 #include "render/cache/gather_at.h"
 
 namespace aleph {
@@ -119,14 +118,13 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
             later.push_back(candidate);
             continue;
         }
-        IrradianceRecord record;
-        record.position = candidate.query.position;
-        record.normal = candidate.query.normal;
-        record.accuracy = candidate.query.accuracy;
-        record.min_radius = candidate.bounds.min;
         const auto known = cache.expect(candidate.query, context.max_radius);
-        record.radius = std::max(known ? known->reach.radius : context.max_radius, record.min_radius);
-        expected.insert(record);
+        const float radius = known ? known->reach.radius : context.max_radius;
+        expected.insert({.position = candidate.query.position,
+                         .radius = std::max(radius, candidate.bounds.min),
+                         .normal = candidate.query.normal,
+                         .min_radius = candidate.bounds.min,
+                         .accuracy = candidate.query.accuracy});
         const float reflected = places.points(candidate.x, candidate.y).reflected;
         candidate.rays = places.rays > 0 ? choose_rays_for_noise(known ? known->ray_variance : 0.0f, places.noise,
                                                                  places.rays, places.most_rays)

@@ -15,7 +15,6 @@
 #include <functional>
 
 #include "render/cache/indirect_context.h"
-#include "render/cache/irradiance_cache.h"
 
 namespace aleph {
 

@@ -4,8 +4,6 @@
 #include <numbers>
 
 #include "render/cache/bounce_places.h"
-#include "render/cache/gather.h"
-#include "render/surface/bsdf.h"
 
 namespace aleph {
 
@@ -39,11 +37,10 @@ float choose_alpha(const RenderSettings& settings) {
 
 }  // namespace
 
-FurtherIrradiance::FurtherIrradiance(const MultiBounceLight& light) : KnownIrradiance(light.bounces), light_(light) {}
-
-std::optional<Rgb> FurtherIrradiance::find(const ViewedSurface& surface, const Hit&, float, const Rgb&,
-                                           RayTask& task) const {
-    return find_cached_irradiance(task, surface.point, light_);
+KnownIrradiance make_further_irradiance(const MultiBounceLight& light) {
+    return {light.bounces, [light](const ViewedSurface& surface, const Hit&, float, const Rgb&, RayTask& task) {
+                return find_cached_irradiance(task, surface.point, light);
+            }};
 }
 
 std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
@@ -56,7 +53,6 @@ std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& poi
     return multi_bounce.cache->interpolate(query);
 }
 
-/// Lamps that the ray meets, or sees straight through sheets of glass, are direct light of the point.
 Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
                                    const SurfaceMaterial* material, const MultiBounceLight& multi_bounce, int depth,
                                    RandomStream& random) {
@@ -65,13 +61,9 @@ Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task
     const glm::vec3 direction = make_basis(point.normal).to_world(local);
     if (!(glm::dot(direction, point.geometric) > 0.0f)) return Rgb(0.0f);
     ++task.counts.multi_bounce;
-    PathState state;
-    state.left = {multi_bounce.bounces - 1, depth};
+    PathState state = start_indirect({multi_bounce.bounces - 1, depth}, context.around);
     // Where a cache knows most of this light, long paths would cost more than all the rest.
     if (multi_bounce.cache != nullptr) state.roulette_after = 0;
-    state.turned = true;
-    state.emission = EmissionWeight::none;
-    state.media = context.around;
     const float enters = material == nullptr ? 1.0f : UpperLayers(*material, point.normal).entering(direction, local.z);
     return enters * std::numbers::pi_v<float> *
            follow_ray(context, task, {point.ray_origin(), direction}, state, random);
@@ -81,18 +73,18 @@ int count_bounces(const RenderSettings& settings) {
     return std::min(settings.light.bounces, settings.light.path_depth - 1);
 }
 
-FrameIrradiance::FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache)
-    : KnownIrradiance(count_bounces(context.settings)), context_(context), cache_(cache) {}
-
-std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb&,
-                                         RayTask& task) const {
-    if (context_.carried != nullptr) {
-        PixelSurface place{surface};
-        place.hit = hit;
-        if (const std::optional<Rgb> found = context_.carried->find(place, accuracy, task)) return found;
-    }
-    if (cache_ == nullptr) return std::nullopt;
-    return cache_->interpolate({surface.point.position, surface.point.normal, accuracy * shade_reach, &task});
+KnownIrradiance make_frame_irradiance(const IndirectContext& context, const IrradianceCache* cache) {
+    const auto find = [&context, cache](const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb&,
+                                        RayTask& task) -> std::optional<Rgb> {
+        if (context.carried != nullptr) {
+            PixelSurface place{surface};
+            place.hit = hit;
+            if (const std::optional<Rgb> found = context.carried->find(place, accuracy, task)) return found;
+        }
+        if (cache == nullptr) return std::nullopt;
+        return cache->interpolate({surface.point.position, surface.point.normal, accuracy * shade_reach, &task});
+    };
+    return {count_bounces(context.settings), find};
 }
 
 MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const FurtherBounces* known) {

@@ -23,30 +23,11 @@ struct FurtherBounces {
 MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const FurtherBounces* known);
 
 /// The same for paths, which use it after their first turn at a Lambert layer.
-class FurtherIrradiance final : public KnownIrradiance {
-  public:
-    explicit FurtherIrradiance(const MultiBounceLight& light);
+KnownIrradiance make_further_irradiance(const MultiBounceLight& light);
 
-    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
-                            RayTask& task) const override;
-
-  private:
-    const MultiBounceLight light_;
-};
-
-/// Irradiance of all bounces that a frame knows before it is shaded: that of lighting keyframes, and of its own cache.
-class FrameIrradiance final : public KnownIrradiance {
-  public:
-    /// Keeps references. Light that the context carries comes first, then the frame's cache, which may be null.
-    FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache);
-
-    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
-                            RayTask& task) const override;
-
-  private:
-    const IndirectContext& context_;
-    const IrradianceCache* cache_;
-};
+/// Irradiance of all bounces that a frame knows before it is shaded: that of lighting keyframes, which the context
+/// carries, and then of its own cache. Keeps references; the cache may be null.
+KnownIrradiance make_frame_irradiance(const IndirectContext& context, const IrradianceCache* cache);
 
 /// Computes it where the gathers that fill the picture's cache need it.
 /// @param seen  surfaces of the picture whose light will be gathered (add_seen_surfaces)

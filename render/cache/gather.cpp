@@ -1,10 +1,8 @@
 #include "render/cache/gather.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "render/cache/aimed_rays.h"
 #include "render/settings/numbers.h"
+#include "render/surface/lambert_hit.h"
 
 namespace aleph {
 
@@ -82,41 +80,25 @@ struct Lighting {
 };
 
 /// Light of further bounces at surfaces that paths from a hit meet.
-class FurtherOnPath final : public KnownIrradiance {
-  public:
-    FurtherOnPath(const Lighting& lighting, std::size_t ray)
-        : KnownIrradiance(lighting.options.multi_bounce.bounces), lighting_(lighting), ray_(ray) {}
-
-    bool is_known() const {
-        const MultiBounceLight& light = lighting_.options.multi_bounce;
-        return light.bounces > 0 && (light.noted || light.cache != nullptr);
-    }
-
-    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float, const Rgb& weight,
-                            RayTask&) const override {
-        if (!lighting_.options.multi_bounce.noted) return lighting_.look_up(ray_, surface.point, hit);
-        lighting_.note_further(ray_, weight, surface.point, hit);
+KnownIrradiance make_further_on_path(const Lighting& lighting, std::size_t ray) {
+    const auto find = [&lighting, ray](const ViewedSurface& surface, const Hit& hit, float, const Rgb& weight,
+                                       RayTask&) -> std::optional<Rgb> {
+        if (!lighting.options.multi_bounce.noted) return lighting.look_up(ray, surface.point, hit);
+        lighting.note_further(ray, weight, surface.point, hit);
         return Rgb(0.0f);
-    }
+    };
+    return {lighting.options.multi_bounce.bounces, find};
+}
 
-  private:
-    const Lighting& lighting_;
-    const std::size_t ray_;
-};
-
-/// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
-/// straight through sheets of glass are direct light, which is computed elsewhere.
+/// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's.
 Rgb follow_lobes(const Lighting& lighting, std::size_t ray, const LitSurface& lit, const LobeShares& shares) {
     RandomStream& random = lighting.random;
     const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
     if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
-    PathState state;
-    state.left = {lighting.options.multi_bounce.bounces, lighting.options.depth};
-    state.turned = true;
-    state.emission = EmissionWeight::none;
-    state.media = lighting.context.around;
-    const FurtherOnPath further(lighting, ray);
-    if (further.is_known()) state.known = &further;
+    const MultiBounceLight& light = lighting.options.multi_bounce;
+    PathState state = start_indirect({light.bounces, lighting.options.depth}, lighting.context.around);
+    const KnownIrradiance further = make_further_on_path(lighting, ray);
+    if (light.bounces > 0 && (light.noted || light.cache != nullptr)) state.known = &further;
     return follow_sample(lighting.context, lighting.task, lit, sample, state, random);
 }
 

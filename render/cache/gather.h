@@ -15,7 +15,6 @@
 #include "render/cache/hemisphere_strata.h"
 #include "render/light/light_choice.h"
 #include "render/path/path.h"
-#include "render/surface/lambert_hit.h"
 
 namespace aleph {
 
@@ -131,24 +130,24 @@ struct FurtherLight {
     RandomKey key;  ///< of the place
 };
 
-/// A ray that was aimed at a bright surface.
-struct AimedRay {
-    int patch = no_index;
-    glm::vec3 normal{0.0f};  ///< of the patch
+/// What is kept of a gather beside its rays.
+struct GatherState {
+    HemisphereStrata strata;
+    std::vector<std::uint8_t> below;    ///< of every cell: no ray is cast, all directions are below the true surface
+    std::vector<FurtherLight> further;  ///< of MultiBounceLight::noted: light that the rays have not found
+    int aims = 0;                       ///< rays towards bright surfaces that were to be found (aimed_rays.h)
+    std::vector<BrightSampler::Aim> aimed;  ///< those that were: the last rays
 };
 
 /// Buffers that a thread reuses, so that only its first gathers allocate.
-struct GatherScratch {
-    HemisphereStrata strata;
+struct GatherScratch : GatherState {
     // One for every ray that is cast, in the order of visit_blocks.
     std::vector<Ray> rays;
     std::vector<Hit> hits;
     std::vector<RayPlace> places;
-    std::vector<Rgb> light;  ///< radiance that the ray finds
-    // One for every cell.
-    std::vector<std::uint8_t> below;    ///< no ray is cast: all directions are below the true surface
-    std::vector<FurtherLight> further;  ///< not in `light`; of MultiBounceLight::noted
-    std::vector<glm::vec3> normals;     ///< of the hits (Tracer::intersect)
+    std::vector<Rgb> light;          ///< radiance that the ray finds
+    std::vector<glm::vec3> normals;  ///< of the hits (Tracer::intersect)
+    std::vector<float> weights;      ///< by what rays met; set if some are aimed
     // One for every cell.
     std::vector<Rgb> radiance;     ///< black below the true surface
     std::vector<float> distances;  ///< m; infinite where nothing is met
@@ -160,28 +159,19 @@ struct GatherScratch {
     std::vector<float> sorted;
     std::vector<float> inverse_distances;
     std::vector<StrataRow> rows;
-    // Rays towards bright surfaces (aimed_rays.h).
-    int aims = 0;                 ///< that were to be found
-    std::vector<AimedRay> aimed;  ///< those that were: the last rays
-    std::vector<float> weights;   ///< of all rays, by what they met
 
     std::size_t rays_around() const { return rays.size() - aimed.size(); }
 };
 
 /// The part of a gather that add_up_rays needs, while its rays wait for light of further bounces.
-struct KeptRays {
+struct KeptRays : GatherState {
     struct KeptRay {
         glm::vec3 direction{0.0f};
         float distance = 0.0f;  ///< infinite: nothing is met
         int cell = 0;
         Rgb light{0.0f};
     };
-    HemisphereStrata strata;
     std::vector<KeptRay> rays;
-    std::vector<std::uint8_t> below;
-    std::vector<FurtherLight> further;
-    int aims = 0;                 ///< GatherScratch::aims
-    std::vector<AimedRay> aimed;  ///< the last rays
 };
 
 struct GatherOptions {
@@ -217,8 +207,8 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
 void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePlace& point,
                 const CellNumbers& numbers, GatherScratch& scratch);
 
-/// @param scratch  of a gather; loses its `further`
-KeptRays keep_rays(GatherScratch& scratch);
+/// @param scratch  of a gather
+KeptRays keep_rays(const GatherScratch& scratch);
 /// Sets what add_up_rays reads.
 void restore_rays(const KeptRays& kept, GatherScratch& scratch);
 

@@ -3,9 +3,7 @@
 
 #include <optional>
 
-#include "render/cache/gather.h"
 #include "render/cache/indirect_context.h"
-#include "render/cache/irradiance_cache.h"
 
 namespace aleph {
 

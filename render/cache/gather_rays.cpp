@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "render/settings/numbers.h"
 
@@ -103,9 +102,8 @@ void place_rays(const HemisphereStrata& strata, const Basis& basis, const Surfac
     scratch.normals.resize(count);
 }
 
-KeptRays keep_rays(GatherScratch& scratch) {
-    KeptRays kept{scratch.strata, {}, scratch.below, std::exchange(scratch.further, {}), scratch.aims, scratch.aimed};
-    kept.further.shrink_to_fit();
+KeptRays keep_rays(const GatherScratch& scratch) {
+    KeptRays kept{scratch, {}};
     kept.rays.reserve(scratch.rays.size());
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         const Hit& hit = scratch.hits[i];
@@ -116,10 +114,7 @@ KeptRays keep_rays(GatherScratch& scratch) {
 }
 
 void restore_rays(const KeptRays& kept, GatherScratch& scratch) {
-    scratch.strata = kept.strata;
-    scratch.below = kept.below;
-    scratch.aims = kept.aims;
-    scratch.aimed = kept.aimed;
+    static_cast<GatherState&>(scratch) = kept;
     scratch.rays.resize(kept.rays.size());
     scratch.hits.resize(kept.rays.size());
     scratch.places.resize(kept.rays.size());

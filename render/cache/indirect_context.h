@@ -4,16 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/color.h"
-#include "render/cache/direct_grid.h"
-#include "render/cache/gather.h"
 #include "render/cache/irradiance_cache.h"
-#include "render/light/bright_surfaces.h"
 #include "render/pixels/frame_checkpoint.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/pixels/shaded_frame.h"
 #include "render/settings/settings.h"
-#include "render/surface/ray_task.h"
 
 namespace aleph {
 

@@ -186,9 +186,8 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
 
 void IrradianceCache::finish(std::size_t kept) {
     std::vector<IrradianceRecord> smooth(records_.size());
-    parallel_for(records_.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) smooth[i] = i < kept ? records_[i] : smoothed(records_[i]);
-    });
+    parallel_each(records_.size(), 64,
+                  [&](std::size_t i) { smooth[i] = i < kept ? records_[i] : smoothed(records_[i]); });
     std::vector<IrradianceRecord> ordered;
     ordered.reserve(smooth.size());
     for (const int i : index_.ordered()) ordered.push_back(smooth[i]);
@@ -243,9 +242,8 @@ std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {
         const IrradianceRecord& record = records_[i];
         sum += extrapolate(record, query.position, query.normal) * weight;
         total += weight;
-        if (query.used != nullptr) {
-            query.used->add(weight, RecordReach{record.radius, record.spread()}.at(accuracy));
-        }
+        if (query.used != nullptr)
+            query.used->add({1.0f, weight, weight * RecordReach{record.radius, record.spread()}.at(accuracy)});
     });
     if (!(total > 0.0f)) return std::nullopt;
     return sum / total;

@@ -28,11 +28,6 @@ struct RecordUse {
     float weights = 0.0f;
     float reaches = 0.0f;  ///< m, by weight: how far they may be used at the query's accuracy (RecordReach)
 
-    void add(float weight, float reach) {
-        ++count;
-        weights += weight;
-        reaches += weight * reach;
-    }
     void add(const RecordUse& other) {
         count += other.count;
         weights += other.weights;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "render/cache/gather.h"
 #include "render/settings/numbers.h"
 
 namespace aleph {
@@ -77,16 +76,12 @@ class LightTransport {
     /// The last bounce, with the gradients of all.
     std::vector<IrradianceRecord> make_records() {
         std::vector<IrradianceRecord> records = cache_.records();
-        parallel_for(records.size(), 16, [&](std::size_t begin, std::size_t end) {
+        parallel_each(records.size(), 16, [&](std::size_t i) {
             thread_local GatherScratch scratch;
-            for (std::size_t i = begin; i < end; ++i) {
-                restore_rays(gathered_[i], scratch);
-                const float per_share = pi / static_cast<float>(scratch.strata.count());
-                for (const LinkedLight& light : places_[i].linked) {
-                    scratch.light[light.ray] += arrive(light) / per_share;
-                }
-                set_light(add_up_rays(scratch.strata, records[i].normal, scratch), records[i]);
-            }
+            restore_rays(gathered_[i], scratch);
+            const float per_share = pi / static_cast<float>(scratch.strata.count());
+            for (const LinkedLight& light : places_[i].linked) scratch.light[light.ray] += arrive(light) / per_share;
+            set_light(add_up_rays(scratch.strata, records[i].normal, scratch), records[i]);
         });
         return records;
     }
@@ -204,11 +199,9 @@ class LightTransport {
     /// Returns whether the light of the bounce matters.
     bool add_bounce() {
         std::vector<Rgb> next(places_.size());
-        parallel_for(places_.size(), 64, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                next[i] = places_[i].direct;
-                for (const LinkedLight& light : places_[i].linked) next[i] += arrive(light);
-            }
+        parallel_each(places_.size(), 64, [&](std::size_t i) {
+            next[i] = places_[i].direct;
+            for (const LinkedLight& light : places_[i].linked) next[i] += arrive(light);
         });
         next.swap(irradiance_);
         return !std::ranges::equal(next, irradiance_, [](const Rgb& before, const Rgb& after) {

@@ -22,14 +22,6 @@ double scale_add_accuracy(double accuracy, double aleph, double k) {
 
 namespace {
 
-double adapt(double aleph, const RenderSettings& settings) {
-    const double accuracy = settings.cache.accuracy;
-    if (settings.guide.adapter == Adapter::compress) return compress_accuracy(accuracy, aleph);
-    if (settings.guide.adapter == Adapter::scale_add)
-        return scale_add_accuracy(accuracy, aleph, settings.guide.adapter_k);
-    return accuracy;
-}
-
 Image<float> adapt_by_own(const Image<float>& aleph, const RenderSettings& settings) {
     const auto accuracy = static_cast<float>(settings.cache.accuracy);
     Image<float> alpha = settings.guide.own_adapter->adapt(aleph, settings.cache.accuracy);
@@ -42,11 +34,16 @@ Image<float> adapt_by_own(const Image<float>& aleph, const RenderSettings& setti
 }  // namespace
 
 Image<float> compute_accuracy_map(const Image<float>& aleph, const RenderSettings& settings) {
-    Image<float> alpha(aleph.width, aleph.height, static_cast<float>(settings.cache.accuracy));
+    const double accuracy = settings.cache.accuracy;
+    Image<float> alpha(aleph.width, aleph.height, static_cast<float>(accuracy));
     if (settings.perception.guide == Guide::none) return alpha;
     if (settings.guide.own_adapter != nullptr) return adapt_by_own(aleph, settings);
+    if (settings.guide.adapter == Adapter::none) return alpha;
     for (std::size_t i = 0; i < alpha.size(); ++i)
-        alpha.pixels[i] = static_cast<float>(adapt(aleph.pixels[i], settings));
+        alpha.pixels[i] =
+            static_cast<float>(settings.guide.adapter == Adapter::compress
+                                   ? compress_accuracy(accuracy, aleph.pixels[i])
+                                   : scale_add_accuracy(accuracy, aleph.pixels[i], settings.guide.adapter_k));
     return alpha;
 }
 

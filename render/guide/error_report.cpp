@@ -5,7 +5,6 @@
 
 #include "engine/base/pixel_loops.h"
 #include "render/guide/accuracy_map.h"
-#include "render/guide/stopping_rule.h"
 
 namespace aleph {
 
@@ -18,13 +17,12 @@ struct SquaredErrors {
 };
 
 /// Returns the squared errors of a pixel's mean, from the pixel and those around it that are like it (estimate_mean).
-SquaredErrors estimate_sampling(const ErrorInput& input, int x, int y) {
-    const Image<PixelSamples>& pixels = input.pixels;
+SquaredErrors estimate_sampling(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
     SquaredErrors sum;
     int count = 0;
     visit_around(pixels, x, y, 1, [&](int nx, int ny) {
         const PixelSamples::Error& error = pixels(nx, ny).error();
-        if (error.samples == 0 || !are_alike(input.outlines, x, y, nx, ny)) return;
+        if (error.samples == 0 || !are_alike(outlines, x, y, nx, ny)) return;
         ++count;
         sum.total += static_cast<double>(error.total) * error.samples;
         for (std::size_t i = 0; i < sum.parts.size(); ++i) {
@@ -39,14 +37,12 @@ SquaredErrors estimate_sampling(const ErrorInput& input, int x, int y) {
 
 using CauseErrors = std::array<double, cause_count>;
 
-/// Squared errors by cause.
-CauseErrors find_causes(const ErrorInput& input, int x, int y) {
-    const PixelSamples& pixel = input.pixels(x, y);
-    if (is_shown_white(pixel, input.white)) return {};
-    const SquaredErrors sampled = estimate_sampling(input, x, y);
+/// Squared errors by cause, of a pixel that is not shown white.
+/// @param accuracy  alpha
+CauseErrors find_causes(const PixelSamples& pixel, const SquaredErrors& sampled, float accuracy, bool blurred) {
     CauseErrors errors{};
     const auto error = [&errors](ErrorCause cause) -> double& { return errors[static_cast<std::size_t>(cause)]; };
-    double& of_surfaces = error(input.blurred ? ErrorCause::blur : ErrorCause::edges);
+    double& of_surfaces = error(blurred ? ErrorCause::blur : ErrorCause::edges);
     if (pixel.has_edge()) {
         of_surfaces = sampled.total;
     } else {
@@ -54,8 +50,7 @@ CauseErrors find_causes(const ErrorInput& input, int x, int y) {
         error(ErrorCause::direct) = sampled.parts[static_cast<std::size_t>(LightPart::direct)];
         error(ErrorCause::gloss) = sampled.parts[static_cast<std::size_t>(LightPart::gloss)];
     }
-    const double indirect =
-        error_per_accuracy * input.accuracy(x, y) * static_cast<double>(luminance(pixel.mean_indirect()));
+    const double indirect = error_per_accuracy * accuracy * static_cast<double>(luminance(pixel.mean_indirect()));
     error(ErrorCause::indirect) = indirect * indirect;
     return errors;
 }
@@ -74,18 +69,23 @@ const std::array<std::string, cause_count>& cause_names() {
     return names;
 }
 
-ErrorMaps estimate_errors(const ErrorInput& input) {
+ErrorMaps estimate_errors(const Image<PixelSamples>& pixels, const VisibleLimits& limits, double exposure,
+                          bool blurred) {
+    const double white = 1.0 / exposure;                                     // radiance that is shown as white
+    const double luminance_scale = exposure * limits.viewing.display_white;  // cd/m2 for a luminance of 1 of samples
     ErrorMaps maps;
-    maps.reach = input.reach;
-    maps.total = Image<float>(input.pixels.width, input.pixels.height);
+    maps.reach = find_seen_reach(limits.viewing.pixels_per_degree);
+    maps.total = Image<float>(pixels.width, pixels.height);
     maps.by_cause.fill(maps.total);
     parallel_pixels(maps.total, 4, [&](int x, int y) {
-        const CauseErrors errors = find_causes(input, x, y);
+        if (is_shown_white(pixels(x, y), white)) return;
+        const CauseErrors errors =
+            find_causes(pixels(x, y), estimate_sampling(pixels, limits.outlines, x, y), limits.accuracy(x, y), blurred);
         double total = 0.0;
         for (std::size_t i = 0; i < errors.size(); ++i) {
             const bool cached = i == static_cast<std::size_t>(ErrorCause::indirect);
-            const double limit = cached ? input.threshold(x, y) : input.noise(x, y);
-            const double units = limit > 0.0 ? std::sqrt(errors[i]) * input.luminance_scale / limit : 0.0;
+            const double limit = cached ? limits.threshold(x, y) : limits.noise(x, y);
+            const double units = limit > 0.0 ? std::sqrt(errors[i]) * luminance_scale / limit : 0.0;
             total += units * units;
             maps.by_cause[i](x, y) = static_cast<float>(units);
         }

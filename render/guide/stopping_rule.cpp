@@ -27,29 +27,20 @@ struct NoiseSum {
     }
 };
 
-template <class Counts>
-NoiseSum sum_around(const Image<PixelSamples>& pixels, const Image<std::uint8_t>& silent, int x, int y,
-                    const Counts& counts) {
+NoiseSum sum_around(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
+                    const Image<std::uint8_t>& silent, int x, int y) {
     NoiseSum sum;
     visit_around(pixels, x, y, 2, [&](int nx, int ny) {
-        const bool tells = (nx != x || ny != y) && counts(nx, ny) && (silent.empty() || silent(nx, ny) == 0);
+        const bool tells =
+            (nx != x || ny != y) && are_alike(outlines, x, y, nx, ny) && (silent.empty() || silent(nx, ny) == 0);
         if (tells) sum.add(pixels(nx, ny));
     });
     return sum;
 }
 
-struct Sum {
-    double value = 0.0;
-    int count = 0;
-
-    void add(const Sum& other, int sign = 1) {
-        value += sign * other.value;
-        count += sign * other.count;
-    }
-};
-
-Sum known(float value) {
-    return value >= 0.0f ? Sum{static_cast<double>(value), 1} : Sum{};
+/// A value as a sum, and how many it is of: 0 if it is not known.
+glm::dvec2 count_known(float value) {
+    return value >= 0.0f ? glm::dvec2(value, 1.0) : glm::dvec2(0.0);
 }
 
 }  // namespace
@@ -63,9 +54,8 @@ bool is_shown_white(const PixelSamples& pixel, double white) {
 
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
                            const Image<std::uint8_t>& silent, int x, int y) {
-    const auto alike = [&](int nx, int ny) { return are_alike(outlines, x, y, nx, ny); };
-    NoiseSum sum = sum_around(pixels, silent, x, y, alike);
-    if (sum.count == 0) sum = sum_around(pixels, silent, x, y, [](int, int) { return true; });
+    NoiseSum sum = sum_around(pixels, outlines, silent, x, y);
+    if (sum.count == 0) sum = sum_around(pixels, {}, silent, x, y);
     if (pixels.size() == 1) sum.add(pixels(x, y));
     MeanEstimate estimate{pixels(x, y).taken()};
     if (sum.count == 0) return estimate;
@@ -86,10 +76,7 @@ Image<float> deviations_around(const Image<PixelSamples>& pixels, const Image<st
 }
 
 MeanEstimate estimate_own_mean(const PixelSamples& pixel) {
-    MeanEstimate estimate{pixel.taken()};
-    estimate.error2 = static_cast<double>(pixel.error().total);
-    estimate.variance = pixel.sample_variance();
-    return estimate;
+    return {pixel.taken(), static_cast<double>(pixel.error().total), pixel.sample_variance()};
 }
 
 bool is_enough(Sampling rule, Stopping stopping, const MeanEstimate& mean, double tolerance) {
@@ -129,18 +116,18 @@ int find_seen_reach(double pixels_per_degree) {
 
 Image<float> mean_around(const Image<float>& values, int reach, bool with_own) {
     const int width = values.width, height = values.height;
-    Image<Sum> rows(width, height);
+    Image<glm::dvec2> rows(width, height, glm::dvec2(0.0));  // sums, and numbers of values
     Image<float> means(width, height);
     parallel_pixels(values, 8, [&](int x, int y) {
         for (int nx = std::max(0, x - reach); nx <= std::min(width - 1, x + reach); ++nx)
-            rows(x, y).add(known(values(nx, y)));
+            rows(x, y) += count_known(values(nx, y));
     });
     parallel_pixels(values, 8, [&](int x, int y) {
-        Sum sum;
-        for (int ny = std::max(0, y - reach); ny <= std::min(height - 1, y + reach); ++ny) sum.add(rows(x, ny));
-        const Sum own = known(values(x, y));
-        if (!with_own && sum.count > own.count) sum.add(own, -1);
-        means(x, y) = sum.count > 0 ? static_cast<float>(std::max(0.0, sum.value) / sum.count) : -1.0f;
+        glm::dvec2 sum(0.0);
+        for (int ny = std::max(0, y - reach); ny <= std::min(height - 1, y + reach); ++ny) sum += rows(x, ny);
+        const glm::dvec2 own = count_known(values(x, y));
+        if (!with_own && sum.y > own.y) sum -= own;
+        means(x, y) = sum.y > 0.0 ? static_cast<float>(std::max(0.0, sum.x) / sum.y) : -1.0f;
     });
     return means;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/image.h"
+#include "engine/base/viewing.h"
 #include "render/pixels/outlines.h"
 #include "render/pixels/pixel_samples.h"
 #include "render/settings/settings.h"
@@ -19,6 +20,17 @@ inline constexpr double error_deviations = 1.585;
 /// of single pixels that goes unseen (NoiseVisibility); 0 or more. Up to 1 in proportion to it, above as its power of
 /// .8: the share of the pixels in which noise is seen rises more steeply than the noise.
 double allow_noise(double error);
+
+/// Errors that a viewer tolerates in a frame. Images have the frame's size.
+struct VisibleLimits {
+    const Image<float>& threshold;  ///< cd/m2 (6.9)
+    const Image<float>& noise;      ///< cd/m2 (NoiseVisibility)
+    const Image<float>& aleph;      ///< elevation of the threshold
+    const Image<float>& accuracy;   ///< alpha, of cached light
+    const Image<Outline>& outlines;
+    const Image<float>& swing;  ///< blur_frame_estimate; empty: the shutter is closed
+    ViewingConditions viewing;
+};
 
 /// The mean of a pixel's samples, as its neighbours or its own samples tell it. Where own samples decide, the picture
 /// is biased (Kirk and Arvo 1991; README.md).

@@ -155,13 +155,10 @@ bool faces(const LitSide& side, const Receiver& place) {
 std::vector<LitSide> find_bright_sides(const LightingContext& context, std::span<const Receiver> places,
                                        std::size_t light_rays, RayCounts& counts) {
     SceneBounds box;
-    for (const Receiver& place : places) {
-        box.low = glm::min(box.low, place.position);
-        box.high = glm::max(box.high, place.position);
-    }
+    for (const Receiver& place : places) box.add(place.position);
     const glm::vec3 size = box.high - box.low;
     const double faces_of_box = 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x);  // m2
-    const LightTarget target{0.5f * (box.low + box.high), 0.5f * room_behind * glm::length(size)};
+    const BoundingSphere target{0.5f * (box.low + box.high), 0.5f * room_behind * glm::length(size)};
     std::vector<LitSide> sides = add_up(context.shading, cast_light_rays(context, target, light_rays, counts));
     std::erase_if(sides, [&](const LitSide& side) {
         return std::ranges::none_of(places, [&](const Receiver& place) { return faces(side, place); });

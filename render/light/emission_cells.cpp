@@ -151,10 +151,6 @@ std::shared_ptr<const CellTexels> find_texels(const ShadingScene& shading, const
     return kept.emplace_back(std::make_shared<const CellTexels>(std::move(cells)));
 }
 
-double area_of(const Emitter::Triangle& t) {
-    return 0.5 * glm::length(glm::dvec3(glm::cross(t.edge1, t.edge2)));
-}
-
 /// Of all cells of a lamp.
 struct Emission {
     double power = 0.0;    ///< integral of luminance over the area

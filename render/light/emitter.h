@@ -71,6 +71,8 @@ struct Emitter {
 
 /// A triangle of an instance on the side of its winding. The normal is not finite if the triangle has no area.
 Emitter::Triangle place_triangle(const PosedInstance& instance, int primitive);
+/// m2.
+double area_of(const Emitter::Triangle& triangle);
 /// Sets centre and radius of the sphere around all triangles.
 void set_sphere(Emitter& emitter);
 

@@ -23,10 +23,17 @@ Ray move_origin(const Ray& ray, const glm::vec3& origin) {
     return moved;
 }
 
-/// Where no light is picked: nothing, or a value that is not finite, which is not hidden: the sample is dropped and
-/// counted.
-ScatteredLight without_light(const LightCut& cut) {
-    return {{}, Rgb(std::isfinite(cut.total) ? 0.0f : cut.total)};
+/// Samples one light.
+/// @param scatter  gives the light that is scattered of a sample of this probability
+template <class Scatter>
+ScatteredLight sample_one_light(const LightingContext& context, const Receiver& receiver, const LightNumbers& numbers,
+                                const Scatter& scatter) {
+    const LightCut cut = find_light_cut(context.lights, receiver);
+    const LightPick pick = pick_light(cut, receiver, numbers.choice);
+    // A value that is not finite is not hidden: the sample is dropped and counted.
+    if (pick.light == no_index) return {{}, Rgb(std::isfinite(cut.total) ? 0.0f : cut.total)};
+    return scatter(sample_light(context.shading, context.lights, pick.light, receiver, numbers.point),
+                   pick.probability);
 }
 
 }  // namespace
@@ -40,28 +47,26 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             const LightNumbers& numbers) {
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()};
-    const LightCut cut = find_light_cut(context.lights, receiver);
-    const LightPick pick = pick_light(cut, receiver, numbers.choice);
-    if (pick.light == no_index) return without_light(cut);
-    const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
-    if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
-    return {make_shadow_ray(lit, sample),
-            scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / pick.probability,
-            context.shading.needs_shadow_ray(sample.pdf)};
+    const auto scatter = [&](const LightSample& sample, float probability) -> ScatteredLight {
+        if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
+        return {make_shadow_ray(lit, sample),
+                scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / probability,
+                context.shading.needs_shadow_ray(sample.pdf)};
+    };
+    return sample_one_light(context, receiver, numbers, scatter);
 }
 
 ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
                                     const LightNumbers& numbers) {
     const Receiver receiver{place.ray_origin(), place.normal};
-    const LightCut cut = find_light_cut(context.lights, receiver);
-    const LightPick pick = pick_light(cut, receiver, numbers.choice);
-    if (pick.light == no_index) return without_light(cut);
-    const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
-    const float cosine = glm::dot(place.normal, sample.direction);
-    if (!(cosine > 0.0f && glm::dot(place.geometric, sample.direction) > 0.0f)) return {};
-    return {{receiver.position, sample.direction, 0.0f, sample.distance},
-            sample.incoming * (cosine / (std::numbers::pi_v<float> * pick.probability)),
-            context.shading.needs_shadow_ray(sample.pdf)};
+    const auto scatter = [&](const LightSample& sample, float probability) -> ScatteredLight {
+        const float cosine = glm::dot(place.normal, sample.direction);
+        if (!(cosine > 0.0f && glm::dot(place.geometric, sample.direction) > 0.0f)) return {};
+        return {{receiver.position, sample.direction, 0.0f, sample.distance},
+                sample.incoming * (cosine / (std::numbers::pi_v<float> * probability)),
+                context.shading.needs_shadow_ray(sample.pdf)};
+    };
+    return sample_one_light(context, receiver, numbers, scatter);
 }
 
 Rgb transmit_to_light(const Media& around, const LitSurface& lit, const Ray& shadow_ray) {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "render/light/lights.h"
-
 namespace aleph {
 
 namespace {

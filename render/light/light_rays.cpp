@@ -26,7 +26,7 @@ double find_solid_angle(const PunctualLight& light) {
 }
 
 /// lm, of each light; of light from afar, what crosses the target.
-std::vector<double> find_powers(const LightingContext& context, const LightTarget& target) {
+std::vector<double> find_powers(const LightingContext& context, const BoundingSphere& target) {
     const LightSet& lights = context.lights;
     const double disc = std::numbers::pi * target.radius * target.radius;
     std::vector<double> powers;
@@ -70,7 +70,7 @@ Ray leave_punctual(const PunctualLight& light, RandomStream& random) {
 
 /// A ray that crosses the target.
 /// @param direction  unit, of light
-Ray enter_target(const ShadingScene& shading, const LightTarget& target, const glm::vec3& direction,
+Ray enter_target(const ShadingScene& shading, const BoundingSphere& target, const glm::vec3& direction,
                  RandomStream& random) {
     const glm::vec2 disc = target.radius * glm::vec2(sample_cosine_hemisphere(random.next_2d()));
     const glm::vec3 across = make_basis(direction).to_world({disc, 0.0f});
@@ -108,7 +108,7 @@ struct LightRay {
     double count = 0.0;  ///< of rays that the light has
 };
 
-LitPlace cast_light_ray(const LightingContext& context, const LightTarget& target, RayTask& task,
+LitPlace cast_light_ray(const LightingContext& context, const BoundingSphere& target, RayTask& task,
                         const LightRay& light_ray, RandomStream& random) {
     const LightSet& lights = context.lights;
     const int light = light_ray.light;
@@ -151,7 +151,7 @@ LitPlace cast_light_ray(const LightingContext& context, const LightTarget& targe
 
 }  // namespace
 
-std::vector<LitPlace> cast_light_rays(const LightingContext& context, const LightTarget& target, std::size_t count,
+std::vector<LitPlace> cast_light_rays(const LightingContext& context, const BoundingSphere& target, std::size_t count,
                                       RayCounts& counts) {
     const std::vector<double> powers = find_powers(context, target);
     const double total = std::accumulate(powers.begin(), powers.end(), 0.0);

@@ -16,18 +16,13 @@ struct LitPlace {
     double reflected = 0.0;       ///< lm, of the light that the ray stands for
 };
 
-/// Where light from afar is looked for.
-struct LightTarget {
-    glm::vec3 center{0.0f};  ///< m, of a sphere
-    float radius = 0.0f;     ///< m
-};
-
 /// Casts light rays from all lights: half of them in proportion to power; of the other half as many from each, for what
 /// stands beside a small one. Those of directional light and of the environment cross the target. Smooth sheets of
 /// glass let them pass.
 /// @return  for each ray; nothing if it is dark
+/// @param target  where light from afar is looked for
 /// @param counts  increased, rays as RayCounts::gather
-std::vector<LitPlace> cast_light_rays(const LightingContext& context, const LightTarget& target, std::size_t count,
+std::vector<LitPlace> cast_light_rays(const LightingContext& context, const BoundingSphere& target, std::size_t count,
                                       RayCounts& counts);
 
 }  // namespace aleph

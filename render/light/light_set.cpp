@@ -69,17 +69,14 @@ Emitter make_emitter(const ShadingScene& shading, int index, std::size_t cells, 
     const Mesh& mesh = *instance.mesh;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const Emitter::Triangle triangle = place_triangle(instance, static_cast<int>(i));
-        const double twice_area = glm::length(glm::dvec3(glm::cross(triangle.edge1, triangle.edge2)));
-        if (!(twice_area > 0.0) || !std::isfinite(triangle.normal.x)) continue;
-        emitter.triangles.push_back(triangle);
+        if (area_of(triangle) > 0.0 && std::isfinite(triangle.normal.x)) emitter.triangles.push_back(triangle);
     }
     const bool has_sides = !emitter.double_sided && emitter.triangles.size() > max_spherical_triangles;
     if (has_sides) std::ranges::stable_sort(emitter.triangles, {}, find_side);
     std::vector<double> cumulative;
     double area = 0.0;
     for (const Emitter::Triangle& triangle : emitter.triangles) {
-        area += 0.5 * glm::length(glm::dvec3(glm::cross(triangle.edge1, triangle.edge2)));
-        cumulative.push_back(area);
+        cumulative.push_back(area += area_of(triangle));
     }
     emitter.area = static_cast<float>(area);
     set_sphere(emitter);
@@ -113,6 +110,10 @@ Emitter::Triangle place_triangle(const PosedInstance& instance, int primitive) {
     const glm::vec3 normal = instance.normals * glm::cross(e1, e2);
     return {instance.linear * p0 + instance.translation, instance.linear * e1, instance.linear * e2,
             normal / glm::length(normal), primitive};
+}
+
+double area_of(const Emitter::Triangle& triangle) {
+    return 0.5 * glm::length(glm::dvec3(glm::cross(triangle.edge1, triangle.edge2)));
 }
 
 void set_sphere(Emitter& emitter) {
@@ -152,11 +153,10 @@ LightSet make_light_set(const ShadingScene& shading, KeptTexels kept) {
 }
 
 void remove_all_lights(LightSet& lights) {
-    const std::size_t instances = lights.emitter_of_instance.size();
-    KeptTexels kept = std::move(lights.kept);
-    lights = {};
-    lights.kept = std::move(kept);
-    lights.emitter_of_instance.assign(instances, no_index);
+    LightSet none;
+    none.emitter_of_instance.assign(lights.emitter_of_instance.size(), no_index);
+    none.kept = std::move(lights.kept);
+    lights = std::move(none);
 }
 
 void remove_lights(const ShadingScene& shading, const std::vector<int>& instances, const std::vector<int>& punctual,

@@ -95,9 +95,9 @@ void set_node(LightGroup& group, std::size_t i, const LightNode& node) {
     group.radius[i] = node.radius;
     group.nearby[i] = node.nearby ? 1.0f : 0.0f;
     group.directed[i] = node.directed ? 1.0f : 0.0f;
-    group.cone.axis.set(i, node.axis);
-    group.cone.cosine[i] = node.cos_cone;
-    group.cone.sine[i] = std::sqrt(std::max(0.0f, 1.0f - node.cos_cone * node.cos_cone));
+    group.axis.set(i, node.axis);
+    group.cos_cone[i] = node.cos_cone;
+    group.sin_cone[i] = std::sqrt(std::max(0.0f, 1.0f - node.cos_cone * node.cos_cone));
     group.cos_emission[i] = node.cos_emission;
     group.by_cosine[i] = node.by_cosine ? 1.0f : 0.0f;
     group.strength[i] = node.strength;

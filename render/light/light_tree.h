@@ -54,13 +54,10 @@ struct LightGroup {
         Values x{}, y{}, z{};
         void set(std::size_t i, const glm::vec3& v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
     };
-    struct Cones {
-        Vectors axis{};
-        Values cosine{}, sine{};
-    };
     Vectors center{};
     Values radius{}, nearby{}, directed{};
-    Cones cone{};
+    Vectors axis{};
+    Values cos_cone{}, sin_cone{};
     Values cos_emission{}, by_cosine{};
     Values strength{}, most{};
     std::array<int, size> children{};  ///< see LightTree

@@ -88,10 +88,9 @@ LightReaches reach_of(const LightGroup& group, const Receiver& receiver) {
         const float at_surface = (x * facing.x + y * facing.y + z * facing.z) * inverse;
         const float arriving = with_margin(subtract({at_surface, sine_of(at_surface)}, size).cosine);
         // And the cosine at the lights, of those that face the surface most.
-        const float from_axis =
-            -(x * group.cone.axis.x[i] + y * group.cone.axis.y[i] + z * group.cone.axis.z[i]) * inverse;
+        const float from_axis = -(x * group.axis.x[i] + y * group.axis.y[i] + z * group.axis.z[i]) * inverse;
         const Angle at_light = subtract({from_axis, sine_of(from_axis)}, size);
-        const float outside = subtract(at_light, {group.cone.cosine[i], group.cone.sine[i]}).cosine;
+        const float outside = subtract(at_light, {group.cos_cone[i], group.sin_cone[i]}).cosine;
         const float falloff = group.by_cosine[i] > 0.0f ? with_margin(outside) : 1.0f;
         const float leaving = outside < group.cos_emission[i] - margin ? 0.0f : falloff;
         const float outside_share = (behind > 0.0f ? 1.0f : arriving) * (group.directed[i] > 0.0f ? leaving : 1.0f);

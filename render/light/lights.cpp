@@ -1,11 +1,8 @@
 #include "render/light/lights.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <span>
 
 #include "engine/base/sampling.h"
 #include "render/surface/environment_map.h"
@@ -41,8 +38,6 @@ float largest_coordinate(const glm::vec3& p) {
 /// Stands for the cosine at lights without area: they may lie in a surface, such as a ceiling.
 constexpr float any_cosine = 0.5f;
 
-constexpr float before_end = 0x1.fffffep-1f;
-
 FacingSides find_facing_sides(const Emitter& emitter, const glm::vec3& position) {
     FacingSides facing;
     if (emitter.sides.empty()) return facing;
@@ -65,7 +60,7 @@ float place_in_sides(const Emitter& emitter, const FacingSides& facing, float u)
     for (std::size_t i = 0; i < emitter.sides.size(); ++i) {
         if ((facing.which >> i & 1u) == 0) continue;
         const Emitter::Side& side = emitter.sides[i];
-        place = std::min(side.begin + left, before_end * side.end);  // the last one, if rounding leaves something
+        place = std::min(side.begin + left, 0x1.fffffep-1f * side.end);  // the last one, if rounding leaves something
         left -= side.end - side.begin;
         if (left < 0.0f) break;
     }
@@ -273,12 +268,11 @@ float pdf_environment(const ShadingScene& shading, const Receiver& receiver, con
     return pdf_cosine_hemisphere(glm::dot(receiver.normal, direction));
 }
 
-float pdf_emitter(const Emitter& emitter, const glm::vec3& position, const MetEmitter& met) {
-    if (!(met.cosine > 0.0f)) return 0.0f;
+float pdf_emitter(const Emitter& emitter, const glm::vec3& position, const Hit& hit, float cosine, float distance) {
+    if (!(cosine > 0.0f)) return 0.0f;
     const SeenLight seen = see_emitter(emitter, no_index, position);
     if (!(seen.facing.share > 0.0f)) return 0.0f;
-    return pdf_place(emitter, seen, spread_of(emitter, met.hit.primitive, {met.hit.u, met.hit.v}), met.cosine,
-                     met.distance);
+    return pdf_place(emitter, seen, spread_of(emitter, hit.primitive, {hit.u, hit.v}), cosine, distance);
 }
 
 SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position) {

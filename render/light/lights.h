@@ -85,18 +85,14 @@ float pdf_environment(const ShadingScene& shading, const Receiver& receiver, con
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
                          const glm::vec2& u, float share = 0.0f);
 
-/// A point of an emitter, as a ray from a receiver meets it.
-struct MetEmitter {
-    const Hit& hit;
-    float cosine = 0.0f;    ///< of its normal with the ray
-    float distance = 0.0f;  ///< m, from the receiver
-};
-
 /// Density per solid angle of sample_light. Emitters of few triangles are sampled by solid angle if they are near, all
 /// others by area, of those sides that may face the receiver; those with cells by these, and near ones half by solid
 /// angle.
 /// @param position  of the receiver
-float pdf_emitter(const Emitter& emitter, const glm::vec3& position, const MetEmitter& met);
+/// @param hit       of the emitter
+/// @param cosine    of its normal there with the ray from the receiver
+/// @param distance  m, from the receiver
+float pdf_emitter(const Emitter& emitter, const glm::vec3& position, const Hit& hit, float cosine, float distance);
 
 /// Solid angle of a triangle with corners at these offsets from the eye, sr (Van Oosterom and Strackee 1983). Accurate
 /// for small triangles; 0 if the triangle is seen edge-on or a corner lies at the eye.
@@ -135,23 +131,6 @@ SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position
 /// sample_light of a light that this receiver sees.
 LightSample sample_seen_light(const ShadingScene& shading, const LightSet& lights, const SeenLight& seen,
                               const Receiver& receiver, const glm::vec2& u, float share = 0.0f);
-
-/// The lights that one receiver has seen last.
-class SeenLights {
-  public:
-    SeenLights(const LightSet& lights, const Receiver& receiver) : lights_(lights), position_(receiver.position) {}
-
-    const SeenLight& at(int light) {
-        SeenLight& place = seen_[static_cast<std::size_t>(light) % seen_.size()];
-        if (place.light != light) place = see_light(lights_, light, position_);
-        return place;
-    }
-
-  private:
-    const LightSet& lights_;
-    glm::vec3 position_;
-    std::array<SeenLight, 16> seen_;
-};
 
 /// LightSet::bounds.
 LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights);

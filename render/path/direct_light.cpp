@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/light/light_cut.h"
-#include "render/light/lights.h"
 
 namespace aleph {
 
@@ -46,8 +45,7 @@ class ChosenLights {
           lit_(lit),
           shares_(shares),
           receiver_{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()},
-          cut_(find_light_cut(context.lights, receiver_, context.seen)),
-          seen_(context.lights, receiver_) {}
+          cut_(find_light_cut(context.lights, receiver_, context.seen)) {}
 
     /// Light of one sample of `count`.
     /// @param u            x chooses the light; what that leaves of it, and y, are the point on it
@@ -55,8 +53,10 @@ class ChosenLights {
     Rgb sample(RayTask& task, const glm::vec2& u, int count, float light_share) {
         const LightPick pick = pick_light(cut_, receiver_, u.x);
         if (pick.light == no_index) return Rgb(0.0f);
-        const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen_.at(pick.light), receiver_,
-                                                     {pick.rest, u.y}, light_share);
+        SeenLight& seen = seen_[static_cast<std::size_t>(pick.light) % seen_.size()];
+        if (seen.light != pick.light) seen = see_light(context_.lights, pick.light, receiver_.position);
+        const LightSample sample =
+            sample_seen_light(context_.shading, context_.lights, seen, receiver_, {pick.rest, u.y}, light_share);
         if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return Rgb(0.0f);
         return find_unblocked(context_, task, lit_, sample,
                               scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
@@ -71,7 +71,7 @@ class ChosenLights {
     const LobeShares& shares_;
     Receiver receiver_;
     LightCut cut_;
-    SeenLights seen_;
+    std::array<SeenLight, 16> seen_;  ///< lights that were chosen last
 };
 
 /// The quick estimate of more than LightCut::few lights: samples of lights that are chosen, as many as the few would

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "render/pixels/pixel_sequence.h"
-
 namespace aleph {
 
 namespace {
@@ -18,10 +16,6 @@ constexpr float narrow_lobe = 0.05f;
 /// Known irradiance may err by more than the pixel's accuracy where the path has little weight, and where a wide lobe
 /// averages over many places, but by no more than this.
 constexpr float loosest_accuracy = 0.5f;
-
-void count_ray(RayCounts& counts, const ScatterSample& sample) {
-    ++(sample.lobe == Lobe::diffuse ? counts.path : sample.pdf > 0.0f ? counts.glossy : counts.specular);
-}
 
 /// Weight of light that was met, against the density with which the light would have been sampled.
 float weigh(const PathState& state, float light_pdf) {
@@ -60,9 +54,9 @@ Rgb met_emission(const LightingContext& context, const PathState& state, const V
     if (emitter == no_index) return state.emission == EmissionWeight::full ? emission : Rgb(0.0f);  // unlit
     float light_pdf = 0.0f;
     if (state.emission == EmissionWeight::weighted) {
-        light_pdf = pdf_emitter(context.lights.emitters[emitter], state.from.position,
-                                {hit, std::abs(glm::dot(surface.point.geometric, surface.view)),
-                                 glm::distance(surface.point.position, state.from.position)});
+        light_pdf = pdf_emitter(context.lights.emitters[emitter], state.from.position, hit,
+                                std::abs(glm::dot(surface.point.geometric, surface.view)),
+                                glm::distance(surface.point.position, state.from.position));
     }
     return emission * weigh(state, light_pdf);
 }
@@ -110,7 +104,8 @@ class Path {
         }
         if (sample.passes && lit.material.glass.volume) state_.media.pass(lit.point, lit.material);
         const Ray ray{lit.ray_origin(sample.direction), sample.direction};
-        count_ray(task_.counts, sample);
+        RayCounts& counts = task_.counts;
+        ++(sample.lobe == Lobe::diffuse ? counts.path : sample.pdf > 0.0f ? counts.glossy : counts.specular);
         return meet(ray, next);
     }
 

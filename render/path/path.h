@@ -2,6 +2,7 @@
 // Light along paths: what reaches a surface point by any number of scattering events, without bias. Path tracing with
 // next-event estimation (Kajiya 1986) and multiple importance sampling (Veach 1997), ended by Russian roulette.
 
+#include <functional>
 #include <optional>
 
 #include "render/light/bright_surfaces.h"
@@ -13,17 +14,13 @@ namespace aleph {
 /// Indirect irradiance that is known at surfaces which paths meet. There a path takes it in place of a random ray from
 /// the Lambert layer, and goes on by the other lobes alone.
 struct KnownIrradiance {
-    /// @param held  bounces of the light that is known (PathLimits::bounces)
-    explicit KnownIrradiance(int held) : bounces(held) {}
-    virtual ~KnownIrradiance() = default;
-
+    int bounces = 0;  ///< of the light that is known (PathLimits::bounces)
     /// Irradiance at a surface; nothing where it is not known to this accuracy. Called from any thread.
     /// @param accuracy  alpha: the relative error that is allowed
     /// @param weight    radiance that the path brings of a unit of it
-    virtual std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
-                                    RayTask& task) const = 0;
-
-    const int bounces;
+    std::function<std::optional<Rgb>(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
+                                     RayTask& task)>
+        find{};
     const KnownIrradiance* fewer = nullptr;  ///< light of fewer bounces; null: none is known
 };
 
@@ -46,11 +43,11 @@ struct PathState {
     Rgb throughput{1.0f};
     EmissionWeight emission = EmissionWeight::full;
     float pdf = 0.0f;        ///< density of the last turn, per steradian, if `weighted`
-    Receiver from;           ///< where it turned
+    Receiver from{};         ///< where it turned
     int roulette_after = 4;  ///< surfaces that scatter before Russian roulette may end the path
     float survival = 1.0f;   ///< chance to survive it, times the path's weight; at most 1
     bool turned = false;     ///< at a Lambert layer
-    Media media;
+    Media media{};
     /// Used at surfaces that the path meets while the bounces that are left are those that it holds; null: nothing is
     /// known, and all light is found without bias.
     const KnownIrradiance* known = nullptr;
@@ -61,6 +58,12 @@ struct PathState {
     const BrightSampler* bright = nullptr;  ///< weighs what the next ray meets; null: by 1
     int patch = no_index;                   ///< that this ray is aimed at
 };
+
+/// A path of indirect light, after a turn at a Lambert layer: lamps that its ray meets straight away are direct light,
+/// which is computed elsewhere.
+inline PathState start_indirect(const PathLimits& left, const Media& media) {
+    return {.left = left, .emission = EmissionWeight::none, .turned = true, .media = media};
+}
 
 /// Light that the surface scatters towards its viewer, without its own emission.
 Rgb scatter_light(const LightingContext& context, RayTask& task, ViewedSurface surface, PathState state,

@@ -1,7 +1,6 @@
 #include "render/pixels/frame_checkpoint.h"
 
 #include <system_error>
-#include <utility>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
@@ -57,10 +56,6 @@ void FrameCheckpoint::add_gathers(Gathers gathers) {
 
 void FrameCheckpoint::end_round() {
     for (; round_ < next_; ++round_) gathers_[round_].found = {};
-}
-
-std::string FrameCheckpoint::take_samples() {
-    return std::exchange(samples_, {});
 }
 
 void FrameCheckpoint::offer(const std::function<std::string()>& find_samples) {

@@ -108,7 +108,7 @@ class FrameCheckpoint {
     void set_shared_light(std::function<std::string()> find) { find_light_ = std::move(find); }
 
     /// The samples of the earlier process, once; empty: none.
-    std::string take_samples();
+    std::string take_samples() { return std::exchange(samples_, {}); }
 
     /// Writes the state if that is due and nothing of the earlier process is left to be taken.
     /// @param find_samples  may be empty: samples have not begun

@@ -17,46 +17,35 @@ constexpr double different_motion = 0.5;  // pixels per frame
 constexpr float least_contrast = 0.5f;    // of what is tolerated
 constexpr double small_object = 1.5;      // pixels, largest radius
 
-struct OutlineFinder {
-    const CameraView& view;
-    const Image<Hit>& hits;
-    const MotionField& motion;
+/// Returns whether three neighbours in a row do not lie on a plane.
+bool bends(const CameraView& view, const Hit& before, const Hit& here, const Hit& after) {
+    const double a = before.distance, b = here.distance, c = after.distance;
+    const double bend = view.orthographic ? a - 2.0 * b + c : b / a - 2.0 + b / c;
+    return std::abs(bend) * view.pixels_per_unit > least_step;
+}
 
-    Outline find(int x, int y) const {
-        if (!has_outline(x, y)) return Outline::none;
-        return moves_differently(x, y) ? Outline::moving : Outline::still;
-    }
+bool has_outline(const CameraView& view, const Image<Hit>& hits, int x, int y) {
+    const int own = hits(x, y).instance;
+    bool several = false;
+    visit_around(hits, x, y, 1, [&](int nx, int ny) { several = several || hits(nx, ny).instance != own; });
+    if (several) return true;
+    if (own == no_index || x == 0 || y == 0 || x == hits.width - 1 || y == hits.height - 1) return false;
+    constexpr std::array<std::array<int, 2>, 4> axes{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
+    return std::ranges::any_of(axes, [&](const auto& axis) {
+        return bends(view, hits(x - axis[0], y - axis[1]), hits(x, y), hits(x + axis[0], y + axis[1]));
+    });
+}
 
-    bool has_outline(int x, int y) const {
-        const int own = hits(x, y).instance;
-        bool several = false;
-        visit_around(hits, x, y, 1, [&](int nx, int ny) { several = several || hits(nx, ny).instance != own; });
-        if (several) return true;
-        if (own == no_index || x == 0 || y == 0 || x == hits.width - 1 || y == hits.height - 1) return false;
-        constexpr std::array<std::array<int, 2>, 4> axes{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
-        return std::ranges::any_of(axes, [&](const auto& axis) {
-            return bends(hits(x - axis[0], y - axis[1]), hits(x, y), hits(x + axis[0], y + axis[1]));
-        });
-    }
-
-    /// Returns whether three neighbours in a row do not lie on a plane.
-    bool bends(const Hit& before, const Hit& here, const Hit& after) const {
-        const double a = before.distance, b = here.distance, c = after.distance;
-        const double bend = view.orthographic ? a - 2.0 * b + c : b / a - 2.0 + b / c;
-        return std::abs(bend) * view.pixels_per_unit > least_step;
-    }
-
-    bool moves_differently(int x, int y) const {
-        if (motion.displacement.empty()) return false;
-        const glm::dvec2 own = motion.displacement(x, y);
-        bool differs = false;
-        visit_around(hits, x, y, 1, [&](int nx, int ny) {
-            const glm::dvec2 other = motion.displacement(nx, ny);
-            differs = differs || std::hypot(other.x - own.x, other.y - own.y) > different_motion;
-        });
-        return differs;
-    }
-};
+bool moves_differently(const Image<glm::dvec2>& displacement, int x, int y) {
+    if (displacement.empty()) return false;
+    const glm::dvec2 own = displacement(x, y);
+    bool differs = false;
+    visit_around(displacement, x, y, 1, [&](int nx, int ny) {
+        const glm::dvec2 other = displacement(nx, ny);
+        differs = differs || std::hypot(other.x - own.x, other.y - own.y) > different_motion;
+    });
+    return differs;
+}
 
 struct SmallObject {
     glm::dvec2 place{0.0};  ///< pixels
@@ -102,8 +91,10 @@ void mark_small_objects(Image<Outline>& outlines, const CameraView& view, const 
 
 Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, const MotionField& motion) {
     Image<Outline> outlines(hits.width, hits.height);
-    const OutlineFinder finder{view, hits, motion};
-    parallel_pixels(hits, 16, [&](int x, int y) { outlines(x, y) = finder.find(x, y); });
+    parallel_pixels(hits, 16, [&](int x, int y) {
+        if (has_outline(view, hits, x, y))
+            outlines(x, y) = moves_differently(motion.displacement, x, y) ? Outline::moving : Outline::still;
+    });
     return outlines;
 }
 

@@ -4,13 +4,8 @@
 
 namespace aleph {
 
-namespace {
-
-constexpr int lattice_step = 3;  // blocks by which each row is shifted against the one above
-
-}  // namespace
-
 PicturePart choose_part(int width, int height, int every, int block) {
+    constexpr int lattice_step = 3;  // blocks by which each row is shifted against the one above
     PicturePart part(width, height, std::uint8_t{0});
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) part(x, y) = (x / block + lattice_step * (y / block)) % every == every / 2;

@@ -66,16 +66,14 @@ float find_spacing(const RenderSettings& settings, int index) {
 
 SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t noise_key,
                               int index) {
-    SamplePlace place;
-    place.index = index;
-    place.centered = settings.sampling.spp == 1;
-    place.spacing = find_spacing(settings, index);
-    place.lens = lens;
-    place.filter = settings.picture.filter;
-    place.seed = settings.seed;
-    place.noise_key = noise_key;
-    place.blend = blended ? Blend::random : Blend::cutout;
-    return place;
+    return {.index = index,
+            .centered = settings.sampling.spp == 1,
+            .spacing = find_spacing(settings, index),
+            .lens = lens,
+            .filter = settings.picture.filter,
+            .seed = settings.seed,
+            .noise_key = noise_key,
+            .blend = blended ? Blend::random : Blend::cutout};
 }
 
 glm::dvec2 place_sample(const SamplePlace& place, int x, int y) {

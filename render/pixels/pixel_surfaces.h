@@ -19,7 +19,7 @@ struct SamplePlace {
     int index = 0;         ///< of the sample in its pixel
     bool centered = true;  ///< through the pixel's centre, whatever the filter
     float spacing = 1.0f;  ///< pixels between a pixel's samples; textures are averaged over it
-    Lens lens;
+    Lens lens{};
     PixelFilter filter = PixelFilter::box;  ///< that samples are distributed by
     std::uint32_t seed = 0, noise_key = 0;  ///< for the pixels' sequences
     Blend blend = Blend::cutout;            ///< what blended surfaces do to the rays

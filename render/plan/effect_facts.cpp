@@ -5,7 +5,7 @@
 #include "engine/base/parallel.h"
 #include "engine/scene/transforms.h"
 #include "render/plan/effect_bounds.h"
-#include "render/surface/ggx.h"
+#include "render/surface/microfacets.h"
 
 namespace aleph {
 

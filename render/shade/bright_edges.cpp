@@ -15,11 +15,9 @@ constexpr int rays_of_a_sample = 16;
 constexpr double small_lamp = 1.5;  // pixels, largest radius of lamps that the pixels' centres may miss
 constexpr std::uint32_t edge_key_mask = 0x65646765u;  // apart from the samples' own places
 
-/// @param make_direction  gives that of the ray that met it
-template <class MakeDirection>
-bool is_bright(const ShadingScene& shading, const Hit& hit, const MakeDirection& make_direction, double exposure) {
-    if (hit.instance == no_index)
-        return luminance(environment_radiance(shading, make_direction())) * exposure >= bright;
+/// @param direction  of the ray that met it
+bool is_bright(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction, double exposure) {
+    if (hit.instance == no_index) return luminance(environment_radiance(shading, direction)) * exposure >= bright;
     const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
     return material.emits && luminance(material.values.emission) * exposure >= bright;
 }
@@ -48,8 +46,8 @@ Image<std::uint8_t> find_bright_edges(const LightingContext& context, const Came
     const auto make_ray = [&](int x, int y) { return make_sample_ray(view, centers.place, x, y); };
     const auto mark = [&](int left, int top, const Image<Hit>& hits) {
         parallel_pixels(hits, 16, [&](int x, int y) {
-            const auto make_direction = [&] { return glm::vec3(make_ray(left + x, top + y).direction); };
-            seen(left + x + reach, top + y + reach) = is_bright(context.shading, hits(x, y), make_direction, exposure);
+            const glm::vec3 direction(make_ray(left + x, top + y).direction);
+            seen(left + x + reach, top + y + reach) = is_bright(context.shading, hits(x, y), direction, exposure);
         });
     };
     mark(0, 0, centers.hits);

@@ -7,12 +7,9 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/guide/error_report.h"
-#include "render/guide/stopping_rule.h"
-#include "render/pixels/pixel_surfaces.h"
 #include "render/settings/measure.h"
 #include "render/shade/bright_edges.h"
 #include "render/shade/integrator.h"
-#include "render/shade/progressive.h"
 #include "render/shade/resolve.h"
 #include "render/shade/sample_packet.h"
 #include "render/shade/texture_control.h"
@@ -226,15 +223,8 @@ class FrameShading {
 
     void report_errors() {
         const RenderSettings& settings = context_.settings;
-        out_.errors = estimate_errors({.pixels = pixels_,
-                                       .threshold = options_.limits->threshold,
-                                       .noise = options_.limits->noise,
-                                       .accuracy = options_.limits->accuracy,
-                                       .outlines = options_.limits->outlines,
-                                       .white = 1.0 / exposure_,
-                                       .luminance_scale = exposure_ * options_.limits->viewing.display_white,
-                                       .blurred = options_.at_sample || options_.lens.radius > 0.0,
-                                       .reach = find_seen_reach(options_.limits->viewing.pixels_per_degree)});
+        const bool blurred = options_.at_sample || options_.lens.radius > 0.0;
+        out_.errors = estimate_errors(pixels_, *options_.limits, exposure_, blurred);
         out_.error_shares = count_errors(out_.errors, settings.error > 0.0 ? settings.error : 1.0);
     }
 

@@ -1,7 +1,6 @@
 #pragma once
 // Shading a frame: its cache is filled, then its pixels take samples until they have enough.
 
-#include "render/cache/cache_fill.h"
 #include "render/pixels/picture_part.h"
 #include "render/shade/progressive.h"
 #include "render/shade/sample_shading.h"

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "render/shade/frame.h"
-#include "render/shade/sample_shading.h"
 
 namespace aleph {
 
@@ -44,6 +43,5 @@ struct IntegratorInput {
 };
 
 std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input);
-std::unique_ptr<LightIntegrator> make_cache_integrator(const IntegratorInput& input);
 
 }  // namespace aleph

@@ -6,7 +6,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/base/pixel_loops.h"
-#include "render/guide/stopping_rule.h"
 #include "render/time/shutter.h"
 
 namespace aleph {
@@ -63,14 +62,12 @@ std::vector<Decision> ask_rule(const SamplingPlan& plan, const Image<PixelSample
     const Image<std::uint8_t> clipped = find_clipped(plan, pixels);
     const Image<float> around =
         plan.rule == Sampling::threshold ? deviations_around(pixels, clipped, plan.reach) : Image<float>();
-    parallel_for(stage.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PixelRange& range = stage[i];
-            if (range.last >= plan.most || (!clipped.empty() && clipped(range.x, range.y) != 0)) continue;
-            MeanEstimate mean = tell_mean(plan, pixels, clipped, range.x, range.y);
-            if (!around.empty()) mean.around = static_cast<double>(around(range.x, range.y));
-            decisions[i] = decide(plan, pixels(range.x, range.y), mean, plan.tolerance(range.x, range.y));
-        }
+    parallel_each(stage.size(), 4096, [&](std::size_t i) {
+        const PixelRange& range = stage[i];
+        if (range.last >= plan.most || (!clipped.empty() && clipped(range.x, range.y) != 0)) return;
+        MeanEstimate mean = tell_mean(plan, pixels, clipped, range.x, range.y);
+        if (!around.empty()) mean.around = static_cast<double>(around(range.x, range.y));
+        decisions[i] = decide(plan, pixels(range.x, range.y), mean, plan.tolerance(range.x, range.y));
     });
     return decisions;
 }

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/viewing.h"
 #include "render/guide/stopping_rule.h"
 #include "render/pixels/picture_part.h"
 
@@ -57,17 +56,6 @@ using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;
 /// @param begin   the stage to begin with; empty: the first
 void sample_by_stages(const SamplingPlan& plan, Image<PixelSamples>& pixels, const TakeSamples& take,
                       std::vector<PixelRange> begin = {});
-
-/// Errors that a viewer tolerates in a frame. Images have the frame's size.
-struct VisibleLimits {
-    const Image<float>& threshold;  ///< cd/m2 (6.9)
-    const Image<float>& noise;      ///< cd/m2 (NoiseVisibility)
-    const Image<float>& aleph;      ///< elevation of the threshold
-    const Image<float>& accuracy;   ///< alpha, of cached light
-    const Image<Outline>& outlines;
-    const Image<float>& swing;  ///< blur_frame_estimate; empty: the shutter is closed
-    ViewingConditions viewing;
-};
 
 /// The luminance that samples may err by, as they have it (before exposure).
 /// threshold: allow_noise of RenderSettings::error, times what noise of single pixels goes unseen.

@@ -52,11 +52,8 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
     const RenderSettings& settings = shading.context.settings;
     const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
     RandomStream random = path_stream(settings.seed, shading.noise_key, surface, irradiance_seed_mask);
-    PathState state;
-    state.left = {settings.light.bounces - 1, settings.light.path_depth - 1};
-    state.emission = EmissionWeight::none;
-    state.media = scene.lighting.around;
-    state.turned = true;
+    PathState state =
+        start_indirect({settings.light.bounces - 1, settings.light.path_depth - 1}, scene.lighting.around);
     state.known = shading.known;
     state.accuracy = shading.context.accuracy(surface.x, surface.y);
     const Basis basis = make_basis(surface.point.normal);
@@ -87,14 +84,6 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
         if (aim.patch != no_index) follow(aim.direction, glm::dot(surface.point.normal, aim.direction));
     }
     return sum * (pi / static_cast<float>(rays));
-}
-
-/// Adds what the surface reflects of its irradiance.
-/// @param left  share of light that reaches the camera
-void add_irradiance(const PixelSurface& surface, const Rgb& irradiance, const Rgb& left, SampleLight& light) {
-    const LitSurface lit(surface);
-    light.indirect = diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen * left;
-    light[LightPart::surface] += light.indirect;
 }
 
 PathState start_beyond(const SampleShading& shading, const SampleScene& scene, const PixelSurface& surface) {
@@ -138,10 +127,7 @@ RandomStream path_stream(std::uint32_t seed, std::uint32_t noise_key, const Pixe
 }
 
 PathState start_path(const RenderSettings& settings, const Media& around) {
-    PathState state;
-    state.media = around;
-    state.left = {settings.light.bounces, settings.light.path_depth};
-    return state;
+    return {.left = {settings.light.bounces, settings.light.path_depth}, .media = around};
 }
 
 SampleScene scene_before(const SampleScene& scene, ShadingTask& task, const PixelSurface& surface) {
@@ -177,7 +163,10 @@ void shade_sample(const SampleShading& shading, const SampleScene& scene, Shadin
     const Rgb left = share_left(scene.lighting.around, surface);
     for (Rgb& part : light.parts) part *= left;
     if (!needs_irradiance) return;
-    add_irradiance(surface, irradiance ? *irradiance : sample_irradiance(shading, scene, task, surface), left, light);
+    if (!irradiance) irradiance = sample_irradiance(shading, scene, task, surface);
+    const LitSurface lit(surface);
+    light.indirect = diffuse_radiance(surface.material, lit.cos_view, *irradiance) * lit.below_sheen * left;
+    light[LightPart::surface] += light.indirect;
 }
 
 }  // namespace aleph

@@ -7,7 +7,6 @@
 
 #include "render/pixels/frame_checkpoint.h"
 #include "render/pixels/pixel_samples.h"
-#include "render/pixels/pixel_sequence.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/shade/progressive.h"
 

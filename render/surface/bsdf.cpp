@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "render/settings/numbers.h"
-#include "render/surface/fresnel.h"
 
 namespace aleph {
 

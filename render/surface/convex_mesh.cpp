@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/base/bounds.h"
+
 namespace aleph {
 
 namespace {
@@ -53,22 +55,6 @@ std::vector<HalfEdge> list_edges(const Mesh& mesh, const std::vector<std::uint32
     return edges;
 }
 
-/// Sets of triangles that are joined by edges.
-class Pieces {
-  public:
-    explicit Pieces(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
-
-    void join(std::uint32_t a, std::uint32_t b) { parents_[find(a)] = find(b); }
-
-    std::uint32_t find(std::uint32_t i) {
-        while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-        return i;
-    }
-
-  private:
-    std::vector<std::uint32_t> parents_;
-};
-
 glm::dvec3 unit_normal(const Mesh& mesh, const glm::uvec3& t) {
     const glm::dvec3 a(mesh.positions[t.x]);
     const glm::dvec3 normal = glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
@@ -82,7 +68,12 @@ bool is_locally_convex(const Mesh& mesh, double slack) {
     const std::vector<std::uint32_t> joined = join_vertices(mesh.positions);
     const std::vector<HalfEdge> edges = list_edges(mesh, joined);
     if (edges.empty() || edges.size() % 2 != 0) return false;
-    Pieces pieces(mesh.triangles.size());
+    std::vector<std::uint32_t> parents(mesh.triangles.size());  // of sets of triangles that are joined by edges
+    std::iota(parents.begin(), parents.end(), 0u);
+    const auto find_set = [&](std::uint32_t i) {
+        while (parents[i] != i) i = parents[i] = parents[parents[i]];
+        return i;
+    };
     bool inwards = false, outwards = false;
     for (std::size_t i = 0; i < edges.size(); i += 2) {
         const HalfEdge &one = edges[i], &two = edges[i + 1];
@@ -95,10 +86,10 @@ bool is_locally_convex(const Mesh& mesh, double slack) {
         inwards = inwards || side > slack;
         outwards = outwards || side < -slack;
         if (inwards && outwards) return false;
-        pieces.join(one.triangle, two.triangle);
+        parents[find_set(one.triangle)] = find_set(two.triangle);
     }
-    const std::uint32_t piece = pieces.find(edges.front().triangle);
-    return std::ranges::all_of(edges, [&](const HalfEdge& e) { return pieces.find(e.triangle) == piece; });
+    const std::uint32_t piece = find_set(edges.front().triangle);
+    return std::ranges::all_of(edges, [&](const HalfEdge& e) { return find_set(e.triangle) == piece; });
 }
 
 }  // namespace
@@ -106,12 +97,9 @@ bool is_locally_convex(const Mesh& mesh, double slack) {
 ConvexMesh find_convex(const Mesh& mesh) {
     ConvexMesh shape;
     if (mesh.triangles.empty() || mesh.triangles.size() > most_triangles) return shape;
-    glm::dvec3 low(mesh.positions.front()), high = low;
-    for (const glm::vec3& p : mesh.positions) {
-        low = glm::min(low, glm::dvec3(p));
-        high = glm::max(high, glm::dvec3(p));
-    }
-    const double slack = tolerance * glm::length(high - low);
+    Bounds box;
+    for (const glm::vec3& p : mesh.positions) box.add(p);
+    const double slack = tolerance * glm::length(box.high - box.low);
     for (const glm::uvec3& t : mesh.triangles) {
         shape.point = glm::dvec3(mesh.positions[t.x]);
         shape.normal = unit_normal(mesh, t);

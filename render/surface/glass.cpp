@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/surface/fresnel.h"
-
 namespace aleph {
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/surface/texture_footprint.h"
+#include "render/surface/texture.h"
 
 namespace aleph {
 
@@ -31,12 +31,10 @@ void prefetch_corners(const ShadingScene& shading, const Hit& hit) {
     if (hit.instance == no_index) return;
     const PosedInstance& instance = shading.instances[hit.instance];
     const glm::uvec3& t = instance.mesh->triangles[hit.primitive];
+    const PosedMesh* const deformed = instance.deformed;
     for (int k = 0; k < 3; ++k) {
-        if (instance.deformed == nullptr) {
-            __builtin_prefetch(&instance.mesh->positions[t[k]]);
-        } else {
-            __builtin_prefetch(&instance.deformed->positions[t[k]]);
-        }
+        if (deformed == nullptr) __builtin_prefetch(&instance.mesh->positions[t[k]]);
+        if (deformed != nullptr) __builtin_prefetch(&deformed->positions[t[k]]);
     }
 }
 

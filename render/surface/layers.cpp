@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/surface/bsdf.h"
-#include "render/surface/fresnel.h"
 #include "render/surface/sheen.h"
 
 namespace aleph {
@@ -17,10 +16,6 @@ const float least_coat_roughness = std::sqrt(min_ggx_alpha);
 /// Albedo over the reflectance of a smooth coat, which varies little. Rows by roughness (the square root of alpha),
 /// dense where it is low, columns by coat_column.
 using CoatTable = std::array<std::array<float, coat_columns>, coat_rows>;
-
-float smooth_reflectance(float cosine) {
-    return coat_f0 + (1.0f - coat_f0) * schlick_power(cosine);
-}
 
 /// From 0 to 1, dense where microfacets hide each other: within cosines of about alpha.
 float coat_column(float alpha, float cosine) {
@@ -43,7 +38,7 @@ CoatTable make_coat_table() {
             const float cosine =
                 std::clamp(coat_cosine(alpha, static_cast<float>(k) / (coat_columns - 1)), 1e-6f, 1.0f);
             const AlbedoParts parts = integrate_ggx_albedo(alpha, cosine, samples);
-            table[i][k] = (coat_f0 * parts.straight + parts.grazing) / smooth_reflectance(cosine);
+            table[i][k] = (coat_f0 * parts.straight + parts.grazing) / coat_reflectance({.strength = 1.0f}, cosine);
         }
     }
     return table;
@@ -61,9 +56,13 @@ constexpr std::array<std::array<float, 2>, 8> legendre{{{0.01985507f, 0.05061427
 
 }  // namespace
 
+float coat_reflectance(const CoatLayer& coat, float cosine) {
+    return coat.strength * (coat_f0 + (1.0f - coat_f0) * schlick_power(cosine));
+}
+
 float coat_albedo(const CoatLayer& coat, float cosine) {
     static const CoatTable table = make_coat_table();
-    const float c = std::clamp(cosine, 0.0f, 1.0f), smooth = coat.strength * smooth_reflectance(c);
+    const float c = std::clamp(cosine, 0.0f, 1.0f), smooth = coat_reflectance(coat, c);
     if (coat.alpha < min_ggx_alpha) return smooth;
     const float alpha = std::min(coat.alpha, 1.0f);
     const float share = (std::sqrt(alpha) - least_coat_roughness) / (1.0f - least_coat_roughness);

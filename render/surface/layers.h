@@ -11,6 +11,9 @@ namespace aleph {
 
 inline constexpr float coat_f0 = 0.04f;  // KHR_materials_clearcoat: index of refraction 1.5
 
+/// Reflectance of the coat's microfacets (Schlick 1994).
+float coat_reflectance(const CoatLayer& coat, float cosine);
+
 /// Share of uniform light that the coat reflects to the viewer, from a table: within 1.5e-3.
 /// @param cosine  of the view with the coat's normal
 float coat_albedo(const CoatLayer& coat, float cosine);

@@ -16,13 +16,10 @@ std::string name_or_number(const std::string& name, const char* kind, std::size_
 /// Paths of more than `longest_path` bytes are shortened in the middle: their first and last `kept_of_path` bytes, or
 /// a few fewer so that no character is split, with "...", the 64-bit FNV-1a hash of the whole path in 16 hexadecimal
 /// digits, and "..." between them.
-///
-/// Paths are made when they are asked for: what is kept, and the work for one path, do not grow with the depth.
 class NodePaths {
   public:
     static constexpr std::size_t longest_path = 256, kept_of_path = 115;
 
-    /// @param scene  outlives this object
     explicit NodePaths(const Scene& scene);
 
     std::string operator[](std::size_t node) const;
@@ -32,18 +29,14 @@ class NodePaths {
 
   private:
     struct Mark {
-        std::uint64_t hash = 0;     ///< of the whole path
-        std::uint64_t length = 0;   ///< of the whole path, bytes
-        std::uint32_t count = 1;    ///< above 1: the number after "#"
-        std::uint32_t depth = 0;    ///< number of nodes above
-        int start_node = no_index;  ///< the highest node, from the root down to this one, with a path of kept_of_path
-                                    ///< bytes or more
+        /// The path; of one longer than longest_path its first kept_of_path + 1 bytes and, at the end, at least its
+        /// last kept_of_path.
+        std::string text{};
+        std::uint64_t hash = 0;    ///< of the whole path
+        std::uint64_t length = 0;  ///< of the whole path, bytes
+        std::uint32_t depth = 0;   ///< number of nodes above
     };
 
-    std::string start_of(int node) const;
-    std::string end_of(int node, std::size_t bytes) const;
-
-    const Scene& scene_;
     std::vector<Mark> marks_;
 };
 

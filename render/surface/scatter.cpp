@@ -6,17 +6,12 @@
 #include <numeric>
 #include <optional>
 
-#include "render/surface/fresnel.h"
 #include "render/surface/glass.h"
 #include "render/surface/sheen.h"
 
 namespace aleph {
 
 namespace {
-
-float coat_reflectance(const CoatLayer& coat, float cosine) {
-    return coat.strength * (coat_f0 + (1.0f - coat_f0) * schlick_power(cosine));
-}
 
 Basis make_shading_basis(const SurfacePoint& point, const SurfaceMaterial& material) {
     if (material.gloss.stretch > 0.0f) {

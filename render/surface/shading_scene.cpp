@@ -1,7 +1,6 @@
 #include "render/surface/shading_scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/scene/transforms.h"
 #include "render/surface/environment_map.h"
@@ -13,10 +12,7 @@ namespace {
 
 void add(SceneBounds& bounds, const PosedInstance& instance) {
     if (!instance.visible) return;
-    for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) {
-        bounds.low = glm::min(bounds.low, instance.place(v));
-        bounds.high = glm::max(bounds.high, instance.place(v));
-    }
+    for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) bounds.add(instance.place(v));
 }
 
 bool can_emit(const Material& material) {

@@ -58,6 +58,11 @@ struct ShadingMaterial {
 /// m, relative to the anchor. If empty, `low` is infinite.
 struct SceneBounds {
     glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+
+    void add(const glm::vec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
 };
 
 /// m, relative to the anchor.
@@ -144,10 +149,6 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
 
 /// The place alone.
 SurfacePlace make_surface_place(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction);
-
-/// The same from one side of the surface.
-/// @param front  the front side of its winding
-SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, bool front);
 
 /// The same point in another pose of the scene: light that was computed there belongs to it. Its place on the triangle
 /// and its side are the same. Its shading normal turns with the triangle, so that normal maps and bent normals keep

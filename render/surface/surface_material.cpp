@@ -1,6 +1,7 @@
 #include "render/surface/surface_material.h"
 
 #include <cmath>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
 #include "render/surface/bsdf.h"
@@ -111,12 +112,7 @@ void add_layers(const LayersOf<float, Rgb>& layers, const Lookup& look_up, Surfa
 /// Beer-Lambert coefficients, 1/m: white becomes the colour over the distance.
 Rgb find_attenuation(const MaterialValues& values) {
     if (!(values.glass.attenuation_distance > 0.0f)) return Rgb(0.0f);
-    Rgb attenuation;
-    for (int c = 0; c < 3; ++c) {
-        attenuation[c] =
-            -std::log(std::max(values.glass.attenuation_color[c], 1e-6f)) / values.glass.attenuation_distance;
-    }
-    return attenuation;
+    return -glm::log(glm::max(values.glass.attenuation_color, 1e-6f)) / values.glass.attenuation_distance;
 }
 
 /// Sets what glass does to rays that pass it.
@@ -272,7 +268,6 @@ float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, c
 ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& point, const glm::vec3& view,
                            const RayFootprint& footprint) {
     ViewedSurface surface{point, evaluate_material(shading, point, footprint), view};
-    const Material* const material = shading.materials[point.material].material;
     if (surface.material.has_specular() && point.normal != point.geometric) {
         surface.point.normal = keep_visible(point.normal, point.geometric, point.geometric, view);
     }
@@ -281,7 +276,7 @@ ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& poin
     // Averaged normals, made unit again, reflect more light than the normals do. Where several rays share a pixel, each
     // takes the normal at its own point.
     const Lookup look_up(shading, unmapped, footprint.whole_pixel ? footprint : RayFootprint{});
-    const auto& scales = material->textures;
+    const auto& scales = shading.materials[point.material].material->textures;
     if (surface.material.has_coat()) {
         surface.material.coat.normal =
             map_normal(look_up, TextureSlot::clearcoat_normal, scales.clearcoat_normal_scale, view);

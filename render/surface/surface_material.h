@@ -7,9 +7,9 @@
 #include <glm/vec3.hpp>
 
 #include "engine/base/color.h"
-#include "render/surface/ggx.h"
+#include "render/surface/microfacets.h"
 #include "render/surface/shading_scene.h"
-#include "render/surface/texture_footprint.h"
+#include "render/surface/texture.h"
 
 namespace aleph {
 

@@ -150,10 +150,6 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
     return make_point(shading, hit, {&direction});
 }
 
-SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, bool front) {
-    return make_point(shading, hit, {nullptr, front});
-}
-
 SurfacePlace make_surface_place(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction) {
     SurfacePlace place;
     set_place(find_triangle(shading, hit), {&direction}, place);
@@ -162,7 +158,7 @@ SurfacePlace make_surface_place(const ShadingScene& shading, const Hit& hit, con
 
 std::optional<SurfacePoint> carry_point(const ShadingScene& to, const Hit& hit, const SurfacePoint& from) {
     if (!to.instances[hit.instance].visible) return std::nullopt;
-    SurfacePoint point = make_surface_point(to, hit, from.front);
+    SurfacePoint point = make_point(to, hit, {nullptr, from.front});
     const bool turned = point.edges[0] != from.edges[0] || point.edges[1] != from.edges[1];
     const glm::vec3 normal = turned ? turn_with(from, point, from.normal) : from.normal;
     if (glm::dot(normal, point.geometric) > 0.0f) point.normal = normal;  // false for NaN

@@ -1,14 +1,16 @@
 #pragma once
-// Texture look-up filtered by footprint. Magnified textures are bilinear. Minified ones are averaged over probes into a
-// pyramid of coarser levels, placed along the longer axis of the footprint.
+// Texture look-up filtered by footprint, which is the part of a surface that one ray represents. Magnified textures are
+// bilinear. Minified ones are averaged over probes into a pyramid of coarser levels, placed along the longer axis of
+// the footprint.
 
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "engine/scene/scene.h"
+#include "engine/pose/camera_view.h"
 #include "render/surface/environment_map.h"
+#include "render/surface/shading_scene.h"
 
 namespace aleph {
 
@@ -70,5 +72,31 @@ struct UvFootprint {
 /// A coordinate that is not finite, or beyond 1e6, counts as 0. A footprint that is not finite gives the image's mean.
 glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm::vec2& uv,
                          const UvFootprint& footprint);
+
+/// Part of a surface around a point. If all values are zero, textures are read at the point itself.
+struct RayFootprint {
+    /// m, world: from this camera ray's point to its neighbours' points. The part is the parallelogram that they span.
+    glm::vec3 dx{0.0f}, dy{0.0f};
+    float width = 0.0f;  ///< m; for rays over a hemisphere or a light: side of a square of the ray's share of the area
+    bool whole_pixel = false;  ///< no other ray shows the pixel
+};
+
+/// The footprint of a camera ray, from the points where the rays of neighbouring samples meet the tangent plane
+/// (exact).
+/// @param distance  along the ray, m
+/// @param spacing  of the samples, pixels: 1 / sqrt(samples per pixel)
+RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& point, const glm::vec3& direction,
+                                  float distance, float spacing);
+
+/// The footprint, where it meets a surface at a distance (m), of a ray that represents a solid angle (sr).
+RayFootprint make_cone_footprint(const SurfacePoint& point, const glm::vec3& direction, float distance,
+                                 float solid_angle);
+
+/// Its area, m2.
+/// @param cosine  between the ray and the true normal, at least 0
+float cone_footprint_area(float cosine, float distance, float solid_angle);
+
+/// The footprint in one of the surface's sets of texture coordinates.
+UvFootprint make_uv_footprint(const SurfacePoint& point, const RayFootprint& footprint, int uv_set);
 
 }  // namespace aleph

@@ -166,10 +166,8 @@ TextureSet make_texture_set(const Scene& scene) {
     if (scene.environment.radiance && scene.environment.image != no_index) {
         set.environment = make_environment_map(scene.images[scene.environment.image]);
     }
-    parallel_for(set.textures.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            set.textures[i] = make_texture(*set.textures[i].image, set.textures[i].space);
-        }
+    parallel_each(set.textures.size(), 1, [&](std::size_t i) {
+        set.textures[i] = make_texture(*set.textures[i].image, set.textures[i].space);
     });
     return set;
 }

@@ -148,10 +148,6 @@ std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accurac
     return found;
 }
 
-BlendedEstimate::BlendedEstimate(std::shared_ptr<const EstimateKeyframe> before,
-                                 std::shared_ptr<const EstimateKeyframe> after, double weight)
-    : before_(std::move(before)), after_(std::move(after)), weight_(static_cast<float>(weight)) {}
-
 std::optional<Rgb> BlendedEstimate::find(const PixelSurface& surface) const {
     constexpr float reliable = 0.5f;
     const EstimateNodes::Interpolated before = read_keyframe(*before_, surface);

@@ -9,7 +9,6 @@
 #include "engine/pose/posed_view.h"
 #include "render/cache/cache_fill.h"
 #include "render/estimate/estimate.h"
-#include "render/pixels/shaded_frame.h"
 #include "render/time/lighting_keyframes.h"
 
 namespace aleph {
@@ -106,7 +105,8 @@ class BlendedEstimate : public CarriedEstimate {
   public:
     /// @param weight  of `after`
     BlendedEstimate(std::shared_ptr<const EstimateKeyframe> before, std::shared_ptr<const EstimateKeyframe> after,
-                    double weight);
+                    double weight)
+        : before_(std::move(before)), after_(std::move(after)), weight_(static_cast<float>(weight)) {}
 
     std::optional<Rgb> find(const PixelSurface& surface) const override;
 

@@ -18,16 +18,22 @@ std::int64_t divide_down(std::int64_t a, std::int64_t b) {
     return a / b - (a % b < 0 ? 1 : 0);
 }
 
-bool is_start(const LightingKeyframes& keyframes, std::int64_t frame) {
-    return frame == keyframes.range.first || std::ranges::find(keyframes.cuts, frame) != keyframes.cuts.end();
-}
-
-/// Returns whether frame + 1 has another camera or lies outside of the range.
-bool is_end(const LightingKeyframes& keyframes, std::int64_t frame) {
-    return frame == keyframes.range.last || std::ranges::find(keyframes.cuts, frame + 1) != keyframes.cuts.end();
-}
-
 constexpr float max_change = 0.25f;  // from one frame to the next, of the largest value in the span
+
+/// With other lamps the lists differ in length: that is a jump by itself.
+bool differ_by(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& largest) {
+    if (a.size() != b.size()) return true;
+    for (std::size_t k = 0; k < std::min(largest.size(), a.size()); ++k) {
+        if (std::abs(a[k] - b[k]) > max_change * largest[k]) return true;
+    }
+    return false;
+}
+
+void raise_to(std::vector<float>& largest, const std::vector<float>& values) {
+    for (std::size_t k = 0; k < std::min(largest.size(), values.size()); ++k) {
+        largest[k] = std::max(largest[k], values[k]);
+    }
+}
 
 }  // namespace
 
@@ -59,8 +65,13 @@ KeyframePair find_keyframes(const LightingKeyframes& keyframes, std::int64_t fra
 
 std::vector<std::int64_t> find_keyframe_views(const LightingKeyframes& keyframes, std::int64_t keyframe) {
     std::vector<std::int64_t> views{keyframe};
-    if (!is_start(keyframes, keyframe)) views.push_back(find_keyframes(keyframes, keyframe - 1).before);
-    if (!is_end(keyframes, keyframe)) views.push_back(find_keyframes(keyframes, keyframe + 1).after);
+    const auto begins_shot = [&cuts = keyframes.cuts](std::int64_t frame) {
+        return std::ranges::find(cuts, frame) != cuts.end();
+    };
+    if (keyframe != keyframes.range.first && !begins_shot(keyframe))
+        views.push_back(find_keyframes(keyframes, keyframe - 1).before);
+    if (keyframe != keyframes.range.last && !begins_shot(keyframe + 1))
+        views.push_back(find_keyframes(keyframes, keyframe + 1).after);
     return views;
 }
 
@@ -106,25 +117,6 @@ LightBreaks::Sources LightBreaks::look(double seconds) {
     }
     return sources;
 }
-
-namespace {
-
-/// With other lamps the lists differ in length: that is a jump by itself.
-bool differ_by(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& largest) {
-    if (a.size() != b.size()) return true;
-    for (std::size_t k = 0; k < std::min(largest.size(), a.size()); ++k) {
-        if (std::abs(a[k] - b[k]) > max_change * largest[k]) return true;
-    }
-    return false;
-}
-
-void raise_to(std::vector<float>& largest, const std::vector<float>& values) {
-    for (std::size_t k = 0; k < std::min(largest.size(), values.size()); ++k) {
-        largest[k] = std::max(largest[k], values[k]);
-    }
-}
-
-}  // namespace
 
 const std::vector<std::int64_t>& LightBreaks::find(std::int64_t first, std::int64_t last) {
     const auto [entry, is_new] = found_.try_emplace({first, last});

@@ -17,14 +17,6 @@ KeyframePair find_half(const KeyframePair& pair, std::int64_t middle, std::int64
 
 }  // namespace
 
-ShotLight::ShotLight(LightingKeyframes keyframes, const RenderSettings& settings, bool still, bool unmoving,
-                     KeyframeSource source)
-    : keyframes_(std::move(keyframes)),
-      settings_(settings),
-      still_(still),
-      unmoving_(unmoving),
-      source_(std::move(source)) {}
-
 /// Where only the camera moves, a keyframe's light holds at all keyframes, so each needs its own view only.
 std::vector<std::int64_t> ShotLight::list_views(std::int64_t keyframe) const {
     if (still_) return {keyframe};

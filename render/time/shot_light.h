@@ -28,7 +28,12 @@ class ShotLight {
     /// @param still     nothing but the camera changes
     /// @param unmoving  nothing changes at all: one keyframe serves every frame
     ShotLight(LightingKeyframes keyframes, const RenderSettings& settings, bool still, bool unmoving,
-              KeyframeSource source);
+              KeyframeSource source)
+        : keyframes_(std::move(keyframes)),
+          settings_(settings),
+          still_(still),
+          unmoving_(unmoving),
+          source_(std::move(source)) {}
 
     /// The lighting keyframes whose light a frame reads.
     KeyframePair keyframes_around(std::int64_t frame) const {

@@ -146,7 +146,7 @@ void add_box(Scene& scene) {
 }
 
 /// Light that each instance reflects on the side that its normal points to, lm.
-std::vector<double> add_light_rays(Scene scene, const LightTarget& target = {{}, 2.0f}, std::size_t rays = 40000) {
+std::vector<double> add_light_rays(Scene scene, const BoundingSphere& target = {{}, 2.0f}, std::size_t rays = 40000) {
     const Stage stage(std::move(scene));
     RayCounts counts;
     std::vector<double> sums(stage.shading.instances.size());
@@ -216,7 +216,7 @@ TEST(LightRays, BringNothingBeyondARange) {
 
 TEST(LightRays, OfTheSunCrossTheTarget) {
     for (const double angle : {0.4, 1.3}) {
-        for (const LightTarget target : {LightTarget{{}, 2.0f}, LightTarget{{0.5f, 0.5f, 0.0f}, 3.0f}}) {
+        for (const BoundingSphere target : {BoundingSphere{{}, 2.0f}, BoundingSphere{{0.5f, 0.5f, 0.0f}, 3.0f}}) {
             Scene scene = make_square();
             add_light(scene, Light::Kind::directional, glm::dvec3(3.0), {},
                       glm::angleAxis(-angle, glm::dvec3(1.0, 0.0, 0.0)));

@@ -91,7 +91,7 @@ TEST(EmissionCells, RaysFindTheDensityOfSamples) {
                     if (hit.instance == no_index || std::abs(hit.distance - s.distance) > 1e-3f * s.distance) continue;
                     const SurfacePoint point = make_surface_point(stage.shading, hit, s.direction);
                     const float cosine = -glm::dot(point.geometric, s.direction);
-                    const float pdf = pdf_emitter(emitter, receiver.position, {hit, cosine, hit.distance});
+                    const float pdf = pdf_emitter(emitter, receiver.position, hit, cosine, hit.distance);
                     others += std::abs(pdf / s.pdf - 1.0f) > 0.01f;  // rounding at the border of a cell
                     ++compared;
                 }

@@ -51,8 +51,7 @@ TEST(FacingSides, SamplesOfABulbFindItsLight) {
                 const glm::vec3 normal = receiver.position + sample.direction * sample.distance - center;
                 const float facing = -glm::dot(normal, sample.direction);
                 if (facing < 0.4f) continue;  // the ball has facets
-                const float pdf =
-                    pdf_emitter(stage.lights.emitters[0], receiver.position, {{}, facing, sample.distance});
+                const float pdf = pdf_emitter(stage.lights.emitters[0], receiver.position, {}, facing, sample.distance);
                 EXPECT_NEAR(sample.pdf / pdf, 1.0, 0.2);
             }
             trial.near(mean, expected, 0.003 * expected);

@@ -258,8 +258,8 @@ TEST(Lights, UnlitSurfacesAreSeenAsTheyAreAndLightNothing) {
 TEST(Lights, WhatCannotBeSeenBringsNothing) {
     const Stage stage(make_lamp_scene(2.0, 1.5));
     EXPECT_EQ(sample_light(stage.shading, stage.lights, 0, {{0.0f, 3.0f, 0.0f}, up}, {0.3f, 0.4f}).incoming, Rgb(0.0f));
-    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, {{}, 0.0f, 1.0f}), 0.0f);
-    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, {{}, -1.0f, 1.0f}), 0.0f);
+    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, {}, 0.0f, 1.0f), 0.0f);
+    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, {}, -1.0f, 1.0f), 0.0f);
     Scene scene;
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.0, 0.0, 0.0});
     const Stage at_light(std::move(scene));

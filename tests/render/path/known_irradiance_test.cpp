@@ -23,14 +23,15 @@ Scene make_glowing_box() {
 }
 
 struct ConstantIrradiance : KnownIrradiance {
-    using KnownIrradiance::KnownIrradiance;
-
-    std::optional<Rgb> find(const ViewedSurface&, const Hit& hit, float accuracy, const Rgb&, RayTask&) const override {
-        EXPECT_NE(hit.instance, no_index);
-        ++lookups;
-        least = std::min(least, accuracy);
-        most = std::max(most, accuracy);
-        return Rgb(static_cast<float>(pi * albedo));
+    explicit ConstantIrradiance(int held) {
+        bounces = held;
+        find = [this](const ViewedSurface&, const Hit& hit, float accuracy, const Rgb&, RayTask&) {
+            EXPECT_NE(hit.instance, no_index);
+            ++lookups;
+            least = std::min(least, accuracy);
+            most = std::max(most, accuracy);
+            return Rgb(static_cast<float>(pi * albedo));
+        };
     }
 
     mutable int lookups = 0;
@@ -173,7 +174,7 @@ TEST(KnownIrradianceTest, AMirrorShowsWhatTheCacheHolds) {
     EXPECT_GT(cache.records().size(), plain + 5);
     EXPECT_EQ(tally.counts.records, cache.records().size());
     cache.finish();
-    const FrameIrradiance known(room.context, &cache);
+    const KnownIrradiance known = make_frame_irradiance(room.context, &cache);
     EXPECT_EQ(known.bounces, 1);
     RayTask task(stage.rays);
     GatherScratch scratch;

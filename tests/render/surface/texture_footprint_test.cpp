@@ -1,8 +1,8 @@
 // Footprints of rays against finite differences between the hits of neighbouring rays, and against closed forms.
 // A checker texture at a grazing angle, filtered by the footprints of pixels, against many samples per pixel.
 
-#include "render/surface/texture_footprint.h"
 #include "render/pixels/pixel_surfaces.h"
+#include "render/surface/texture.h"
 #include "tests/support/first_hits.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"

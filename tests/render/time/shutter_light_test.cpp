@@ -13,7 +13,7 @@ namespace {
 /// Answers with the place that it is asked for, from records that reach so far.
 struct AskedPlace : CarriedLight {
     std::optional<Rgb> find(const PixelSurface& surface, float, RayTask&, RecordUse* used) const override {
-        if (used != nullptr) used->add(1.0f, reach);
+        if (used != nullptr) used->add({1.0f, 1.0f, reach});
         return surface.point.position;
     }
     float reach = 1.0f;

@@ -1,5 +1,4 @@
-// Direct light and gloss by samples; indirect light from the irradiance cache, or by samples as well. Light of the
-// second and further bounces comes from a coarse cache either way.
+// How light is found: by a cache and samples, or by paths alone.
 
 #include "render/cache/aimed_rays.h"
 #include "render/cache/bounce_places.h"
@@ -12,6 +11,8 @@ namespace aleph {
 
 namespace {
 
+/// Direct light and gloss by samples; indirect light from the irradiance cache, or by samples as well. Light of the
+/// second and further bounces comes from a coarse cache either way.
 class CacheIntegrator final : public LightIntegrator {
   public:
     explicit CacheIntegrator(const IntegratorInput& input)
@@ -21,13 +22,21 @@ class CacheIntegrator final : public LightIntegrator {
           cached_(indirect_ && context_.settings.cache.accuracy > 0.0 && input.options.light_lasts),
           blurred_(static_cast<bool>(input.options.at_sample)),
           cache_(make_cache(context_.lighting.shading)),
-          known_(context_, cached_ ? &cache_ : nullptr),
-          direct_(context_.max_radius) {
+          known_(make_frame_irradiance(context_, cached_ ? &cache_ : nullptr)),
+          direct_(context_.max_radius),
+          shading_{.context = context_,
+                   .noise_key = input.noise_key,
+                   .indirect = indirect_,
+                   .cache = cached_ ? &cache_ : nullptr,
+                   .known = blurred_ ? nullptr : &known_,
+                   .blurred = blurred_} {
         if (cached_) context_.direct = &direct_;
         if (context_.settings.error > 0.0 && !input.sampling_tolerance.empty())
             context_.tolerance = &input.sampling_tolerance;
         context_.bounces.further = make_multi_bounce_light(context_.settings, nullptr);
-        if (input.options.record_maps) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
+        if (!input.options.record_maps) return;
+        uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
+        shading_.uses = &uses_;
     }
 
     bool shares_light() const override { return cached_ || needs_further() || needs_bright(); }
@@ -52,22 +61,13 @@ class CacheIntegrator final : public LightIntegrator {
 
     void begin(const SampleScene& scene) override {
         scene_ = &scene;
-        shutter_.reset();
-        if (blurred_ && cached_) {
-            shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_);
-        }
-        shading_.emplace(SampleShading{.context = context_,
-                                       .noise_key = input_.noise_key,
-                                       .indirect = indirect_,
-                                       .cache = cached_ ? &cache_ : nullptr,
-                                       .known = blurred_ ? nullptr : &known_,
-                                       .blurred = blurred_,
-                                       .shutter = shutter_ ? &*shutter_ : nullptr,
-                                       .uses = uses_.empty() ? nullptr : &uses_});
+        if (!blurred_ || !cached_) return;
+        shading_.shutter =
+            &shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_);
     }
 
     void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) override {
-        shade_sample(*shading_, scene_before(*scene_, task, surface), task, surface, pixel, light);
+        shade_sample(shading_, scene_before(*scene_, task, surface), task, surface, pixel, light);
     }
 
     void save(ByteWriter& out) const override { out.add(uses_.pixels); }
@@ -104,7 +104,8 @@ class CacheIntegrator final : public LightIntegrator {
         if (!further_bounces_) further_bounces_ = solve_further_bounces(context_, seen, input_.out.counts);
         if (!further_bounces_) return;
         context_.bounces.further = make_multi_bounce_light(context_.settings, &*further_bounces_);
-        known_.fewer = &further_.emplace(context_.bounces.further);
+        further_ = make_further_irradiance(context_.bounces.further);
+        known_.fewer = &further_;
     }
 
     const IntegratorInput input_;
@@ -112,20 +113,47 @@ class CacheIntegrator final : public LightIntegrator {
     const bool indirect_, cached_, blurred_;
     IrradianceCache cache_;
     std::optional<CheckedLight> checked_;
-    FrameIrradiance known_;
+    KnownIrradiance known_;
     std::optional<FurtherBounces> further_bounces_;
-    std::optional<FurtherIrradiance> further_;  ///< the same to paths
+    KnownIrradiance further_;  ///< the same to paths
     DirectGrid direct_;
     BrightSurfaces bright_;
     Image<RecordUse> uses_;  ///< empty: not asked for
     std::optional<ShutterLight> shutter_;
-    std::optional<SampleShading> shading_;  ///< since `begin`
+    SampleShading shading_;
+    const SampleScene* scene_ = nullptr;
+};
+
+/// All light along paths, without bias.
+class PathIntegrator final : public LightIntegrator {
+  public:
+    explicit PathIntegrator(const IntegratorInput& input) : input_(input) {}
+
+    void begin(const SampleScene& scene) override { scene_ = &scene; }
+
+    void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples&, SampleLight& light) override {
+        const RenderSettings& settings = input_.context.settings;
+        RandomStream random = path_stream(settings.seed, input_.noise_key, surface);
+        const LightingContext lighting = scene_before(*scene_, task, surface).lighting;
+        const Rgb left = share_left(lighting.around, surface);
+        light[LightPart::surface] = surface.material.emission * left;
+        light[LightPart::gloss] =
+            scatter_light(lighting, task, surface, start_path(settings, lighting.around), random) * left;
+    }
+
+    void resolve(const Image<PixelSamples>& pixels, double exposure) override {
+        resolve_pixels(pixels, exposure, false, input_.context.settings.sampling.spp > 1, input_.out);
+    }
+
+  private:
+    const IntegratorInput input_;
     const SampleScene* scene_ = nullptr;
 };
 
 }  // namespace
 
-std::unique_ptr<LightIntegrator> make_cache_integrator(const IntegratorInput& input) {
+std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input) {
+    if (input.context.settings.light.integrator == Integrator::path) return std::make_unique<PathIntegrator>(input);
     return std::make_unique<CacheIntegrator>(input);
 }
 
