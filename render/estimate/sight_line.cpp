@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "engine/rays/first_hits.h"
 #include "render/pixels/pixel_sequence.h"
+#include "render/surface/glass.h"
 
 namespace aleph {
 
@@ -35,12 +37,11 @@ SightLine::SightLine(const LightingContext& context, const CameraView& view, Tra
       centers_(centers),
       pixel_(pixel),
       number_(number),
-      ray_(to_scene(context.rays, make_camera_ray(view, pixel.x + 0.5, pixel.y + 0.5))),
-      behind_(context.around) {}
+      way_{to_scene(context.rays, make_camera_ray(view, pixel.x + 0.5, pixel.y + 0.5)), context.around} {}
 
 bool SightLine::advance(RayCounts& counts) {
-    if (surfaces_ == most_surfaces || largest_channel(left_) <= least_left) {
-        left_ = Rgb(0.0f);
+    if (surfaces_ == most_surfaces || largest_channel(way_.left) <= least_left) {
+        way_.left = Rgb(0.0f);
         return false;
     }
     const float before = last_.hit.distance;
@@ -48,15 +49,28 @@ bool SightLine::advance(RayCounts& counts) {
     ++surfaces_;
     if (last_.hit.instance == no_index) return false;
     Hit hit = last_.hit;
-    hit.distance += travelled_;
-    surface_ = make_pixel_surface(lighting_.shading, view_, centers_.place, hit, ray_.direction, pixel_);
-    lighting_.around = behind_;
+    hit.distance += way_.travelled;
+    surface_ = make_pixel_surface(lighting_.shading, view_, centers_.place, hit, way_.ray.direction, pixel_);
+    lighting_.around = way_.media;
     SurfaceMaterial& material = surface_.material;
-    if (material.glass.volume) material.glass.ior_ratio = behind_.ratio_at(surface_);
-    left_ *= transmit(behind_.attenuation(surface_.point, material), last_.hit.distance - before);
-    share_ = left_ * last_.alpha;
-    left_ -= share_;
+    if (material.glass.volume) material.glass.ior_ratio = way_.media.ratio_at(surface_);
+    way_.left *= transmit(way_.media.attenuation(surface_.point, material), last_.hit.distance - before);
+    share_ = way_.left * last_.alpha;
+    way_.left -= share_;
+    const bool mirror = material.is_mirror();
+    if (mirror) note_reflection();
     if (material.has_glass()) pass_glass(counts);
+    if (mirror) {  // what it reflects is met
+        material.gloss.f0 = Rgb(0.0f);
+        material.gloss.f90 = material.glass.specular = 0.0f;
+    }
+    return true;
+}
+
+bool SightLine::reflect() {
+    if (surfaces_ == most_surfaces || !reflected_) return false;
+    way_ = *std::exchange(reflected_, std::nullopt);
+    last_ = {};
     return true;
 }
 
@@ -65,7 +79,27 @@ Met SightLine::meet(RayCounts& counts) {
     known_ = surfaces_ == 0 && !tracer_.has_blended();
     if (known_) return {centers_.hits(pixel_.x, pixel_.y)};
     ++counts.primary;
-    return tracer_.meet(ray_, last_.hit.instance == no_index ? nullptr : &last_);
+    return tracer_.meet(way_.ray, last_.hit.instance == no_index ? nullptr : &last_);
+}
+
+/// Begins the ray that leaves the surface in a direction.
+void SightLine::turn(const LitSurface& lit, const glm::vec3& direction, Way& way) const {
+    way.ray = {lit.ray_origin(direction), direction};
+    way.travelled += last_.hit.distance;
+}
+
+void SightLine::note_reflection() {
+    const LitSurface lit(surface_);
+    const glm::vec3 direction = lit.basis.to_world({-lit.view.x, -lit.view.y, lit.view.z});
+    if (!(lit.view.z > 0.0f && glm::dot(lit.point.geometric, direction) > 0.0f)) return;
+    const float glass = glass_reflectance(lit.material, lit.view.z);
+    const Rgb reflectance =
+        glossy_reflectance(lit.material, lit.view.z) + (glass < 1.0f ? lit.material.glass.share * glass : 0.0f);
+    const Rgb left = share_ * reflectance * lit.below_both(direction);
+    if (!(largest_channel(left) > (reflected_ ? largest_channel(reflected_->left) : least_left))) return;
+    reflected_ = way_;
+    reflected_->left = left;
+    turn(lit, direction, *reflected_);
 }
 
 void SightLine::pass_glass(RayCounts& counts) {
@@ -74,10 +108,10 @@ void SightLine::pass_glass(RayCounts& counts) {
     if (glass.volume || !surface_.material.is_glass_smooth()) {
         turn_at_glass(lit);
     } else {
-        left_ += share_ * sheet_transmittance(lit);
+        way_.left += share_ * sheet_transmittance(lit);
         if (known_) {  // which triangles border on the hit
             ++counts.primary;
-            last_ = tracer_.meet(ray_);
+            last_ = tracer_.meet(way_.ray);
         }
     }
     glass.tint = Rgb(0.0f);  // what it passes is met
@@ -88,11 +122,10 @@ void SightLine::turn_at_glass(const LitSurface& lit) {
     const ScatterSample sample = sample_scatter(lit, make_glass_share(), 0.0f, u, passing_side);
     spread_ = spread_ || !lit.material.is_glass_smooth();
     if (sample.weight == Rgb(0.0f)) return;
-    left_ += share_ * (sample.passes ? sheet_transmittance(lit) : sample.weight);
-    travelled_ += last_.hit.distance;
-    ray_ = {lit.ray_origin(sample.direction), sample.direction};
+    way_.left += share_ * (sample.passes ? sheet_transmittance(lit) : sample.weight);
+    turn(lit, sample.direction, way_);
     last_ = {};
-    if (sample.passes && lit.material.glass.volume) behind_.pass(surface_.point, lit.material);
+    if (sample.passes && lit.material.glass.volume) way_.media.pass(surface_.point, lit.material);
 }
 
 std::vector<Image<Hit>> find_layers(const LightingContext& context, const CameraView& view, const SampleHits& centers,
