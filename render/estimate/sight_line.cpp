@@ -51,6 +51,10 @@ bool SightLine::advance(RayCounts& counts) {
     Hit hit = last_.hit;
     hit.distance += way_.travelled;
     surface_ = make_pixel_surface(lighting_.shading, view_, centers_.place, hit, way_.ray.direction, pixel_);
+    if (surfaces_ == 1 && view_.orthographic && !way_.media.is_empty()) {
+        const SurfacePoint& point = surface_.point;
+        way_.media = find_media(lighting_.shading, tracer_, {point.ray_origin(), point.geometric}, counts.primary);
+    }
     lighting_.around = way_.media;
     SurfaceMaterial& material = surface_.material;
     if (material.glass.volume) material.glass.ior_ratio = way_.media.ratio_at(surface_);
