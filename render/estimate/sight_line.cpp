@@ -6,7 +6,6 @@
 
 #include "engine/rays/first_hits.h"
 #include "render/pixels/pixel_sequence.h"
-#include "render/surface/glass.h"
 
 namespace aleph {
 
@@ -61,13 +60,12 @@ bool SightLine::advance(RayCounts& counts) {
     way_.left *= transmit(way_.media.attenuation(surface_.point, material), last_.hit.distance - before);
     share_ = way_.left * last_.alpha;
     way_.left -= share_;
-    const bool mirror = material.is_mirror();
-    if (mirror) note_reflection();
-    if (material.has_glass()) pass_glass(counts);
-    if (mirror) {  // what it reflects is met
-        material.gloss.f0 = Rgb(0.0f);
-        material.gloss.f90 = material.glass.specular = 0.0f;
+    if (material.is_mirror()) {
+        note_reflection();
+        material.gloss.f0 = Rgb(0.0f);  // what it reflects is met
+        material.gloss.f90 = 0.0f;
     }
+    if (material.has_glass()) pass_glass(counts);
     return true;
 }
 
@@ -96,10 +94,7 @@ void SightLine::note_reflection() {
     const LitSurface lit(surface_);
     const glm::vec3 direction = lit.basis.to_world({-lit.view.x, -lit.view.y, lit.view.z});
     if (!(lit.view.z > 0.0f && glm::dot(lit.point.geometric, direction) > 0.0f)) return;
-    const float glass = glass_reflectance(lit.material, lit.view.z);
-    const Rgb reflectance =
-        glossy_reflectance(lit.material, lit.view.z) + (glass < 1.0f ? lit.material.glass.share * glass : 0.0f);
-    const Rgb left = share_ * reflectance * lit.below_both(direction);
+    const Rgb left = share_ * glossy_reflectance(lit.material, lit.view.z) * lit.below_both(direction);
     if (!(largest_channel(left) > (reflected_ ? largest_channel(reflected_->left) : least_left))) return;
     reflected_ = way_;
     reflected_->left = left;

@@ -8,8 +8,8 @@
 namespace aleph {
 
 /// The ray from surface to surface. Blended surfaces and smooth sheets of glass let it pass straight on, smooth walls
-/// of volumes refract it. Rough glass spreads it over several lines, of which this is one. What mirrors and smooth
-/// glass reflect is another way on.
+/// of volumes refract it. Rough glass spreads it over several lines, of which this is one. What mirrors reflect
+/// is another way on; the reflections of glass are left out.
 class SightLine {
   public:
     /// Keeps references.
@@ -22,7 +22,7 @@ class SightLine {
 
     /// Goes to the next surface. @return false: there is none, or next to no light would reach the camera from it
     bool advance(RayCounts& counts);
-    /// Once there is no further surface: goes back to where a mirror or glass reflects most of what has not been
+    /// Once there is no further surface: goes back to where a mirror reflects most of what has not been
     /// followed, for advance to go on from there. @return false: next to no light comes from there
     bool reflect();
 
@@ -69,8 +69,8 @@ class SightLine {
 };
 
 /// The surfaces of each pixel's line of sight that a good part of its light comes from, from near to far, and nothing
-/// where the surroundings are seen: one image for each, as many as there are before some pixel, and four at most. Where
-/// a pixel shows no further one, its first hit. Empty where no pixel shows more than that.
+/// where the surroundings or a reflection are seen: one image for each, as many as there are before some pixel, and
+/// four at most. Where a pixel shows no further one, its first hit. Empty where no pixel shows more than that.
 std::vector<Image<Hit>> find_layers(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                                     RayCounts& counts);
 

@@ -8,9 +8,6 @@
 
 namespace aleph {
 
-/// Share of light that the microfacets reflect; 1 at total reflection.
-float glass_reflectance(const SurfaceMaterial& material, float cosine);
-
 /// f times the cosine of the light, and the density per steradian with which it is sampled.
 struct LobeValue {
     Rgb f_cos{0.0f};
