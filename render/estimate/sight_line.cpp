@@ -26,6 +26,15 @@ constexpr LobeShares make_glass_share() {
 constexpr int most_layers = 4;
 constexpr float good_part = 0.1f;
 
+/// Returns whether a material may be glass or a mirror.
+bool shows_others(const ShadingMaterial& m) {
+    const float roughness = m.values.gloss.roughness;
+    const bool mirror =
+        roughness * roughness < min_ggx_alpha ||
+        (m.material != nullptr && m.material->textures[TextureSlot::metallic_roughness].image != no_index);
+    return m.values.glass.transmission > 0.0f || (mirror && !m.plain_lambert);
+}
+
 }  // namespace
 
 SightLine::SightLine(const LightingContext& context, const CameraView& view, Tracer& tracer, const SampleHits& centers,
@@ -129,8 +138,7 @@ void SightLine::turn_at_glass(const LitSurface& lit) {
 
 std::vector<Image<Hit>> find_layers(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                                     RayCounts& counts) {
-    const auto is_glass = [](const ShadingMaterial& m) { return m.values.glass.transmission > 0.0f; };
-    if (!Tracer(context.rays).has_blended() && std::ranges::none_of(context.shading.materials, is_glass)) return {};
+    if (!Tracer(context.rays).has_blended() && std::ranges::none_of(context.shading.materials, shows_others)) return {};
     std::vector<Image<Hit>> layers(most_layers, centers.hits);
     std::atomic<int> count = 0;
     const auto find_row = [&](int y, RayTask& task) {
@@ -142,7 +150,8 @@ std::vector<Image<Hit>> find_layers(const LightingContext& context, const Camera
             };
             SightLine line(context, view, task.tracer, centers, {x, y});
             while (line.advance(task.counts)) add(line.share(), line.surface().hit);
-            add(line.left(), {});
+            // A mirror's picture may rest whatever the mirror does: it counts as that of the surroundings.
+            add(glm::max(line.left(), line.reflected()), {});
             if (found > 1 || (found == 1 && layers[0](x, y) != centers.hits(x, y))) most = std::max(most, found);
         }
         for (int before = count; before < most && !count.compare_exchange_weak(before, most);) {

@@ -34,6 +34,8 @@ class SightLine {
     /// Share of the light of what surrounds the scene, once there is no further surface, and the ray's direction.
     const Rgb& left() const { return way_.left; }
     const glm::vec3& direction() const { return way_.ray.direction; }
+    /// Share of the light of what `reflect` goes to.
+    Rgb reflected() const { return reflected_ ? reflected_->left : Rgb(0.0f); }
     /// Returns whether it has met rough glass: others of its kind go elsewhere.
     bool is_spread() const { return spread_; }
 
