@@ -131,12 +131,14 @@ std::vector<glm::ivec2> list_missing(EstimateNodes& nodes, int level) {
 std::optional<PixelSurface> find_shown_surface(SightLine line, RayCounts& counts) {
     std::optional<PixelSurface> shown;
     float most = 0.0f;
-    while (line.advance(counts)) {
-        const float share = line.surface().material.has_diffuse() ? largest_channel(line.share()) : 0.0f;
-        if (!(share > most)) continue;
-        most = share;
-        shown = line.surface();
-    }
+    do {
+        while (line.advance(counts)) {
+            const float share = line.surface().material.has_diffuse() ? largest_channel(line.share()) : 0.0f;
+            if (!(share > most)) continue;
+            most = share;
+            shown = line.surface();
+        }
+    } while (line.reflect());
     return shown;
 }
 
@@ -233,8 +235,11 @@ struct EstimatedLight {
 
     Rgb along(RayTask& task, SightLine& line) const {
         Rgb sum(0.0f);
-        while (line.advance(task.counts)) sum += line.share() * of(task, line.lighting(), line.surface());
-        return line.left() == Rgb(0.0f) ? sum : sum + line.left() * beyond(line.direction());
+        do {
+            while (line.advance(task.counts)) sum += line.share() * of(task, line.lighting(), line.surface());
+            if (line.left() != Rgb(0.0f)) sum += line.left() * beyond(line.direction());
+        } while (line.reflect());
+        return sum;
     }
 
     /// @param make_line  gives the pixel's line of this number

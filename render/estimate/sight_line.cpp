@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "engine/rays/first_hits.h"
 #include "render/pixels/pixel_sequence.h"
@@ -25,6 +26,15 @@ constexpr LobeShares make_glass_share() {
 constexpr int most_layers = 4;
 constexpr float good_part = 0.1f;
 
+/// Returns whether a material may be glass or a mirror.
+bool shows_others(const ShadingMaterial& m) {
+    const float roughness = m.values.gloss.roughness;
+    const bool mirror =
+        roughness * roughness < min_ggx_alpha ||
+        (m.material != nullptr && m.material->textures[TextureSlot::metallic_roughness].image != no_index);
+    return m.values.glass.transmission > 0.0f || (mirror && !m.plain_lambert);
+}
+
 }  // namespace
 
 SightLine::SightLine(const LightingContext& context, const CameraView& view, Tracer& tracer, const SampleHits& centers,
@@ -35,12 +45,11 @@ SightLine::SightLine(const LightingContext& context, const CameraView& view, Tra
       centers_(centers),
       pixel_(pixel),
       number_(number),
-      ray_(to_scene(context.rays, make_camera_ray(view, pixel.x + 0.5, pixel.y + 0.5))),
-      behind_(context.around) {}
+      way_{to_scene(context.rays, make_camera_ray(view, pixel.x + 0.5, pixel.y + 0.5)), context.around} {}
 
 bool SightLine::advance(RayCounts& counts) {
-    if (surfaces_ == most_surfaces || largest_channel(left_) <= least_left) {
-        left_ = Rgb(0.0f);
+    if (surfaces_ == most_surfaces || largest_channel(way_.left) <= least_left) {
+        way_.left = Rgb(0.0f);
         return false;
     }
     const float before = last_.hit.distance;
@@ -48,15 +57,31 @@ bool SightLine::advance(RayCounts& counts) {
     ++surfaces_;
     if (last_.hit.instance == no_index) return false;
     Hit hit = last_.hit;
-    hit.distance += travelled_;
-    surface_ = make_pixel_surface(lighting_.shading, view_, centers_.place, hit, ray_.direction, pixel_);
-    lighting_.around = behind_;
+    hit.distance += way_.travelled;
+    surface_ = make_pixel_surface(lighting_.shading, view_, centers_.place, hit, way_.ray.direction, pixel_);
+    if (surfaces_ == 1 && view_.orthographic && !way_.media.is_empty()) {
+        const SurfacePoint& point = surface_.point;
+        way_.media = find_media(lighting_.shading, tracer_, {point.ray_origin(), point.geometric}, counts.primary);
+    }
+    lighting_.around = way_.media;
     SurfaceMaterial& material = surface_.material;
-    if (material.glass.volume) material.glass.ior_ratio = behind_.ratio_at(surface_);
-    left_ *= transmit(behind_.attenuation(surface_.point, material), last_.hit.distance - before);
-    share_ = left_ * last_.alpha;
-    left_ -= share_;
+    if (material.glass.volume) material.glass.ior_ratio = way_.media.ratio_at(surface_);
+    way_.left *= transmit(way_.media.attenuation(surface_.point, material), last_.hit.distance - before);
+    share_ = way_.left * last_.alpha;
+    way_.left -= share_;
+    if (material.is_mirror()) {
+        note_reflection();
+        material.gloss.f0 = Rgb(0.0f);  // what it reflects is met
+        material.gloss.f90 = 0.0f;
+    }
     if (material.has_glass()) pass_glass(counts);
+    return true;
+}
+
+bool SightLine::reflect() {
+    if (surfaces_ == most_surfaces || !reflected_) return false;
+    way_ = *std::exchange(reflected_, std::nullopt);
+    last_ = {};
     return true;
 }
 
@@ -65,7 +90,24 @@ Met SightLine::meet(RayCounts& counts) {
     known_ = surfaces_ == 0 && !tracer_.has_blended();
     if (known_) return {centers_.hits(pixel_.x, pixel_.y)};
     ++counts.primary;
-    return tracer_.meet(ray_, last_.hit.instance == no_index ? nullptr : &last_);
+    return tracer_.meet(way_.ray, last_.hit.instance == no_index ? nullptr : &last_);
+}
+
+/// Begins the ray that leaves the surface in a direction.
+void SightLine::turn(const LitSurface& lit, const glm::vec3& direction, Way& way) const {
+    way.ray = {lit.ray_origin(direction), direction};
+    way.travelled += last_.hit.distance;
+}
+
+void SightLine::note_reflection() {
+    const LitSurface lit(surface_);
+    const glm::vec3 direction = lit.basis.to_world({-lit.view.x, -lit.view.y, lit.view.z});
+    if (!(lit.view.z > 0.0f && glm::dot(lit.point.geometric, direction) > 0.0f)) return;
+    const Rgb left = share_ * glossy_reflectance(lit.material, lit.view.z) * lit.below_both(direction);
+    if (!(largest_channel(left) > (reflected_ ? largest_channel(reflected_->left) : least_left))) return;
+    reflected_ = way_;
+    reflected_->left = left;
+    turn(lit, direction, *reflected_);
 }
 
 void SightLine::pass_glass(RayCounts& counts) {
@@ -74,10 +116,10 @@ void SightLine::pass_glass(RayCounts& counts) {
     if (glass.volume || !surface_.material.is_glass_smooth()) {
         turn_at_glass(lit);
     } else {
-        left_ += share_ * sheet_transmittance(lit);
+        way_.left += share_ * sheet_transmittance(lit);
         if (known_) {  // which triangles border on the hit
             ++counts.primary;
-            last_ = tracer_.meet(ray_);
+            last_ = tracer_.meet(way_.ray);
         }
     }
     glass.tint = Rgb(0.0f);  // what it passes is met
@@ -88,17 +130,15 @@ void SightLine::turn_at_glass(const LitSurface& lit) {
     const ScatterSample sample = sample_scatter(lit, make_glass_share(), 0.0f, u, passing_side);
     spread_ = spread_ || !lit.material.is_glass_smooth();
     if (sample.weight == Rgb(0.0f)) return;
-    left_ += share_ * (sample.passes ? sheet_transmittance(lit) : sample.weight);
-    travelled_ += last_.hit.distance;
-    ray_ = {lit.ray_origin(sample.direction), sample.direction};
+    way_.left += share_ * (sample.passes ? sheet_transmittance(lit) : sample.weight);
+    turn(lit, sample.direction, way_);
     last_ = {};
-    if (sample.passes && lit.material.glass.volume) behind_.pass(surface_.point, lit.material);
+    if (sample.passes && lit.material.glass.volume) way_.media.pass(surface_.point, lit.material);
 }
 
 std::vector<Image<Hit>> find_layers(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                                     RayCounts& counts) {
-    const auto is_glass = [](const ShadingMaterial& m) { return m.values.glass.transmission > 0.0f; };
-    if (!Tracer(context.rays).has_blended() && std::ranges::none_of(context.shading.materials, is_glass)) return {};
+    if (!Tracer(context.rays).has_blended() && std::ranges::none_of(context.shading.materials, shows_others)) return {};
     std::vector<Image<Hit>> layers(most_layers, centers.hits);
     std::atomic<int> count = 0;
     const auto find_row = [&](int y, RayTask& task) {
@@ -110,7 +150,8 @@ std::vector<Image<Hit>> find_layers(const LightingContext& context, const Camera
             };
             SightLine line(context, view, task.tracer, centers, {x, y});
             while (line.advance(task.counts)) add(line.share(), line.surface().hit);
-            add(line.left(), {});
+            // A mirror's picture may rest whatever the mirror does: it counts as that of the surroundings.
+            add(glm::max(line.left(), line.reflected()), {});
             if (found > 1 || (found == 1 && layers[0](x, y) != centers.hits(x, y))) most = std::max(most, found);
         }
         for (int before = count; before < most && !count.compare_exchange_weak(before, most);) {

@@ -1,6 +1,6 @@
 #pragma once
 // The surfaces that the ray through a pixel's centre shows, without chance: those that it meets on its way through
-// blended surfaces and glass.
+// blended surfaces and glass, and in mirrors.
 
 #include "render/light/light_choice.h"
 #include "render/pixels/pixel_surfaces.h"
@@ -8,8 +8,8 @@
 namespace aleph {
 
 /// The ray from surface to surface. Blended surfaces and smooth sheets of glass let it pass straight on, smooth walls
-/// of volumes refract it. Rough glass spreads it over several lines, of which this is one. The reflections of glass are
-/// left out.
+/// of volumes refract it. Rough glass spreads it over several lines, of which this is one. What mirrors reflect
+/// is another way on; the reflections of glass are left out.
 class SightLine {
   public:
     /// Keeps references.
@@ -22,6 +22,9 @@ class SightLine {
 
     /// Goes to the next surface. @return false: there is none, or next to no light would reach the camera from it
     bool advance(RayCounts& counts);
+    /// Once there is no further surface: goes back to where a mirror reflects most of what has not been
+    /// followed, for advance to go on from there. @return false: next to no light comes from there
+    bool reflect();
 
     const PixelSurface& surface() const { return surface_; }
     /// Share of the surface's light that reaches the camera.
@@ -29,13 +32,25 @@ class SightLine {
     /// Light and media at the surface.
     const LightingContext& lighting() const { return lighting_; }
     /// Share of the light of what surrounds the scene, once there is no further surface, and the ray's direction.
-    const Rgb& left() const { return left_; }
-    const glm::vec3& direction() const { return ray_.direction; }
+    const Rgb& left() const { return way_.left; }
+    const glm::vec3& direction() const { return way_.ray.direction; }
+    /// Share of the light of what `reflect` goes to.
+    Rgb reflected() const { return reflected_ ? reflected_->left : Rgb(0.0f); }
     /// Returns whether it has met rough glass: others of its kind go elsewhere.
     bool is_spread() const { return spread_; }
 
   private:
+    /// A ray, and what it has behind it.
+    struct Way {
+        Ray ray;
+        Media media;             ///< of the ray, from the last surface on
+        float travelled = 0.0f;  ///< m, by the rays before this one
+        Rgb left{1.0f};
+    };
+
     Met meet(RayCounts& counts);
+    void turn(const LitSurface& lit, const glm::vec3& direction, Way& way) const;
+    void note_reflection();
     void pass_glass(RayCounts& counts);
     void turn_at_glass(const LitSurface& lit);
 
@@ -45,20 +60,19 @@ class SightLine {
     const SampleHits& centers_;
     glm::ivec2 pixel_;
     int number_;
-    Ray ray_;
-    Media behind_;        ///< of the ray, from the last surface on
-    Met last_{};          ///< on this ray
-    bool known_ = false;  ///< it is a first hit
+    Way way_;
+    std::optional<Way> reflected_;  ///< not followed yet
+    Met last_{};                    ///< on this ray
+    bool known_ = false;            ///< it is a first hit
     bool spread_ = false;
-    float travelled_ = 0.0f;  ///< m, by the rays before this one
     int surfaces_ = 0;
     PixelSurface surface_;
-    Rgb share_{0.0f}, left_{1.0f};
+    Rgb share_{0.0f};
 };
 
 /// The surfaces of each pixel's line of sight that a good part of its light comes from, from near to far, and nothing
-/// where the surroundings are seen: one image for each, as many as there are before some pixel, and four at most. Where
-/// a pixel shows no further one, its first hit. Empty where no pixel shows more than that.
+/// where the surroundings or a reflection are seen: one image for each, as many as there are before some pixel, and
+/// four at most. Where a pixel shows no further one, its first hit. Empty where no pixel shows more than that.
 std::vector<Image<Hit>> find_layers(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                                     RayCounts& counts);
 

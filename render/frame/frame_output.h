@@ -38,6 +38,7 @@ struct FrameStatistics {
     /// The earlier frame whose picture this is, because nothing changes between the two. Times and counts are those of
     /// rendering it, or 0 if that output was kept.
     std::optional<std::int64_t> copy_of;
+    std::optional<PictureArea> window;  ///< FrameRequest::window
     StageSeconds seconds;
     FrameCounts counts;  ///< of all stages
     TracedRays traced;

@@ -41,9 +41,9 @@ std::size_t FrameScene::prepare() {
 }
 
 void FrameScene::find_media_around(std::uint64_t& rays_cast) {
-    RayTask task(*rays_);
+    Tracer tracer(*rays_, Blend::random);
     const glm::vec3 camera(posed_->view.position - rays_->anchor()), up(0.0f, 1.0f, 0.0f);
-    around_ = find_media(*shading_, task, {camera, up}, rays_cast);
+    around_ = find_media(*shading_, tracer, {camera, up}, rays_cast);
 }
 
 void FrameScene::copy_to(KeyPose& kept) const {

@@ -50,7 +50,7 @@ void cut_to_window(FrameOutput& output, const PictureArea& window) {
     cut_motion(output.backward, cut);
     cut_maps(output.perception, cut);
     cut_shaded(output.shaded, cut);
-    output.window = window;
+    output.window = output.statistics.window = window;
     if (output.statistics.error)
         output.statistics.error = output.shaded.error_shares =
             count_errors(output.shaded.errors, output.shaded.error_shares.asked);

@@ -74,11 +74,18 @@ Json verified_json(const VerifiedStatistics& verified) {
             {"seconds", verified.seconds}};
 }
 
+/// As `--crop` has it.
+Json window_json(const std::optional<PictureArea>& window) {
+    if (!window) return nullptr;
+    return {window->x, window->x + window->width, window->y, window->y + window->height};
+}
+
 Json frame_json(const FrameStatistics& f) {
     Json seconds = Json::object();
     for (const auto& [stage, value] : list_stages(f.seconds)) seconds[stage] = value;
     return {{"frame", f.frame},
             {"copy_of", f.copy_of ? Json(*f.copy_of) : Json(nullptr)},
+            {"window", window_json(f.window)},
             {"seconds", seconds},
             {"rays",
              {{"primary", f.counts.rays.primary},

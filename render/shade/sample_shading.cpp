@@ -134,7 +134,7 @@ SampleScene scene_before(const SampleScene& scene, ShadingTask& task, const Pixe
     SampleScene before = scene;
     Media& media = before.lighting.around;
     if (!media.is_empty() && (scene.view.orthographic || scene.lens.radius > 0.0))
-        media = find_media(scene.lighting.shading, task, {surface.point.ray_origin(), surface.point.geometric},
+        media = find_media(scene.lighting.shading, task.tracer, {surface.point.ray_origin(), surface.point.geometric},
                            task.counts.primary);
     return before;
 }

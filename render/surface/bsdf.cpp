@@ -63,7 +63,8 @@ Rgb glossy_reflectance(const SurfaceMaterial& material, float cosine) {
 }
 
 Rgb evaluate_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
-    if (!(view.z > 0.0f && light.z > 0.0f) || material.is_mirror()) return Rgb(0.0f);
+    const bool above = view.z > 0.0f && light.z > 0.0f && view.z * light.z > 0.0f;  // the product may underflow
+    if (!above || material.is_mirror()) return Rgb(0.0f);
     // The angle to h from the length of the sum: the same for both directions, also where they are not exactly unit.
     const glm::vec3 sum = view + light;
     const float length = glm::length(sum);

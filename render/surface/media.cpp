@@ -84,13 +84,13 @@ void Media::pass(const SurfacePoint& surface, const SurfaceMaterial& material) {
     }
 }
 
-Media find_media(const ShadingScene& shading, RayTask& task, Ray ray, std::uint64_t& counts) {
+Media find_media(const ShadingScene& shading, Tracer& tracer, Ray ray, std::uint64_t& counts) {
     Media around;
     if (!shading.has_volumes) return around;
     Media entered;  // on the way
     for (int surface = 0; surface < max_surfaces; ++surface) {
         ++counts;
-        const Hit hit = task.tracer.intersect(ray);
+        const Hit hit = tracer.intersect(ray);
         if (hit.instance == no_index) break;
         const auto [point, material, view] =
             view_surface(shading, make_surface_point(shading, hit, ray.direction), -ray.direction, {});

@@ -52,6 +52,6 @@ class Media {
 /// The media that the origin of a ray is in: volumes whose back the ray meets before their front. Their meshes have to
 /// be closed, or to lie before the whole sky as a sheet of water does.
 /// @param counts  increased by the rays cast: none in a scene without volumes
-Media find_media(const ShadingScene& shading, RayTask& task, Ray ray, std::uint64_t& counts);
+Media find_media(const ShadingScene& shading, Tracer& tracer, Ray ray, std::uint64_t& counts);
 
 }  // namespace aleph

@@ -162,6 +162,7 @@ ordered_json list_unused(const Scene& scene, const Use& use) {
 
 constexpr std::int64_t few_frames = 8;
 constexpr std::size_t most_shots = 12;
+constexpr std::int64_t most_views = 100'000;  // of a shot whose camera has cubic keys
 
 /// The plan of one effect over frames that were looked at one after the other.
 struct PlannedFrames {
@@ -204,6 +205,20 @@ ordered_json explain_plan(Sequence& sequence, const std::vector<int>& frames) {
     return list;
 }
 
+/// Throws for a frame that rendering would refuse because cubic keys overshoot, also where no plan is made.
+void check_views(const Scene& scene, const ScenePose& posed, const CameraShot& shot, std::int64_t last) {
+    CameraValues values = posed.cameras[shot.camera];
+    const Camera& camera = scene.cameras[scene.nodes[values.node].camera];
+    if (std::max(camera.fov.interpolation, camera.half_height.interpolation) != Interpolation::cubic) return;
+    const FrameRange range{shot.first, last};
+    for (const std::int64_t frame : spread_frames(range, std::min(last - shot.first + 1, most_views))) {
+        const double seconds = scene.film.frame_rate.seconds_of(frame);
+        values.fov = evaluate(camera.fov, seconds);
+        values.half_height = evaluate(camera.half_height, seconds);
+        make_camera_view(scene, values, 1, 1);
+    }
+}
+
 /// Camera and exposure, and a warning for what rendering would refuse; a null camera for a scene without one.
 void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& settings, const std::string& camera,
                    const std::vector<int>& frames) {
@@ -217,7 +232,11 @@ void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& 
             out["camera_changes"].push_back({{"frame", shots[i].first}, {"camera", name(shots[i])}});
         }
         out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.film.exposure ? "given" : "first frame"}};
-        for (const CameraShot& shot : shots) find_lens(scene, posed.cameras[shot.camera]);
+        for (std::size_t i = 0; i < shots.size(); ++i) {
+            find_lens(scene, posed.cameras[shots[i].camera]);
+            check_views(scene, posed, shots[i],
+                        i + 1 < shots.size() ? shots[i + 1].first - 1 : frame_range(scene).last);
+        }
         out["plan_frames"] = frames;
         out["plan"] = explain_plan(sequence, frames);
     } catch (const InputError& error) {

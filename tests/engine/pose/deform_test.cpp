@@ -178,6 +178,20 @@ TEST(Deform, MorphTargetsAddUp) {
     expect_near(posed.normals[0], glm::normalize(glm::dvec3(1.0, 0.0, 1.0)), 1e-7);
 }
 
+TEST(Deform, MorphedMeshesStandUnderSeveralNodes) {
+    Scene scene = make_sheet_scene();
+    Mesh& mesh = scene.meshes[0];
+    mesh.deformation.targets.resize(1);
+    mesh.deformation.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 2.0f, 0.0f));
+    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
+    scene.nodes.push_back(scene.nodes[0]);
+    for (const std::size_t hidden : {0, 1}) {
+        scene.nodes[hidden].visible = 0.0;
+        scene.nodes[1 - hidden].visible = 1.0;
+        EXPECT_EQ(pose(scene, 0.5).meshes[0].positions[0], glm::dvec3(mesh.positions[0]) + glm::dvec3(0.0, 1.0, 0.0));
+    }
+}
+
 TEST(Deform, SkinFollowsItsJointsWhateverItsOwnNodeDoes) {
     Scene scene = make_skin_scene();
     for (const double angle : {0.0, 30.0, 90.0, 210.0}) {

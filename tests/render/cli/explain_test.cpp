@@ -215,6 +215,19 @@ TEST(Explain, SaysWhatRenderingWouldRefuse) {
     EXPECT_THAT(warning, HasSubstr("rendering is refused: camera of node eye"));
 }
 
+/// At few of many frames: no plan is made for them.
+TEST(Explain, SaysWhereAFieldOfViewOvershoots) {
+    Scene scene = make_scene();
+    scene.film.range = {0, 1000};
+    Track<double>& fov = scene.cameras[0].fov;
+    fov.interpolation = Interpolation::cubic;
+    fov.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 15.0, 16.0, 33.0}};
+    fov.values = {0.0, 0.5, 0.0, 0.0, 0.5, 20.0, -20.0, 0.5, 0.0, 0.0, 0.5, 0.0};
+    const ordered_json explained = explain(scene);
+    ASSERT_EQ(explained["warnings"].size(), 1u);
+    EXPECT_THAT(std::string(explained["warnings"][0]), HasSubstr("its field of view is"));
+}
+
 TEST(Explain, ASceneWithoutACamera) {
     Scene scene = make_scene();
     scene.nodes[4].camera = no_index;

@@ -41,10 +41,13 @@ TEST_F(StatsSchema, FitsTheFilesOfAllCommands) {
                                                     {"render", {"--frames", "1", "--integrator", "path", "--spp", "2"}},
                                                     {"render", {"--frames", "1-2", "--budget", "1"}},
                                                     {"render", {"--frames", "1", "--verify", ".1"}},
+                                                    {"render", {"--frames", "1", "--spp", "1", "--crop", "2,7,1,4"}},
                                                     {"maps", {"--frames", "1-2"}}}) {
         SCOPED_TRACE(testing::PrintToString(words));
         const Json stats = run_for_stats(command, words);
         EXPECT_EQ(mismatch(stats), "");
+        const bool cropped = std::ranges::count(words, "--crop") == 1;
+        EXPECT_EQ(stats["frames"][0]["window"], cropped ? Json({2, 7, 1, 4}) : Json());
         EXPECT_EQ(stats.contains("budget"), std::ranges::count(words, "--budget") == 1);
         EXPECT_EQ(stats.contains("verified"), std::ranges::count(words, "--verify") == 1);
     }

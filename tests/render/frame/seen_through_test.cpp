@@ -8,7 +8,7 @@
 namespace aleph {
 namespace {
 
-enum class Sheet { wall, blended, glass };
+enum class Sheet { wall, blended, glass, mirror };
 
 /// A sheet that slides by 1 m in a frame before a wall at rest.
 Image<float> find_speed_before_wall(Sheet kind, double alpha = 1.0) {
@@ -19,6 +19,7 @@ Image<float> find_speed_before_wall(Sheet kind, double alpha = 1.0) {
         material.glass.transmission = 1.0;
         material.gloss = {.metallic = 0.0, .roughness = 0.0};
     }
+    if (kind == Sheet::mirror) material.gloss = {.metallic = 1.0, .roughness = 0.0};
     if (kind == Sheet::blended) material.opacity = {.alpha = alpha, .mode = Opacity::Mode::blend};
     add_mesh(scene, make_quad(30.0, 10.0, sheet));
     scene.nodes[0].transform.translation =
@@ -34,6 +35,7 @@ TEST(SeenThrough, PixelsAreAsFastAsTheSlowestThingThatTheyShow) {
     EXPECT_GT(find_speed_before_wall(Sheet::blended, 0.95)(8, 6), 1.0f);  // next to nothing is seen behind it
     for (const double alpha : {0.2, 0.6, 0.8}) EXPECT_EQ(find_speed_before_wall(Sheet::blended, alpha)(8, 6), 0.0f);
     EXPECT_EQ(find_speed_before_wall(Sheet::glass)(8, 6), 0.0f);
+    EXPECT_EQ(find_speed_before_wall(Sheet::mirror)(8, 6), 0.0f);  // its picture rests
 }
 
 }  // namespace

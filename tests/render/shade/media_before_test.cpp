@@ -46,6 +46,14 @@ TEST(MediaBefore, RaysOfAnOrthographicViewBeginInTheirOwn) {
     }
 }
 
+TEST(MediaBefore, TheQuickEstimateOfAnOrthographicViewHasItsOwnToo) {
+    const FrameRequest maps_only{.frame = false, .maps = true, .progress = {}};
+    const Scene scene = make_half_medium({.orthographic = true, .half_height = 0.3});
+    const Image<Rgb> estimate = Sequence(scene, quick_settings(12, 6)).render(0, maps_only).estimate;
+    for (int x = 0; x < 12; ++x)
+        EXPECT_NEAR(estimate(x, 3).x, 0.05 + (x + 0.5 - 6.0) * 0.1 < 0.0 ? 1.0 : 0.5, 1e-3) << x;
+}
+
 TEST(MediaBefore, RaysFromALensBeginInTheirOwn) {
     const Scene scene = make_half_medium({.fov = 1e-4, .aperture = 0.2, .focus_distance = 1e4});  // nearly parallel
     constexpr double h = 0.05 / 0.2;  // the surface's distance from the lens's centre, of its radius

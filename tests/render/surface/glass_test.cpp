@@ -280,7 +280,7 @@ TEST(TintedGlass, MediaAroundAPointAreThoseThatARayLeaves) {
     RayTask task(stage.rays);
     const auto find = [&](float height, const glm::vec3& direction, std::uint64_t expected_rays) {
         std::uint64_t rays = 0;
-        const Media media = find_media(stage.shading, task, {glm::vec3(0.0f, height, 0.0f), direction}, rays);
+        const Media media = find_media(stage.shading, task.tracer, {glm::vec3(0.0f, height, 0.0f), direction}, rays);
         EXPECT_EQ(rays, expected_rays) << height;
         return media;
     };

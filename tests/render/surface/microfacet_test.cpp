@@ -33,6 +33,14 @@ TEST(Microfacets, MC07_NarrowGgxAgainstLongDouble) {
     }
 }
 
+TEST(Microfacets, AreFiniteWhereBothDirectionsGraze) {
+    const SurfaceMaterial metal = make_metal(0.3f);
+    for (const float cosine : {1e-10f, 1e-20f, 1e-25f, 1e-37f}) {
+        const Rgb f = evaluate_glossy(metal, {1.0f, 0.0f, cosine}, {-1.0f, 0.0f, cosine});
+        EXPECT_TRUE(std::isfinite(f.x) && f.x >= 0.0f) << cosine << ": " << f.x;
+    }
+}
+
 TEST(Microfacets, MC07_RoughnessZeroIsAMirror) {
     const glm::vec3 view = direction_of(0.4f);
     for (const double roughness : {0.0, 1e-6, 0.03}) {

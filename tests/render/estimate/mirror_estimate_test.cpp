@@ -1,0 +1,101 @@
+// The quick estimate of mirrors: they show what they reflect.
+
+#include "render/estimate/estimate.h"
+#include "tests/support/scenes/render_scenes.h"
+#include "tests/support/test.h"
+
+namespace aleph {
+namespace {
+
+constexpr int mirror_side = 4;  // pixels
+constexpr double near_radiance = 0.3, far_radiance = 0.7, metal_color = 0.8, dielectric_reflects = 0.04;
+
+/// Radiance of what the camera sees, which looks down from a height of 3 m.
+Rgb estimate_below(Scene& scene) {
+    add_camera(scene, {0.0, 3.0, 0.0}, glm::dvec3(0.0));
+    scene.cameras[0].orthographic = true;
+    scene.cameras[0].half_height = 0.2;
+    const Stage stage(scene, mirror_side, mirror_side);
+    RayCounts counts;
+    const Image<Rgb> seen =
+        compute_estimate(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), {}, counts);
+    for (const Rgb& pixel : seen.pixels) EXPECT_NEAR(pixel.x, seen(1, 1).x, 1e-5f);
+    return seen(1, 1);
+}
+
+/// A sheet that faces up at a height.
+void add_sheet(Scene& scene, double height, int material) {
+    add_mesh(scene, make_quad(8.0, 8.0, material), {0.0, height, 0.0}, z_to_up);
+}
+
+/// Shows its radiance and lights nothing.
+int add_unlit(Scene& scene, double radiance) {
+    const int material = add_lambert(scene, glm::dvec3(radiance), glm::dvec3(0.0), true);
+    scene.materials[material].unlit = true;
+    return material;
+}
+
+int add_smooth(Scene& scene, double color, double metallic, double transmission) {
+    const int material = add_lambert(scene, glm::dvec3(color), glm::dvec3(0.0), true);
+    scene.materials[material].gloss = {.metallic = metallic, .roughness = 0.0};
+    scene.materials[material].glass.transmission = transmission;
+    return material;
+}
+
+TEST(MirrorEstimate, ShowsWhatIsReflected) {
+    Scene scene;
+    add_sheet(scene, 0.0, add_smooth(scene, metal_color, 1.0, 0.0));
+    add_sheet(scene, 4.0, add_unlit(scene, far_radiance));
+    EXPECT_NEAR(estimate_below(scene).x, metal_color * far_radiance, 1e-5);
+}
+
+/// Not the highlights that its lobe would have beside it.
+TEST(MirrorEstimate, ShowsALampOnce) {
+    Scene scene;
+    add_sheet(scene, 0.0, add_smooth(scene, metal_color, 1.0, 0.0));
+    add_lamp(scene, 8.0, glm::dvec3(far_radiance), {0.0, 4.0, 0.0}, z_to_down);
+    EXPECT_NEAR(estimate_below(scene).x, metal_color * far_radiance, 1e-5);
+}
+
+TEST(MirrorEstimate, ShowsTheSurroundings) {
+    Scene scene;
+    add_sheet(scene, 0.0, add_smooth(scene, metal_color, 1.0, 0.0));
+    scene.environment.radiance = Track<glm::dvec3>{glm::dvec3(far_radiance)};
+    EXPECT_NEAR(estimate_below(scene).x, metal_color * far_radiance, 1e-5);
+}
+
+TEST(MirrorEstimate, BlendedMirrorsShowBothSides) {
+    Scene scene;
+    const int mirror = add_smooth(scene, metal_color, 1.0, 0.0);
+    scene.materials[mirror].opacity = {.alpha = 0.6, .mode = Opacity::Mode::blend};
+    add_sheet(scene, 1.0, mirror);
+    add_sheet(scene, 0.0, add_unlit(scene, near_radiance));
+    add_sheet(scene, 4.0, add_unlit(scene, far_radiance));
+    EXPECT_NEAR(estimate_below(scene).x, 0.4 * near_radiance + 0.6 * metal_color * far_radiance, 1e-5);
+}
+
+/// The Lambert layer shows itself, and the gloss above it what is reflected.
+TEST(MirrorEstimate, PolishedFloorsReflect) {
+    Scene scene;
+    add_sheet(scene, 0.0, add_smooth(scene, 0.0, 0.0, 0.0));
+    add_sheet(scene, 4.0, add_unlit(scene, far_radiance));
+    EXPECT_NEAR(estimate_below(scene).x, dielectric_reflects * far_radiance, 1e-5);
+}
+
+/// Light of one bounce is gathered where the mirror shows it.
+TEST(MirrorEstimate, NodesLieOnWhatMirrorsShow) {
+    Scene scene;
+    add_sheet(scene, 0.0, add_smooth(scene, metal_color, 1.0, 0.0));
+    add_mesh(scene, make_quad(8.0, 8.0, add_lambert(scene, glm::dvec3(0.5))), {0.0, 4.0, 0.0}, z_to_down);
+    add_camera(scene, {0.0, 3.0, 0.0}, glm::dvec3(0.0));
+    const Stage stage(scene, 32, 32);
+    RayCounts counts;
+    EstimateNodes nodes =
+        gather_estimate(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), nullptr, counts);
+    EXPECT_GT(nodes.node(0, 0).surface.footprint, 0.0f);
+    EXPECT_NEAR(nodes.node(0, 0).surface.normal.y, -1.0f, 1e-6f);
+    EXPECT_TRUE(nodes.node(0, 0).known);
+}
+
+}  // namespace
+}  // namespace aleph
