@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "engine/base/errors.h"
 #include "engine/pose/parts.h"
-#include "engine/scene/operations.h"
 #include "engine/scene/transforms.h"
 #include "engine/scene/visit.h"
 #include "engine/scene_file/aim.h"
@@ -90,11 +88,7 @@ class GuidedNodesBaker {
 
     template <class Property>
     void add_key_times(const Property& property, const std::string& place, std::vector<double>& times) {
-        std::size_t count = 0;
-        if constexpr (std::is_same_v<Property, OperationStack>)
-            count = sample_count(property);
-        else
-            count = property.key_count();
+        const std::size_t count = sample_count(property);
         if (count < 2) return;
         work(count, place);
         charge_keys(place)(count * sizeof(double));
