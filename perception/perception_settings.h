@@ -1,7 +1,7 @@
 #pragma once
 // Settings of the vision model.
 
-#include "perception/saliency/saliency_grid.h"
+#include "perception/saliency/saliency.h"
 #include "perception/vision/band_frequencies.h"
 #include "perception/vision/vision_list.h"
 
