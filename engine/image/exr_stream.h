@@ -5,7 +5,6 @@
 
 #include <cstring>
 #include <stdexcept>
-#include <string>
 
 #include "engine/image/codec.h"
 

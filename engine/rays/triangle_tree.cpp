@@ -1,7 +1,6 @@
 #include "engine/rays/triangle_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <new>
 
