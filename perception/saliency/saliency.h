@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "engine/base/image.h"
+#include "perception/perception_settings.h"
 #include "perception/saliency/feature_maps.h"
 
 namespace aleph {
-
-/// On which grids it is computed.
-enum class SaliencyGrid {
-    full,    ///< every level expanded to full size before N(.)
-    center,  ///< differences and N(.) on the centre level's own grid: much cheaper, S correlates .99
-};
 
 struct Saliency {
     Image<float> map;       ///< S, [0,1], at full size
