@@ -11,7 +11,7 @@
 
 namespace aleph {
 
-/// Of the absolute values.
+/// The largest absolute value of an element.
 inline double largest_element(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
