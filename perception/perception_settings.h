@@ -1,6 +1,7 @@
 #pragma once
 // Settings of the vision model.
 
+#include "perception/saliency/saliency_grid.h"
 #include "perception/vision/band_frequencies.h"
 #include "perception/vision/vision_list.h"
 
@@ -11,12 +12,6 @@ enum class Guide {
     spatial,   ///< v_I = 0
     full,      ///< S = .82 everywhere (3.1)
     saliency,  ///< S from the saliency map (5.5)
-};
-
-/// On which grids saliency is computed.
-enum class SaliencyGrid {
-    full,    ///< every level expanded to full size before N(.)
-    center,  ///< differences and N(.) on the centre level's own grid: much cheaper, S correlates .99
 };
 
 struct PerceptionSettings {

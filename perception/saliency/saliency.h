@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/base/image.h"
-#include "perception/perception_settings.h"
 #include "perception/saliency/feature_maps.h"
+#include "perception/saliency/saliency_grid.h"
 
 namespace aleph {
 
