@@ -8,7 +8,6 @@
 #include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
 #include "motion/motion_field.h"
-#include "motion/other_frame.h"
 #include "motion/turn.h"
 
 namespace aleph {

@@ -18,6 +18,29 @@ enum class MotionValidity : std::int8_t {
     hidden = -4,          ///< something covers it in frame N+1; displacement kept
 };
 
+/// The frame that motion from frame N leads to.
+enum class OtherFrame : std::uint8_t {
+    /// N+1.
+    next,
+    /// N-1, for the last frame. The displacement leads from N-1 to N, so that constant speed gives the same result as
+    /// with the next frame.
+    previous,
+    /// None: a camera cut lies between, or there is only one frame. Displacement and path length are 0, and every
+    /// surface pixel is `no_counterpart`.
+    none,
+};
+
+/// Number of the other frame; `frame` itself where there is none.
+inline std::int64_t other_frame_number(std::int64_t frame, OtherFrame other) {
+    if (other == OtherFrame::none) return frame;
+    return other == OtherFrame::next ? frame + 1 : frame - 1;
+}
+
+/// +1, or -1 where the displacement leads from the other frame to this one.
+inline double displacement_sign(OtherFrame other) {
+    return other == OtherFrame::previous ? -1.0 : 1.0;
+}
+
 struct MotionField {
     /// P' - P in pixels, x right, y down, from frame N to N+1. Both are projections of the surface point; the pixel's
     /// centre is not used. Length at most the image diagonal.

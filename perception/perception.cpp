@@ -8,7 +8,6 @@
 #include "engine/base/pixel_loops.h"
 #include "perception/aleph_map.h"
 #include "perception/band_response.h"
-#include "perception/check_viewing.h"
 #include "perception/saliency/saliency.h"
 #include "perception/threshold.h"
 

@@ -5,7 +5,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "perception/check_viewing.h"
 #include "perception/vision/luminance_curve.h"
 
 namespace aleph {
@@ -52,6 +51,17 @@ std::vector<int> disc_half_widths(double radius, const Image<Rgb>& estimate) {
 }
 
 }  // namespace
+
+void check_viewing(const ViewingConditions& viewing) {
+    const auto check = [](double value, const char* name) {
+        if (!(std::isfinite(value) && value > 0.0)) throw InputError("", name, "must be positive and finite");
+    };
+    check(viewing.pixels_per_degree, "pixels per degree");
+    check(viewing.display_white, "display white");
+    if (!(viewing.persistence >= 0.0 && viewing.persistence <= 1.0)) {
+        throw InputError("", "persistence", "must be from 0 to 1");
+    }
+}
 
 Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const ViewingConditions& viewing) {
     if (estimate.empty()) throw InputError("", "estimate", "the image is empty");

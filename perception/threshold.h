@@ -8,6 +8,10 @@
 
 namespace aleph {
 
+/// @throws InputError if pixels per degree or the white of the display is not positive and finite, or persistence is
+/// not in [0,1]
+void check_viewing(const ViewingConditions& viewing);
+
 /// Adaptation luminance, cd/m2: mean over the pixels within half a degree that lie in the image.
 /// @throws InputError if the estimate is empty, or viewing is not positive and finite
 Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const ViewingConditions& viewing);

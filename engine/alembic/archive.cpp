@@ -132,7 +132,8 @@ void AlembicArchive::read_indexed_metadata(const OgawaData& table) {
     while (!cursor.at_end()) indexed_metadata_.push_back(parse_metadata(cursor.take_text(cursor.take_unsigned(1))));
 }
 
-const AlembicMetadata& AlembicArchive::metadata_number(std::uint64_t number, const OgawaCursor& cursor) const {
+AlembicMetadata AlembicArchive::take_metadata(OgawaCursor& cursor, std::uint64_t number, std::size_t width) const {
+    if (number == inline_metadata) return parse_metadata(cursor.take_text(cursor.take_unsigned(width)));
     if (number >= indexed_metadata_.size())
         cursor.fail(fmt::format("metadata number {} is beyond the table's {}", number, indexed_metadata_.size() - 1));
     return indexed_metadata_[number];
@@ -177,9 +178,7 @@ void AlembicArchive::read_objects() {
             object.parent = parent;
             object.name = cursor.take_text(cursor.take_unsigned(4));
             if (object.name.empty()) cursor.fail("a child has no name");
-            const std::uint64_t number = cursor.take_unsigned(1);
-            object.metadata = number == inline_metadata ? parse_metadata(cursor.take_text(cursor.take_unsigned(4)))
-                                                        : metadata_number(number, cursor);
+            object.metadata = take_metadata(cursor, cursor.take_unsigned(1), 4);
             object.group = ogawa_.group(group, children.size() + 1);
             for (int i = parent; i >= 0; i = objects_[i].parent) {
                 if (object.group.offset != 0 && objects_[i].group == object.group)
@@ -257,9 +256,7 @@ AlembicCompound AlembicArchive::read_properties(const OgawaGroup& group) const {
         }
         property.name = cursor.take_text(cursor.take_unsigned(width));
         if (property.name.empty()) cursor.fail("a property has no name");
-        const std::uint64_t number = info >> 20 & 255;
-        property.metadata = number == inline_metadata ? parse_metadata(cursor.take_text(cursor.take_unsigned(width)))
-                                                      : metadata_number(number, cursor);
+        property.metadata = take_metadata(cursor, info >> 20 & 255, width);
         property.group = ogawa_.group(group, compound.properties.size());
         budget_.charge(1, sizeof(AlembicProperty) + 64 * property.metadata.size());
         compound.properties.push_back(std::move(property));

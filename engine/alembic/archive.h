@@ -120,7 +120,8 @@ class AlembicArchive {
     void read_indexed_metadata(const OgawaData& table);
     void read_objects();
     AlembicCompound read_properties(const OgawaGroup& group) const;
-    const AlembicMetadata& metadata_number(std::uint64_t number, const OgawaCursor& cursor) const;
+    /// @param number  in the table, or of metadata that stands here, behind a length of `width` bytes
+    AlembicMetadata take_metadata(OgawaCursor& cursor, std::uint64_t number, std::size_t width) const;
     OgawaData sample_data(const AlembicProperty& property, std::uint64_t sample) const;
 
     OgawaFile ogawa_;

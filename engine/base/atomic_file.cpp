@@ -66,7 +66,7 @@ void create_folder_of(const fs::path& path) {
     if (error) fail(path, "cannot create its folder", error.value());
 }
 
-/// Every step is checked.
+/// Every step is checked. write_atomically flushes them.
 void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& named) {
     FileDescriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (fd.get() < 0) fail(named, "cannot create a file in this folder", errno);
@@ -77,7 +77,6 @@ void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& n
         if (written < 0) fail(named, "cannot write", errno);
         done += static_cast<std::size_t>(written);
     }
-    if (::fsync(fd.get()) != 0) fail(named, "cannot flush to disk", errno);
     if (!fd.close()) fail(named, "cannot close", errno);
     std::error_code error;
     const auto size = fs::file_size(file, error);

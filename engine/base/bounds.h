@@ -8,6 +8,11 @@
 
 namespace aleph {
 
+/// False for NaN.
+inline bool is_within(const glm::dvec3& p, double limit) {
+    return glm::abs(p.x) < limit && glm::abs(p.y) < limit && glm::abs(p.z) < limit;
+}
+
 /// m; empty until something is added.
 struct Bounds {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};

@@ -2,18 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 namespace aleph {
 
 namespace {
 
 std::string join_message(const std::string& file, const std::string& place, const std::string& reason) {
-    std::string message;
-    for (const std::string* part : {&file, &place, &reason}) {
-        if (part->empty()) continue;
-        if (!message.empty()) message += ": ";
-        message += *part;
-    }
-    return message;
+    std::vector<std::string_view> parts{file, place, reason};
+    std::erase(parts, "");
+    return fmt::format("{}", fmt::join(parts, ": "));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <system_error>
 
 #include "engine/base/errors.h"
@@ -22,13 +23,6 @@ std::uint32_t read_u32(std::string_view bytes, std::size_t offset) {
     std::uint32_t value = 0;
     for (int i = 3; i >= 0; --i) value = value << 8 | static_cast<std::uint8_t>(bytes[offset + i]);
     return value;
-}
-
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
 }
 
 constexpr std::array<std::int8_t, 256> make_base64_table() {
@@ -143,11 +137,12 @@ std::string percent_decode(std::string_view uri, const std::string& file, const 
             decoded += uri[i];
             continue;
         }
-        const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1;
-        const int low = i + 2 < uri.size() ? hex_digit(uri[i + 2]) : -1;
-        if (high < 0 || low < 0)
+        const std::string_view digits = uri.substr(i + 1, 2);
+        std::uint8_t byte = 0;
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
+        if (error != std::errc() || end != digits.data() + 2)
             throw InputError(file, place, fmt::format("broken % escape in \"{}\"", printable(uri)));
-        decoded += static_cast<char>(high * 16 + low);
+        decoded += static_cast<char>(byte);
         i += 2;
     }
     return decoded;

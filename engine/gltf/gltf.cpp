@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "engine/gltf/reader.h"
 #include "engine/scene/append.h"
+#include "engine/scene/transforms.h"
 
 namespace aleph {
 
@@ -18,16 +17,10 @@ constexpr double min_scale = 1e-12;
 
 /// True if the node's own transform is constant and shrinks everything to a point.
 bool shrinks_to_point(const Node& node) {
-    if (!node.transform.matrix) {
-        const glm::dvec3 scale = glm::abs(key_value(node.transform.scale, 0));
-        return !is_animated(node.transform.scale) && std::max({scale.x, scale.y, scale.z}) < min_scale;
-    }
-    if (is_animated(*node.transform.matrix)) return false;
-    const glm::dmat4& matrix = key_value(*node.transform.matrix, 0);
-    double largest = 0.0;
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(matrix[column][row]));
-    return largest < min_scale;
+    const LocalTransform& local = node.transform;
+    if (local.matrix)
+        return !is_animated(*local.matrix) && largest_element(glm::dmat3(key_value(*local.matrix, 0))) < min_scale;
+    return !is_animated(local.scale) && largest_element(key_value(local.scale, 0)) < min_scale;
 }
 
 /// Per scene node: a mesh that follows the node's transform hangs on it or below it. Skinned meshes follow joints.

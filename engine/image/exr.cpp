@@ -12,11 +12,14 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRationalAttribute.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfVersion.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <mutex>
@@ -68,25 +71,13 @@ void check_channels(const ChannelImage& image) {
 }
 
 /// Attributes about the storage of pixels, which are not metadata.
-bool is_structural(const std::string& name) {
-    static const std::set<std::string> names{"channels",
-                                             "chromaticities",
-                                             "chunkCount",
-                                             "compression",
-                                             "dataWindow",
-                                             "displayWindow",
-                                             "lineOrder",
-                                             "maxSamplesPerPixel",
-                                             "name",
-                                             "preview",
-                                             "tiles",
-                                             "type",
-                                             "pixelAspectRatio",
-                                             "screenWindowCenter",
-                                             "screenWindowWidth",
-                                             "version",
-                                             "view"};
-    return names.contains(name);
+constexpr std::array<std::string_view, 17> structural_names = {
+    {"channels", "chromaticities", "chunkCount", "compression", "dataWindow", "displayWindow", "lineOrder",
+     "maxSamplesPerPixel", "name", "pixelAspectRatio", "preview", "screenWindowCenter", "screenWindowWidth", "tiles",
+     "type", "version", "view"}};
+
+bool is_structural(std::string_view name) {
+    return std::ranges::find(structural_names, name) != structural_names.end();
 }
 
 void insert_attribute(Imf::Header& header, const std::string& name, const MetadataValue& value) {
@@ -192,7 +183,6 @@ std::string encode_exr(const ChannelImage& image, int threads) {
     check_channels(image);
     const Image<float>& first = image.channels.front().values;
     return with_input_errors("", [&]() -> std::string {
-        std::string bytes;
         const PictureArea whole = image.whole.value_or(PictureArea{0, 0, first.width, first.height});
         const Imath::V2i place(-whole.x, -whole.y);
         const Imath::Box2i window(place, place + Imath::V2i(first.width - 1, first.height - 1));
@@ -205,12 +195,13 @@ std::string encode_exr(const ChannelImage& image, int threads) {
             header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
             pixels.insert(channel.name, make_slice(channel.values, window));
         }
+        Imf::StdOSStream stream;
         {
-            MemoryOutput stream(bytes);
             Imf::OutputFile file(stream, header, grow_thread_pool(threads));
             file.setFrameBuffer(pixels);
             file.writePixels(first.height);
         }
+        std::string bytes = stream.str();
         verify(bytes, first, image.channels.back());
         return bytes;
     });

@@ -1,33 +1,14 @@
 #pragma once
-// Bytes in memory as streams of OpenEXR.
+// Bytes in memory as a stream of OpenEXR.
 
 #include <OpenEXR/ImfIO.h>
 
 #include <cstring>
 #include <stdexcept>
-#include <string>
 
 #include "engine/image/codec.h"
 
 namespace aleph {
-
-class MemoryOutput : public Imf::OStream {
-  public:
-    explicit MemoryOutput(std::string& bytes) : Imf::OStream("memory"), bytes_(bytes) {}
-
-    void write(const char c[], int n) override {
-        const auto count = static_cast<std::size_t>(n);
-        if (position_ + count > bytes_.size()) bytes_.resize(position_ + count);
-        std::memcpy(bytes_.data() + position_, c, count);
-        position_ += count;
-    }
-    std::uint64_t tellp() override { return position_; }
-    void seekp(std::uint64_t position) override { position_ = position; }
-
-  private:
-    std::string& bytes_;
-    std::size_t position_ = 0;
-};
 
 class MemoryInput : public Imf::IStream {
   public:

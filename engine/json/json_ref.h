@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,12 @@ class JsonRef {
     /// Element of an array. @param i  below array_size()
     JsonRef operator[](std::size_t i) const&;
     JsonRef operator[](std::size_t i) const&& = delete;
+    /// All elements of an array. They point to it.
+    auto elements() const& {
+        return std::views::iota(std::size_t{0}, array_size()) |
+               std::views::transform([this](auto i) { return (*this)[i]; });
+    }
+    auto elements() const&& = delete;
     /// @param min_size  fewest elements allowed
     std::size_t array_size(std::size_t min_size = 0) const;
 
@@ -68,16 +75,17 @@ class JsonRef {
     const std::string* file_;
 };
 
-/// Calls visit(element, i) for every object of the array `key`; an absent array has none.
+/// Calls visit(element, i) for every element of the array `key`; an absent array has none.
 template <class Visit>
-void for_each_object(const JsonRef& parent, std::string_view key, const Visit& visit) {
+void for_each_element(const JsonRef& parent, std::string_view key, const Visit& visit) {
     const std::optional<JsonRef> array = parent.find(key);
     const std::size_t count = array ? array->array_size() : 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const JsonRef element = (*array)[i];
-        element.expect_object();
-        visit(element, i);
-    }
+    for (std::size_t i = 0; i < count; ++i) visit((*array)[i], i);
+}
+/// The same, where the elements are objects.
+template <class Visit>
+void for_each_object(const JsonRef& parent, std::string_view key, const Visit& visit) {
+    for_each_element(parent, key, [&](const JsonRef& element, std::size_t i) { visit(element.expect_object(), i); });
 }
 
 /// Number of elements of an optional array.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
+#include <numeric>
 
 #include "engine/base/parallel.h"
 #include "engine/pose/camera_view.h"
@@ -191,27 +193,28 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
         return mesh.subdivision.cage == no_index || mesh.subdivision.limit.surface == nullptr || mesh.triangles.empty();
     });
     std::vector<double> most(scene.cages.size(), -std::numeric_limits<double>::infinity());
+    std::map<std::int64_t, std::vector<std::size_t>> looks;  // instances by frame
+    for (const std::int64_t frame : sample_frames(frame_range(scene))) {
+        looks[frame].resize(instances.size());
+        std::iota(looks[frame].begin(), looks[frame].end(), std::size_t{0});
+    }
+    const auto passes = find_closest_passes(scene, camera_node, instances, width, height);
+    for (std::size_t i = 0; i < passes.size(); ++i)
+        if (passes[i]) looks[*passes[i]].push_back(i);
     Shapes shapes(scene);
-    for (const std::int64_t number : sample_frames(frame_range(scene))) {
-        const double seconds = scene.film.frame_rate.seconds_of(number);
+    for (const auto& [frame, which] : looks) {
+        const double seconds = scene.film.frame_rate.seconds_of(frame);
         ScenePose posed = place_nodes(scene, seconds);
         posed.instances = instances;
         const CameraView view =
             make_camera_view(scene, pose_camera(scene, camera_node, posed.world[camera_node], seconds), width, height);
-        for (std::size_t i = 0; i < instances.size(); ++i) {
+        for (const std::size_t i : which) {
             if (!is_shown(scene, posed, i)) continue;
             const Mesh& mesh = scene.meshes[instances[i].mesh];
             double& needed = most[mesh.subdivision.cage];
             needed = std::max(
                 needed, find_level_needed(shapes.at(instances[i].mesh, seconds), posed.world[instances[i].node], view));
         }
-    }
-    const auto passes = find_closest_passes(scene, camera_node, instances, width, height);
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-        if (!passes[i]) continue;
-        double& needed = most[scene.meshes[instances[i].mesh].subdivision.cage];
-        needed = std::max(needed, find_level_needed(shapes.at(instances[i].mesh, passes[i]->seconds), passes[i]->world,
-                                                    passes[i]->view));
     }
     return most;
 }

@@ -5,9 +5,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "engine/base/bounds.h"
 #include "engine/base/parallel.h"
+#include "engine/pose/camera_view.h"
 #include "engine/pose/parts.h"
-#include "engine/scene/operations.h"
 #include "engine/scene/points.h"
 #include "engine/scene/visit.h"
 
@@ -20,25 +21,15 @@ struct Ball {
 };
 
 Ball ball_around(const std::vector<glm::vec3>& points) {
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-    for (const glm::vec3& p : points) {
-        low = glm::min(low, glm::dvec3(p));
-        high = glm::max(high, glm::dvec3(p));
-    }
-    return {0.5 * (low + high), 0.5 * glm::length(high - low)};
+    Bounds bounds;
+    for (const glm::vec3& p : points) bounds.add(p);
+    return {0.5 * (bounds.low + bounds.high), 0.5 * glm::length(bounds.high - bounds.low)};
 }
 
 Ball ball_at(const PointCache& cache, const std::vector<Ball>& balls, double seconds) {
     const SampleSpan span = find_samples(cache.sampling, balls.size(), seconds);
     const Ball &a = balls[span.floor], &b = balls[span.ceil];
     return {glm::mix(a.center, b.center, span.fraction), std::lerp(a.radius, b.radius, span.fraction)};
-}
-
-template <class Element>
-bool has_keys(const Element& element) {
-    bool animated = false;
-    visit_tracks(element, [&](const auto& track) { animated = animated || is_animated(track); });
-    return animated;
 }
 
 bool is_in_view(const CameraView& view, const Ball& ball) {
@@ -81,7 +72,7 @@ class Passes {
     bool is_empty() const { return changing_.empty(); }
 
     /// The closest passes among the frames first, first + stride, ... up to `last`.
-    std::vector<std::optional<ClosestPass>> find(std::int64_t first, std::int64_t last, std::int64_t stride) const {
+    std::vector<std::optional<std::int64_t>> find(std::int64_t first, std::int64_t last, std::int64_t stride) const {
         constexpr std::size_t frames_per_chunk = 64;
         const auto count = static_cast<std::size_t>((last - first) / stride) + 1;
         std::vector<Nearest> chunks((count + frames_per_chunk - 1) / frames_per_chunk);
@@ -95,7 +86,13 @@ class Passes {
                 look(posed, first + static_cast<std::int64_t>(i) * stride, nearest);
             }
         });
-        return pose_passes(chunks, start);
+        std::vector<std::optional<std::int64_t>> frames(instances_.size());
+        for (std::size_t c = 0; c < changing_.size(); ++c) {
+            const auto best =
+                std::ranges::min_element(chunks, {}, [&](const Nearest& nearest) { return nearest[c].remoteness; });
+            if ((*best)[c].remoteness < never) frames[changing_[c]] = (*best)[c].frame;
+        }
+        return frames;
     }
 
   private:
@@ -122,7 +119,7 @@ class Passes {
         for (std::size_t n = 0; n < count; ++n) {
             const Node& node = scene_.nodes[n];
             if (needed[n] == 0) continue;
-            moving_[n] = has_keys(node);
+            moving_[n] = has_animated_tracks(node);
             for (const int above : {node.parent, space_of(scene_, node)})
                 if (above != no_index) moving_[n] |= moving_[above];
             if (moving_[n] != 0) nodes_.push_back(static_cast<int>(n));
@@ -133,13 +130,8 @@ class Passes {
         const Mesh& mesh = scene_.meshes[instance.mesh];
         const int points = scene_.cages[mesh.subdivision.cage].points;
         return moving_[instance.node] != 0 || moving_[camera_node_] != 0 || is_animated(mesh.present) ||
-               has_keys(scene_.cameras[scene_.nodes[camera_node_].camera]) ||
+               has_animated_tracks(scene_.cameras[scene_.nodes[camera_node_].camera]) ||
                (points != no_index && scene_.point_caches[points].positions.size() > 1);
-    }
-
-    CameraView view_at(const ScenePose& posed) const {
-        return make_camera_view(scene_, pose_camera(scene_, camera_node_, posed.world[camera_node_], posed.seconds),
-                                width_, height_);
     }
 
     void place(std::int64_t frame, ScenePose& posed) const {
@@ -148,7 +140,8 @@ class Passes {
     }
 
     void look(ScenePose& posed, std::int64_t frame, Nearest& nearest) const {
-        const CameraView view = view_at(posed);
+        const CameraView view = make_camera_view(
+            scene_, pose_camera(scene_, camera_node_, posed.world[camera_node_], posed.seconds), width_, height_);
         posed.instances.resize(1);
         for (std::size_t c = 0; c < changing_.size(); ++c) {
             const Instance& instance = posed.instances[0] = instances_[changing_[c]];
@@ -165,28 +158,6 @@ class Passes {
         }
     }
 
-    /// The best of all chunks, each frame posed once.
-    std::vector<std::optional<ClosestPass>> pose_passes(const std::vector<Nearest>& chunks, ScenePose posed) const {
-        Nearest best(changing_.size());
-        for (const Nearest& chunk : chunks) {
-            for (std::size_t c = 0; c < best.size(); ++c)
-                if (chunk[c].remoteness < best[c].remoteness) best[c] = chunk[c];
-        }
-        std::vector<std::size_t> order;
-        for (std::size_t c = 0; c < best.size(); ++c)
-            if (best[c].remoteness < never) order.push_back(c);
-        std::ranges::stable_sort(order, {}, [&](std::size_t c) { return best[c].frame; });
-        std::vector<std::optional<ClosestPass>> passes(instances_.size());
-        std::optional<std::int64_t> frame;
-        for (const std::size_t c : order) {
-            if (frame != best[c].frame) place(best[c].frame, posed);
-            frame = best[c].frame;
-            const std::size_t i = changing_[c];
-            passes[i] = ClosestPass{posed.seconds, posed.world[instances_[i].node], view_at(posed)};
-        }
-        return passes;
-    }
-
     const Scene& scene_;
     const int camera_node_;
     const std::span<const Instance> instances_;
@@ -199,11 +170,11 @@ class Passes {
 
 }  // namespace
 
-std::vector<std::optional<ClosestPass>> find_closest_passes(const Scene& scene, int camera_node,
-                                                            std::span<const Instance> instances, int width,
-                                                            int height) {
+std::vector<std::optional<std::int64_t>> find_closest_passes(const Scene& scene, int camera_node,
+                                                             std::span<const Instance> instances, int width,
+                                                             int height) {
     const Passes passes(scene, camera_node, instances, width, height);
-    if (passes.is_empty()) return std::vector<std::optional<ClosestPass>>(instances.size());
+    if (passes.is_empty()) return std::vector<std::optional<std::int64_t>>(instances.size());
     constexpr double most_work = 2e8;
     const FrameRange range = frame_range(scene);
     const double frames = static_cast<double>(range.last) - static_cast<double>(range.first) + 1.0;

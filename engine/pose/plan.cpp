@@ -1,18 +1,10 @@
 #include "engine/pose/plan.h"
 
 #include "engine/pose/parts.h"
-#include "engine/scene/operations.h"
 #include "engine/scene/visit.h"
 
 namespace aleph {
 namespace {
-
-template <class Element>
-bool has_animated_tracks(const Element& element) {
-    bool animated = false;
-    visit_tracks(element, [&](const auto& track) { animated = animated || is_animated(track); });
-    return animated;
-}
 
 void plan_nodes(const Scene& scene, bool all, PosePlan& plan) {
     plan.moving.resize(scene.nodes.size(), 0);

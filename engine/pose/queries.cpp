@@ -13,14 +13,6 @@
 #include "engine/scene/visit.h"
 
 namespace aleph {
-namespace {
-
-template <class T>
-std::size_t sample_count(const Track<T>& track) {
-    return track.key_count();
-}
-
-}  // namespace
 
 std::vector<bool> nodes_with_content(const Scene& scene) {
     std::vector<bool> content(scene.nodes.size(), false);
@@ -72,16 +64,10 @@ FrameRange frame_range(const Scene& scene) {
         latest = std::max(latest, sample_time(sampling, count - 1));
     };
     const auto visit = [&](const auto& property) { widen_samples(property.sampling, sample_count(property)); };
-    for (const Node& node : scene.nodes) visit_tracks(node, visit);
-    for (const Mesh& mesh : scene.meshes) {
-        visit_tracks(mesh, visit);
+    visit_tracks(scene, visit);
+    for (const Mesh& mesh : scene.meshes)
         widen_samples(mesh.deformation.normal_sampling, mesh.deformation.normal_samples.size());
-    }
     for (const PointCache& cache : scene.point_caches) widen_samples(cache.sampling, cache.positions.size());
-    for (const Material& material : scene.materials) visit_tracks(material, visit);
-    for (const Light& light : scene.lights) visit_tracks(light, visit);
-    for (const Camera& camera : scene.cameras) visit_tracks(camera, visit);
-    visit_tracks(scene.environment, visit);
     for (const CameraKey& key : scene.film.camera_keys) {
         earliest = std::min(earliest, scene.film.frame_rate.seconds_of(key.frame));
         latest = std::max(latest, scene.film.frame_rate.seconds_of(key.frame));
@@ -169,20 +155,17 @@ int camera_at(const std::vector<CameraShot>& shots, std::int64_t frame) {
 }
 
 bool is_world_animated(const Scene& scene) {
-    bool animated = false;
-    const auto look = [&](const auto& property) { animated = animated || is_animated(property); };
     const std::vector<bool> content = nodes_with_content(scene);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (content[i]) visit_tracks(scene.nodes[i], look);
-    for (const Mesh& mesh : scene.meshes) {
-        visit_tracks(mesh, look);
-        animated = animated || do_samples_differ(mesh.deformation.normal_samples);
-    }
-    for (const PointCache& cache : scene.point_caches) look(cache);
-    for (const Material& material : scene.materials) visit_tracks(material, look);
-    for (const Light& light : scene.lights) visit_tracks(light, look);
-    visit_tracks(scene.environment, look);
-    return animated;
+        if (content[i] && has_animated_tracks(scene.nodes[i])) return true;
+    const auto are_samples_animated = [](const Mesh& mesh) {
+        return do_samples_differ(mesh.deformation.normal_samples);
+    };
+    return std::ranges::any_of(scene.meshes, has_animated_tracks<Mesh>) ||
+           std::ranges::any_of(scene.meshes, are_samples_animated) ||
+           std::ranges::any_of(scene.point_caches, [](const PointCache& cache) { return is_animated(cache); }) ||
+           std::ranges::any_of(scene.materials, has_animated_tracks<Material>) ||
+           std::ranges::any_of(scene.lights, has_animated_tracks<Light>) || has_animated_tracks(scene.environment);
 }
 
 }  // namespace aleph

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/scene/operations.h"
 #include "engine/scene/points.h"
 #include "engine/scene/visit.h"
 
@@ -120,38 +119,18 @@ bool SteadySpans::is_world_steady(double from, double to) const {
            });
 }
 
-namespace {
-
-void add_times(const TimeSampling& sampling, std::size_t count, double from, double to, std::vector<double>& times) {
-    if (count < 2) return;
-    for (std::size_t i = find_samples(sampling, count, from).floor; i < count; ++i) {
-        const double at = sample_time(sampling, i);
-        if (at >= to) break;
-        if (at > from) times.push_back(at);
-    }
-}
-
-}  // namespace
-
 std::vector<double> find_key_times(const Scene& scene, double from, double to) {
     constexpr std::size_t most = 256;
     std::vector<double> times;
-    const auto add = [&]<class Property>(const Property& property) {
-        if constexpr (std::is_same_v<Property, OperationStack>) {
-            add_times(property.sampling, sample_count(property), from, to, times);
-        } else {
-            add_times(property.sampling, property.key_count(), from, to, times);
+    visit_tracks(scene, [&](const auto& property) {
+        const std::size_t count = sample_count(property);
+        if (count < 2) return;
+        for (std::size_t i = find_samples(property.sampling, count, from).floor; i < count; ++i) {
+            const double at = sample_time(property.sampling, i);
+            if (at >= to) break;
+            if (at > from) times.push_back(at);
         }
-    };
-    const auto visit_all = [&](const auto& elements) {
-        for (const auto& element : elements) visit_tracks(element, add);
-    };
-    visit_all(scene.nodes);
-    visit_all(scene.materials);
-    visit_all(scene.lights);
-    visit_all(scene.cameras);
-    visit_all(scene.meshes);
-    visit_tracks(scene.environment, add);
+    });
     std::ranges::sort(times);
     times.erase(std::unique(times.begin(), times.end()), times.end());
     std::vector<double> chosen;

@@ -26,15 +26,6 @@ struct Candidate {
     double own;     ///< m: largest distance of its points from the object's own origin, along an axis
 };
 
-double largest(const glm::dvec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
-/// False for NaN.
-bool is_near(const glm::dvec3& p) {
-    return std::abs(p.x) < max_place && std::abs(p.y) < max_place && std::abs(p.z) < max_place;
-}
-
 std::vector<std::uint8_t> find_still_meshes(const Scene& scene, const PosePlan& plan) {
     std::vector<std::uint8_t> still(scene.meshes.size());
     for (std::size_t m = 0; m < still.size(); ++m)
@@ -43,11 +34,16 @@ std::vector<std::uint8_t> find_still_meshes(const Scene& scene, const PosePlan& 
     return still;
 }
 
+/// m: the largest distance of a point in the box from a place, along an axis.
+double reach_from(const glm::dvec3& place, const Bounds& bounds) {
+    return std::max(largest_element(bounds.low - place), largest_element(bounds.high - place));
+}
+
 Candidate make_candidate(std::size_t instance, const Bounds& mesh, const glm::dmat4& world) {
     Candidate candidate{instance, {}, 0.0};
     mesh.add_corners_to(candidate.bounds, world);
     const glm::dvec3 place(world[3]);
-    candidate.own = std::max(largest(candidate.bounds.low - place), largest(candidate.bounds.high - place));
+    candidate.own = reach_from(place, candidate.bounds);
     return candidate;
 }
 
@@ -68,8 +64,7 @@ glm::dvec3 choose_origin(const std::vector<Candidate>& candidates) {
     };
     for (int axis = 0; axis < 3; ++axis)
         origin[axis] = median_of([&](const Candidate& c) { return 0.5 * (c.bounds.low[axis] + c.bounds.high[axis]); });
-    const double reach = median_of(
-        [&](const Candidate& c) { return std::max(largest(c.bounds.low - origin), largest(c.bounds.high - origin)); });
+    const double reach = median_of([&](const Candidate& c) { return reach_from(origin, c.bounds); });
     if (!(reach > 0.0) || !std::isfinite(reach)) return origin;
     const double cell = std::exp2(std::floor(std::log2(reach)) - 2.0);
     return glm::round(origin / cell) * cell;
@@ -78,8 +73,8 @@ glm::dvec3 choose_origin(const std::vector<Candidate>& candidates) {
 /// True where coordinates relative to the origin are precise enough: its own already are about as large, or it lies
 /// near the origin.
 bool fits(const Candidate& candidate, const glm::dvec3& origin) {
-    const double reach = std::max(largest(candidate.bounds.low - origin), largest(candidate.bounds.high - origin));
-    const double size = largest(candidate.bounds.high - candidate.bounds.low);
+    const double reach = reach_from(origin, candidate.bounds);
+    const double size = largest_element(candidate.bounds.high - candidate.bounds.low);
     return reach <= std::max(max_reach, 2.0 * candidate.own) && reach <= max_reach_in_sizes * size;
 }
 
@@ -127,7 +122,8 @@ std::vector<Candidate> find_candidates(const Scene& scene, const PosePlan& poses
         if (box.empty())
             for (const glm::vec3& p : scene.meshes[instance.mesh].positions) box.add(glm::dvec3(p));
         const Candidate candidate = make_candidate(i, box, world);
-        if (is_near(glm::dvec3(world[3])) && is_near(candidate.bounds.low) && is_near(candidate.bounds.high))
+        if (is_within(glm::dvec3(world[3]), max_place) && is_within(candidate.bounds.low, max_place) &&
+            is_within(candidate.bounds.high, max_place))
             candidates.push_back(candidate);
     }
     return candidates;

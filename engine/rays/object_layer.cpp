@@ -49,11 +49,6 @@ void occlude_objects(const RTCOccludedFunctionNArguments* arguments) {
     }
 }
 
-bool is_below(const Bounds& bounds, double limit) {
-    const glm::dvec3 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
-    return largest.x < limit && largest.y < limit && largest.z < limit;
-}
-
 }  // namespace
 
 ObjectLayer::ObjectLayer(const EmbreeDevice& device, std::size_t count) : device_(device), placements_(count) {
@@ -78,7 +73,7 @@ bool ObjectLayer::place(std::size_t index, const PlacedTree& object, const glm::
         glm::dmat4 placed = world;
         placed[3] = glm::dvec4(place, 1.0);
         object.tree->bounds().add_corners_to(bounds, placed);
-        enabled = is_below(bounds, max_coordinate);
+        enabled = is_within(bounds.low, max_coordinate) && is_within(bounds.high, max_coordinate);
     }
     const bool same =
         !state.changed && world == placement.world && place == placement.place && placement.object == object;

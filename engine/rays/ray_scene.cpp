@@ -1,7 +1,6 @@
 #include "engine/rays/ray_scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/flush_denormals.h"
 #include "engine/rays/state.h"
@@ -58,17 +57,12 @@ RayScene::State::State(std::shared_ptr<const MeshStructures> shared) : meshes(st
 }
 
 bool is_traceable(const glm::dmat4& world) {
-    if (!has_full_rank(world)) return false;
-    double largest = 0.0;
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(world[column][row]));
-    return largest < max_coordinate;
+    const auto fits = [&](int column) { return is_within(glm::dvec3(world[column]), max_coordinate); };
+    return has_full_rank(world) && fits(0) && fits(1) && fits(2) && fits(3);
 }
 
 bool are_traceable(const std::vector<glm::dvec3>& positions) {
-    return std::ranges::all_of(positions, [](const glm::dvec3& p) {  // NaN fails every comparison
-        return std::abs(p.x) < max_coordinate && std::abs(p.y) < max_coordinate && std::abs(p.z) < max_coordinate;
-    });
+    return std::ranges::all_of(positions, [](const glm::dvec3& p) { return is_within(p, max_coordinate); });
 }
 
 RayScene::RayScene(const Scene& scene, const PosePlan& plan)

@@ -1,11 +1,11 @@
 #include "engine/rays/triangle_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <new>
 
 #include "engine/rays/traversal.h"
+#include "engine/scene/transforms.h"
 
 namespace aleph {
 namespace {
@@ -139,7 +139,7 @@ TreeExtent::TreeExtent(const Bounds& bounds) {
     center = 0.5 * bounds.low + 0.5 * bounds.high;
     // A single point has no size of its own.
     radius = std::max(glm::length(bounds.high - center), std::numeric_limits<float>::min() * 1e10);
-    const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)}) + reach();
+    const double farthest = largest_element(center) + reach();
     margin = 0x1p-19 * farthest;
 }
 

@@ -33,6 +33,12 @@ struct Track {
     bool operator==(const Track&) const = default;
 };
 
+/// Keys of a track, by the name that operation stacks have for theirs (operations.h).
+template <class T>
+std::size_t sample_count(const Track<T>& track) {
+    return track.key_count();
+}
+
 /// The value at a time: on a key exactly the key's; before the first key and after the last, theirs. Between equal keys
 /// exactly their value, so that what does not move has the same bits at every time.
 /// Quaternions come back unit; NaN counts as before the first key. Instantiated for double, dvec3, dquat, dmat4.

@@ -12,14 +12,6 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double smallest = std::numeric_limits<double>::min();  // below it precision is lost, or flushed to zero
 constexpr double parallel_sine = 1e-9;                           // directions closer than this do not span a plane
 
-double largest_element(const glm::dvec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
-double largest_element(const glm::dmat3& m) {
-    return std::max({largest_element(m[0]), largest_element(m[1]), largest_element(m[2])});
-}
-
 bool all_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

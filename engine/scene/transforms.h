@@ -2,12 +2,22 @@
 // Vectors, rotations and affine matrices, where GLM's functions are not robust: nothing here divides by a length of
 // zero, underflows for tiny scales or overflows for huge ones.
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 namespace aleph {
+
+/// The largest absolute value of an element.
+inline double largest_element(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+inline double largest_element(const glm::dmat3& m) {
+    return std::max({largest_element(m[0]), largest_element(m[1]), largest_element(m[2])});
+}
 
 /// v at length 1, whatever its length; the zero vector where v is zero or not finite.
 glm::dvec3 safe_normalize(const glm::dvec3& v);

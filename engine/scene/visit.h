@@ -1,6 +1,9 @@
 #pragma once
 // Visits the lists of a scene, and every track: to find what is animated, and over which span of time.
 
+#include <algorithm>
+
+#include "engine/scene/operations.h"
 #include "engine/scene/scene.h"
 
 namespace aleph {
@@ -85,6 +88,23 @@ template <class Visit>
 void visit_tracks(const Mesh& mesh, const Visit& visit) {
     visit(mesh.present);
     for (const Track<double>& weight : mesh.deformation.target_weights) visit(weight);
+}
+
+/// The tracks of all elements and of the environment.
+template <class Visit>
+void visit_tracks(const Scene& scene, const Visit& visit) {
+    const auto visit_all = [&](const auto&... lists) {
+        (std::ranges::for_each(lists, [&](const auto& element) { visit_tracks(element, visit); }), ...);
+    };
+    visit_all(scene.nodes, scene.meshes, scene.materials, scene.lights, scene.cameras);
+    visit_tracks(scene.environment, visit);
+}
+
+template <class Element>
+bool has_animated_tracks(const Element& element) {
+    bool animated = false;
+    visit_tracks(element, [&](const auto& property) { animated = animated || is_animated(property); });
+    return animated;
 }
 
 }  // namespace aleph

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "engine/base/errors.h"
 #include "engine/pose/parts.h"
-#include "engine/scene/operations.h"
 #include "engine/scene/transforms.h"
 #include "engine/scene/visit.h"
 #include "engine/scene_file/aim.h"
@@ -90,11 +88,7 @@ class GuidedNodesBaker {
 
     template <class Property>
     void add_key_times(const Property& property, const std::string& place, std::vector<double>& times) {
-        std::size_t count = 0;
-        if constexpr (std::is_same_v<Property, OperationStack>)
-            count = sample_count(property);
-        else
-            count = property.key_count();
+        const std::size_t count = sample_count(property);
         if (count < 2) return;
         work(count, place);
         charge_keys(place)(count * sizeof(double));
@@ -254,7 +248,7 @@ class GuidedNodesBaker {
         double farthest = 0.0;
         for (const double seconds : times) {
             const auto [axes, seen] = place(seconds);
-            farthest = std::max({farthest, largest_of(axes[3]), largest_of(seen)});
+            farthest = std::max({farthest, largest_element(axes[3]), largest_element(seen)});
         }
         // Nearer than this the difference of the two places is rounding.
         const double least_distance = 1e-13 * farthest;
@@ -275,12 +269,10 @@ class GuidedNodesBaker {
     ///              cofactors give for every size of scale
     static Aim aim_in(const glm::dmat4& axes, const glm::dvec3& target, const glm::dvec3& up, double least_distance) {
         const glm::dvec3 way = target - glm::dvec3(axes[3]);
-        if (!(largest_of(way) > least_distance) || !has_full_rank(axes)) return {};
+        if (!(largest_element(way) > least_distance) || !has_full_rank(axes)) return {};
         const glm::dmat3 inverse = glm::transpose(normal_matrix(axes));
         return {safe_normalize(inverse * safe_normalize(way)), safe_normalize(inverse * up)};
     }
-
-    static double largest_of(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
     SceneReader& reader_;
     Scene& scene_;

@@ -26,8 +26,7 @@ int read_cage_points(SceneReader& reader, const JsonRef& at, const std::string& 
 }
 
 void read_faces(const JsonRef& at, std::size_t points, Cage& cage) {
-    for (std::size_t i = 0; i < at.array_size(); ++i) {
-        const JsonRef face = at[i];
+    for (const JsonRef face : at.elements()) {
         const std::vector<int> indices = read_indices(face, 1, points, "point");
         if (indices.size() < 3) face.fail(fmt::format("has {} points; a face has at least 3", indices.size()));
         cage.faces.sizes.push_back(static_cast<int>(indices.size()));
@@ -66,24 +65,16 @@ void read_uv(const JsonRef& at, Cage& cage) {
 }
 
 void read_sharp_parts(const JsonRef& at, std::size_t points, Cage& cage) {
-    if (const auto creases = at.find("creases")) {
-        for (std::size_t i = 0; i < creases->array_size(); ++i) {
-            const JsonRef crease = (*creases)[i];
-            const JsonRef chain = crease.require("points"), sharpness = crease.require("sharpness");
-            const std::vector<int> indices = read_indices(chain, 1, points, "point");
-            cage.creases.lengths.push_back(static_cast<int>(indices.size()));
-            cage.creases.points.insert(cage.creases.points.end(), indices.begin(), indices.end());
-            cage.creases.sharpness.push_back(static_cast<float>(sharpness.number()));
-        }
-    }
-    if (const auto corners = at.find("corners")) {
-        for (std::size_t i = 0; i < corners->array_size(); ++i) {
-            const JsonRef corner = (*corners)[i];
-            const JsonRef point = corner.require("point"), sharpness = corner.require("sharpness");
-            cage.corners.points.push_back(read_index(point, points, "point"));
-            cage.corners.sharpness.push_back(static_cast<float>(sharpness.number()));
-        }
-    }
+    for_each_element(at, "creases", [&](const JsonRef& crease, std::size_t) {
+        const std::vector<int> indices = read_indices(crease.require("points"), 1, points, "point");
+        cage.creases.lengths.push_back(static_cast<int>(indices.size()));
+        cage.creases.points.insert(cage.creases.points.end(), indices.begin(), indices.end());
+        cage.creases.sharpness.push_back(static_cast<float>(crease.require("sharpness").number()));
+    });
+    for_each_element(at, "corners", [&](const JsonRef& corner, std::size_t) {
+        cage.corners.points.push_back(read_index(corner.require("point"), points, "point"));
+        cage.corners.sharpness.push_back(static_cast<float>(corner.require("sharpness").number()));
+    });
 }
 
 }  // namespace
@@ -99,8 +90,7 @@ int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     if (const auto word = at.find("uv_rule")) cage.uv_rule = read_word<Cage::UvRule>(*word, uv_rule_words);
     cage.points = read_cage_points(reader, at, name);
     const std::size_t points = reader.scene.point_caches[cage.points].point_count();
-    const JsonRef faces = at.require("faces");
-    read_faces(faces, points, cage);
+    read_faces(at.require("faces"), points, cage);
     read_sharp_parts(at, points, cage);
     read_uv(at, cage);
     const std::size_t count = cage.faces.sizes.size();

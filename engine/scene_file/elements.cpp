@@ -55,8 +55,7 @@ TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
         texture.image = read_image_use(reader, at);
         return texture;
     }
-    const JsonRef image = at.require("image");
-    texture.image = read_image_use(reader, image);
+    texture.image = read_image_use(reader, at.require("image"));
     texture.uv_set = static_cast<int>(at.find_integer("uv_set", 0, 1).value_or(0));
     if (const auto wrap = at.find("wrap")) {
         const auto read = [](const JsonRef& word) { return read_word<Wrap>(word, wrap_words); };

@@ -42,7 +42,7 @@ std::vector<glm::dvec3> read_path_points(SceneReader& reader, const JsonRef& at)
     constexpr std::size_t point_bytes = 400;  // with its part of the curve
     reader.charge(at.array_size() * point_bytes, at, "the path has too many points");
     std::vector<glm::dvec3> points;
-    for (std::size_t i = 0; i < at.array_size(); ++i) points.push_back(read_dvec3(at[i]));
+    for (const JsonRef point : at.elements()) points.push_back(read_dvec3(point));
     return points;
 }
 

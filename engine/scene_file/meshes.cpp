@@ -36,9 +36,8 @@ Shape read_shape(const JsonRef& at, Shape::Kind kind) {
     for (const auto& field : shape_numbers) {
         if (const auto value = at.find(field.key)) field.in(shape) = value->number();
     }
-    if (const auto value = at.find("profile")) {
-        for (std::size_t i = 0; i < value->array_size(); ++i) shape.profile.push_back(read_dvec2((*value)[i]));
-    }
+    for_each_element(at, "profile",
+                     [&](const JsonRef& point, std::size_t) { shape.profile.push_back(read_dvec2(point)); });
     if (const auto value = at.find("smooth")) shape.smooth = value->boolean();
     if (const auto value = at.find("uv_scale")) shape.uv_scale = read_dvec2(*value);
     shape.segments =
@@ -98,8 +97,7 @@ void read_triangles(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
     check_shape_keys(at, "mesh", mesh_keys);
     read_vertices(reader, at, mesh);
     const std::size_t vertices = mesh.positions.size();
-    const JsonRef triangles = at.require("triangles");
-    const std::vector<int> indices = read_indices(triangles, 3, vertices, "vertex");
+    const std::vector<int> indices = read_indices(at.require("triangles"), 3, vertices, "vertex");
     mesh.triangles.reserve(indices.size() / 3);
     for (std::size_t i = 0; i < indices.size(); i += 3) {
         mesh.triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
@@ -164,8 +162,7 @@ int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRe
         read_triangles(reader, at, mesh);
     } else if (type.string() == "cage") {
         check_shape_keys(at, "cage", {"cage", "part"});
-        const JsonRef cage = at.require("cage");
-        mesh.subdivision.cage = read_use(reader, cage, reader.names.cages, name, add_cage);
+        mesh.subdivision.cage = read_use(reader, at.require("cage"), reader.names.cages, name, add_cage);
         const Cage& used = reader.scene.cages[mesh.subdivision.cage];
         mesh.subdivision.part = static_cast<int>(at.find_integer("part", 0, count_parts(used) - 1).value_or(0));
         reader.charge(cage_triangle_bytes * count_triangles(used, std::max(used.level, 1)), at,

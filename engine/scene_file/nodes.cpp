@@ -16,8 +16,7 @@ namespace {
 /// @return whether a node includes files
 bool collect_names(const JsonRef& list, NameIndex& names, std::size_t& count) {
     bool includes = false;
-    for (std::size_t i = 0; i < list.array_size(); ++i) {
-        const JsonRef node = list[i];
+    for (const JsonRef node : list.elements()) {
         if (++count > max_scene_nodes) node.fail(fmt::format("more than {} nodes", max_scene_nodes));
         if (const auto name = node.find("name"); name && !name->string().empty()) {
             if (names.find(name->string())) {
@@ -39,7 +38,7 @@ class NodeReader {
     }
 
     void read_list(const JsonRef& list, int parent) {
-        for (std::size_t i = 0; i < list.array_size(); ++i) read(list[i], parent);
+        for (const JsonRef node : list.elements()) read(node, parent);
     }
 
   private:
@@ -131,10 +130,9 @@ class NodeReader {
             node.meshes.push_back(
                 read_mesh(reader_, *shape, material, std::nullopt, reader_.names.meshes.unused(name)));
         if (const auto mesh = at.find("mesh")) node.meshes.push_back(reader_.names.meshes.require(*mesh));
-        if (const auto list = at.find("meshes")) {
-            for (std::size_t i = 0; i < list->array_size(); ++i)
-                node.meshes.push_back(reader_.names.meshes.require((*list)[i]));
-        }
+        for_each_element(at, "meshes", [&](const JsonRef& mesh, std::size_t) {
+            node.meshes.push_back(reader_.names.meshes.require(mesh));
+        });
     }
 
     /// Shows the named node here too: this node gets its meshes and light, and copies of all nodes below it.
@@ -234,9 +232,8 @@ Include read_include(const JsonRef& at) {
     if (const auto animation = at.find("animation")) {
         include.animations.emplace();
         if (animation->json().is_string()) include.animations->push_back(animation->string());
-        for (std::size_t i = 0; animation->json().is_array() && i < animation->array_size(); ++i) {
-            include.animations->push_back((*animation)[i].string());
-        }
+        if (animation->json().is_array())
+            for (const JsonRef name : animation->elements()) include.animations->push_back(name.string());
     }
     if (const auto materials = at.find("materials")) {
         for (const auto& entry : materials->json().items()) {
@@ -265,7 +262,7 @@ void read_includes(SceneReader& reader, const JsonRef& parent, int node) {
         reader.result.include_places.push_back(at.pointer());
     };
     if (!include->json().is_array()) return add(*include);
-    for (std::size_t i = 0; i < include->array_size(); ++i) add((*include)[i]);
+    for (const JsonRef one : include->elements()) add(one);
 }
 
 }  // namespace aleph

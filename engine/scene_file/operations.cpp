@@ -157,7 +157,7 @@ ordered_json write_operation(Kind kind, Channels& channels, const FrameRate& rat
 
 OperationStack read_operations(const JsonRef& at, const FrameRate& rate) {
     Stack stack;
-    for (std::size_t i = 0; i < at.array_size(); ++i) read_operation(stack, at[i], rate);
+    for (const JsonRef operation : at.elements()) read_operation(stack, operation, rate);
     return stack.take();
 }
 

@@ -53,8 +53,7 @@ template <class T>
 void read_list(const JsonRef& list, bool with_time, Track<T>& track, const ValueReader<T>& read) {
     const bool cubic = track.interpolation == Interpolation::cubic;
     const std::size_t first = with_time ? 1 : 0, end = first + (cubic ? 3 : 1);
-    for (std::size_t i = 0; i < list.array_size(); ++i) {
-        const JsonRef item = list[i];
+    for (const JsonRef item : list.elements()) {
         if (!with_time && !cubic) {
             track.values.push_back(read.read(item));
             continue;
@@ -128,9 +127,7 @@ Track<T> read_track(const JsonRef& at, const FrameRate& rate, const ValueReader<
 
 template <class T>
 T read_components(const JsonRef& at, T value, int count, const ValueRange& range) {
-    for (int i = 0; i < count; ++i) {
-        value[i] = read_plain(at[i], range);
-    }
+    for (int i = 0; i < count; ++i) value[i] = read_plain(at[i], range);
     return value;
 }
 
@@ -175,10 +172,7 @@ TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::f
     TimeSampling sampling = read_sampling(at, rate);
     const auto keys = at.find("keys");
     const JsonRef list = keys ? *keys : at.require("values");
-    for (std::size_t i = 0; i < list.array_size(); ++i) {
-        const JsonRef item = list[i];
-        visit(keys ? item[1] : item);
-    }
+    for (const JsonRef item : list.elements()) visit(keys ? item[1] : item);
     validate(sampling, list.array_size(), at.file(), at.pointer());
     return sampling;
 }

@@ -94,10 +94,8 @@ class Writer {
         }
         if (scene_.film.range) out_["frames"] = {scene_.film.range->first, scene_.film.range->last};
         if (!scene_.film.cuts.empty()) out_["cuts"] = scene_.film.cuts;
-        for (const auto& field : viewing_numbers) {
-            const double value = field.in(scene_.film.viewing);
-            if (value != field.in(absent.film.viewing)) out_["viewing"][field.key] = value;
-        }
+        if (scene_.film.viewing != absent.film.viewing)
+            at_.fields(out_["viewing"], scene_.film.viewing, absent.film.viewing, viewing_numbers);
         if (scene_.film.exposure) out_["exposure"] = *scene_.film.exposure;
         if (!scene_.film.camera.empty()) out_["camera"] = scene_.film.camera;
         for (const CameraKey& key : scene_.film.camera_keys) out_["camera"]["keys"].push_back({key.frame, key.camera});

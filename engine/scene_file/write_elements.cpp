@@ -81,21 +81,15 @@ void SceneWriting::rotation(ordered_json& out, const char* key, const Track<glm:
 ordered_json write_material(const SceneWriting& at, const Material& material) {
     const Material absent;
     ordered_json out = ordered_json::object();
-    for (const auto& field : material_colors) {
-        at.track(out, field.key, field.in(material), field.in(absent), write_vector);
-    }
-    for (const auto& field : material_numbers) {
-        at.track(out, field.key, field.in(material), field.in(absent), write_number);
-    }
+    at.tracks(out, material, absent, material_colors, write_vector);
+    at.tracks(out, material, absent, material_numbers, write_number);
     at.angles(out, material, absent, material_angles);
     at.fields(out, material, absent, material_scales);
     for (const auto& field : material_textures) {
         if (material.textures[field.slot].image != no_index)
             out[field.key] = write_texture(at, material.textures[field.slot]);
     }
-    if (material.opacity.mode != absent.opacity.mode) {
-        out["alpha_mode"] = alpha_words[index_of(material.opacity.mode)];
-    }
+    write_word(out, "alpha_mode", alpha_words, material.opacity.mode, absent.opacity.mode);
     if (material.opacity.cutoff != absent.opacity.cutoff) out["alpha_cutoff"] = material.opacity.cutoff;
     if (material.unlit) out["unlit"] = true;
     if (material.double_sided) out["double_sided"] = true;
@@ -105,8 +99,8 @@ ordered_json write_material(const SceneWriting& at, const Material& material) {
 ordered_json write_light(const SceneWriting& at, const Light& light) {
     const Light absent;
     ordered_json out = {{"type", light_words[index_of(light.kind)]}};
-    for (const auto& field : light_colors) at.track(out, field.key, field.in(light), field.in(absent), write_vector);
-    for (const auto& field : light_numbers) at.track(out, field.key, field.in(light), field.in(absent), write_number);
+    at.tracks(out, light, absent, light_colors, write_vector);
+    at.tracks(out, light, absent, light_numbers, write_number);
     at.angles(out, light, absent, light_cones);
     return out;
 }
@@ -116,9 +110,7 @@ ordered_json write_camera(const SceneWriting& at, const Camera& camera) {
     ordered_json out = ordered_json::object();
     at.angles(out, camera, absent, camera_angles);
     if (camera.orthographic || camera.half_height != absent.half_height) out["orthographic"] = camera.orthographic;
-    for (const auto& field : camera_numbers) {
-        at.track(out, field.key, field.in(camera), field.in(absent), write_number);
-    }
+    at.tracks(out, camera, absent, camera_numbers, write_number);
     at.fields(out, camera, absent, camera_lengths);
     if (camera.shutter != absent.shutter) out["shutter"] = {camera.shutter.x, camera.shutter.y};
     return out;

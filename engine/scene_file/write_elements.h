@@ -37,6 +37,12 @@ struct SceneWriting {
         out[key] = write(value, rate());
     }
 
+    template <class Element, class Fields, class Write>
+    void tracks(nlohmann::ordered_json& out, const Element& element, const Element& absent, const Fields& fields,
+                const Write& write) const {
+        for (const auto& field : fields) track(out, field.key, field.in(element), field.in(absent), write);
+    }
+
     /// Writes numbers that do not change, unless they equal those of absent keys.
     template <class Element, class Fields>
     void fields(nlohmann::ordered_json& out, const Element& element, const Element& absent,

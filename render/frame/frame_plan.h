@@ -2,7 +2,7 @@
 // The effects plan of one frame of a sequence, and the settings and facts that it comes from.
 
 #include "engine/pose/posed_view.h"
-#include "motion/other_frame.h"
+#include "motion/motion_field.h"
 #include "render/frame/frame_output.h"
 #include "render/frame/shot.h"
 #include "render/pixels/pixel_surfaces.h"

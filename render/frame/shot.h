@@ -8,7 +8,7 @@
 #include "engine/pose/pose.h"
 #include "engine/pose/steady.h"
 #include "engine/scene/scene.h"
-#include "motion/other_frame.h"
+#include "motion/motion_field.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/settings/settings.h"
 #include "render/surface/shading_scene.h"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "engine/scene/scene.h"
-#include "motion/other_frame.h"
+#include "motion/motion_field.h"
 #include "render/frame/frame_output.h"
 #include "render/images/picture_frame.h"
 #include "render/settings/frame_pattern.h"

@@ -96,9 +96,8 @@ void check_output(const GltfPointer& pointer, const AccessorInfo& info, const Js
 
 void check_keys(const GltfCheck& check, const GltfPointer& pointer, const JsonRef& sampler, const JsonRef& place) {
     const std::string interpolation = sampler.find_string("interpolation").value_or("LINEAR");
-    const JsonRef input = sampler.require("input");
     const JsonRef output = sampler.require("output");
-    const AccessorInfo& times = check.accessor(input);
+    const AccessorInfo& times = check.accessor(sampler.require("input"));
     const AccessorInfo& values = check.accessor(output);
     if (pointer.info->property == GltfProperty::node_visible && interpolation != "STEP") {
         place.fail("visibility must have STEP interpolation");

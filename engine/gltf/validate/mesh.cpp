@@ -150,8 +150,7 @@ void check_skin(const GltfCheck& check, const JsonRef& skin) {
     const JsonRef joints = skin.require("joints");
     const std::size_t count = joints.array_size(1);
     std::set<std::size_t> seen;
-    for (std::size_t i = 0; i < count; ++i) {
-        const JsonRef joint = joints[i];
+    for (const JsonRef joint : joints.elements()) {
         const std::size_t node = joint.index(check.count("nodes"), "node");
         if (!seen.insert(node).second) joint.fail(fmt::format("node {} is listed twice", node));
     }

@@ -37,15 +37,13 @@ std::vector<bool> check_graph(const GltfCheck& check) {
     std::vector<std::vector<std::size_t>> children(count);
     std::vector<bool> has_parent(count, false);
     for_each_object(check.root, "nodes", [&](const JsonRef& node, std::size_t i) {
-        const std::optional<JsonRef> list = node.find("children");
-        for (std::size_t k = 0; list && k < list->array_size(); ++k) {
-            const JsonRef child = (*list)[k];
+        for_each_element(node, "children", [&](const JsonRef& child, std::size_t) {
             const std::size_t index = child.index(count, "node");
             if (index == i) child.fail(fmt::format("node {} is its own child: the node graph has a cycle", i));
             if (has_parent[index]) child.fail(fmt::format("node {} has two parents", index));
             has_parent[index] = true;
             children[i].push_back(index);
-        }
+        });
     });
     // As each has one parent at most, a node that no root reaches lies on a cycle or below one.
     std::vector<bool> reached(count, false);
@@ -75,14 +73,12 @@ void check_nodes(GltfCheck& check) {
     const std::vector<bool> has_parent = check_graph(check);
     for_each_object(check.root, "scenes", [&](const JsonRef& scene, std::size_t) {
         scene.find_string("name");
-        const std::optional<JsonRef> roots = scene.find("nodes");
         std::set<std::size_t> seen;
-        for (std::size_t k = 0; roots && k < roots->array_size(); ++k) {
-            const JsonRef root = (*roots)[k];
+        for_each_element(scene, "nodes", [&](const JsonRef& root, std::size_t) {
             const std::size_t index = root.index(check.count("nodes"), "node");
             if (has_parent[index]) root.fail(fmt::format("node {} has a parent and cannot be a root", index));
             if (!seen.insert(index).second) root.fail(fmt::format("node {} is listed twice", index));
-        }
+        });
     });
     const std::size_t scenes = check.count("scenes");
     check.root.find_index("scene", scenes, "scene");

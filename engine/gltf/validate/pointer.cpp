@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <numbers>
 #include <vector>
 
@@ -38,13 +39,11 @@ std::vector<GltfPropertyInfo> list_properties() {
 }
 
 std::optional<std::size_t> parse_index(std::string_view digits) {
-    if (digits.empty() || digits.size() > 9 || (digits.size() > 1 && digits[0] == '0')) return std::nullopt;
+    if (digits.size() > 9 || (digits.size() > 1 && digits[0] == '0')) return std::nullopt;
     std::size_t index = 0;
-    for (const char c : digits) {
-        if (c < '0' || c > '9') return std::nullopt;
-        index = 10 * index + static_cast<std::size_t>(c - '0');
-    }
-    return index;
+    const char* const last = digits.data() + digits.size();
+    const auto [end, error] = std::from_chars(digits.data(), last, index);
+    return error == std::errc() && end == last ? std::optional(index) : std::nullopt;
 }
 
 }  // namespace
@@ -55,8 +54,7 @@ std::optional<GltfPointer> find_gltf_property(std::string_view pointer) {
         const std::size_t gap = info.pointer.find("{}");
         const std::string_view whole = info.pointer, before = whole.substr(0, gap), after = whole.substr(gap + 2);
         if (pointer.size() <= before.size() + after.size()) continue;
-        if (pointer.substr(0, before.size()) != before) continue;
-        if (pointer.substr(pointer.size() - after.size()) != after) continue;
+        if (!pointer.starts_with(before) || !pointer.ends_with(after)) continue;
         const std::string_view digits = pointer.substr(before.size(), pointer.size() - before.size() - after.size());
         if (const std::optional<std::size_t> index = parse_index(digits)) return GltfPointer{&info, *index};
     }

@@ -80,13 +80,11 @@ void expect_word(const JsonRef& at, std::initializer_list<std::string_view> word
 
 void check_extensions(GltfCheck& check) {
     for (const char* const list : {"extensionsRequired", "extensionsUsed"}) {
-        const std::optional<JsonRef> named = check.root.find(list);
-        for (std::size_t i = 0; named && i < named->array_size(); ++i) {
-            const JsonRef name = (*named)[i];
+        for_each_element(check.root, list, [&](const JsonRef& name, std::size_t) {
             if (name.string() == "KHR_mesh_quantization") check.is_quantized = true;
             if (list == std::string_view("extensionsRequired") && !contains(supported_extensions, name.string()))
                 name.fail(fmt::format("the required extension {} is not supported", printable(name.string())));
-        }
+        });
     }
     std::set<std::string> names;
     collect_extensions(check.root.json(), names);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <glm/matrix.hpp>
-#include <initializer_list>
 
 #include "engine/scene/transforms.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "engine/scene/operations.h"
 #include "engine/scene/transforms.h"
@@ -20,14 +21,6 @@ float float_at_most(double t) {
 float float_above(double t) {
     const auto f = static_cast<float>(t);
     return double{f} > t ? f : std::nextafter(f, infinite);
-}
-
-template <class T>
-const T& as_key(const T& value) {
-    return value;
-}
-glm::dquat as_key(const glm::dquat& value) {
-    return safe_normalize(value);
 }
 
 /// Where the value of key i begins to hold, s.
@@ -53,33 +46,19 @@ WrittenKeys make_step_keys(const Track<T>& track) {
             keys.times.pop_back();
             keys.values.resize(keys.values.size() - keys.row);
         }
-        const T value = as_key(key_value(track, i));
+        const T value = evaluate(track, sample_time(track.sampling, i));
         keys.append(time, components(value));
     }
     return keys;
 }
 
+/// Times of linear keys.
 template <class T>
 std::vector<double> list_times(const Track<T>& track) {
     std::vector<double> times;
     for (std::size_t i = 0; i < track.key_count(); ++i) times.push_back(sample_time(track.sampling, i));
+    if constexpr (std::is_same_v<T, glm::dquat>) return split_turns(times, track);
     return times;
-}
-std::vector<double> linear_times(const Track<glm::dquat>& track) {
-    return split_turns(list_times(track), track);
-}
-template <class T>
-std::vector<double> linear_times(const Track<T>& track) {
-    return list_times(track);
-}
-
-/// The factor that brings a key to its valid length.
-double unit_factor(const glm::dquat& key) {
-    return 1.0 / glm::length(key);
-}
-template <class T>
-double unit_factor(const T&) {
-    return 1.0;
 }
 
 template <class T>
@@ -89,7 +68,8 @@ WrittenKeys make_cubic_keys(const Track<T>& track) {
     keys.row = components(track.values[0]).size();
     for (std::size_t i = 0; i < track.key_count(); ++i) {
         keys.times.push_back(static_cast<float>(sample_time(track.sampling, i)));
-        const double factor = unit_factor(key_value(track, i));
+        double factor = 1.0;  // brings a key to its valid length
+        if constexpr (std::is_same_v<T, glm::dquat>) factor = 1.0 / glm::length(key_value(track, i));
         for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
             for (const double number : components(track.values[k]))
                 keys.values.push_back(static_cast<float>(number * factor));
@@ -164,7 +144,7 @@ template <class T>
 WrittenKeys make_keys(const Track<T>& track) {
     switch (track.interpolation) {
         case Interpolation::linear:
-            return make_sampled_keys(round_times(linear_times(track)), [&](double t) { return evaluate(track, t); });
+            return make_sampled_keys(round_times(list_times(track)), [&](double t) { return evaluate(track, t); });
         case Interpolation::cubic:
             return make_cubic_keys(track);
         default:

@@ -1,6 +1,7 @@
 #pragma once
 // Matrices for the tests of hard transforms, and how far two of them are apart.
 
+#include "engine/scene/transforms.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -14,12 +15,6 @@ inline glm::dmat4 turning(double degrees, const glm::dvec3& axis) {
     return glm::mat4_cast(glm::angleAxis(degrees * pi / 180.0, glm::normalize(axis)));
 }
 
-inline double largest_element(const glm::dmat3& m) {
-    double largest = 0.0;
-    for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(m[c][r]));
-    return largest;
-}
 inline double distance(const glm::dmat4& a, const glm::dmat4& b) {
     return std::max(largest_element(glm::dmat3(a) - glm::dmat3(b)), glm::length(a[3] - b[3]));
 }
