@@ -14,9 +14,10 @@
 #include "engine/scene/scene_hash.h"
 #include "render/cli/support/film_encoder.h"
 #include "render/cli/support/film_program.h"
-#include "render/cli/support/frame_locks.h"
+#include "render/cli/support/frame_claims.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
+#include "render/cli/support/render_signals.h"
 #include "render/cli/watch.h"
 #include "render/settings/frame_pattern.h"
 

@@ -11,8 +11,9 @@
 #include "engine/scene/scene_hash.h"
 #include "render/cli/budget.h"
 #include "render/cli/film.h"
-#include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/output_path.h"
+#include "render/cli/support/progress.h"
+#include "render/cli/support/render_signals.h"
 #include "render/settings/fingerprint.h"
 #include "render/verify/probe.h"
 
@@ -84,34 +85,6 @@ FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& opti
     const std::string film = film_fingerprint(options, prepared.frames, prepared.scene.film.frame_rate, prints.of);
     return FrameClaims({prepared.frames, file, prints.of, film, options.resume,
                         [&options, film] { return is_film_finished(options, film); }});
-}
-
-void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
-    const RenderSignals signals;
-    FrameWriter writer(job, options, request);
-    writer.make_all();
-    std::optional<BudgetStatistics> budget;
-    if (job.budget) {
-        budget = job.budget->statistics;
-        StageClock clock = job.budget->clock;
-        clock.add_to(budget->took);
-        writer.statistics().set_budget(*budget);
-    }
-    writer.finish();
-    if (!options.film.empty()) finish_film(job, options);
-    if (!options.quiet && budget) std::cerr << describe_budget(*budget);
-    std::string missed = options.strict ? writer.describe_missed() : "";
-    if (job.verify) {
-        const VerifiedStatistics verified = job.verify(writer.estimate());
-        std::cout << describe_verified(verified) << std::flush;
-        writer.statistics().set_verified(verified);
-        writer.statistics().finish();
-        signals.stop_if_asked(": all frames are written, and checked as far as said");
-        if (options.strict && verified.beyond.share > most_beyond)
-            missed += fmt::format("{}measured over all frames: {} %", missed.empty() ? "" : "; ",
-                                  format_percent(verified.beyond.share));
-    }
-    if (!missed.empty()) throw Stopped("--strict: " + missed, exit_beyond);
 }
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,

@@ -7,7 +7,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "render/cli/support/options.h"
-#include "render/cli/support/output_conflicts.h"
+#include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/frame_pattern.h"
