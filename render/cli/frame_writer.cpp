@@ -233,7 +233,6 @@ class FrameWriter {
                                  missing, missing == 1 ? "" : "s", missing == 1 ? "was" : "were");
     }
 
-    /// Says at the end which files there are now.
     void print_files() const {
         const auto file = [&](int frame) { return printable(output_.file(frame).string(), 400); };
         std::string text = fmt::format("aleph: wrote {}", file(output_.frames.front()));
@@ -246,8 +245,8 @@ class FrameWriter {
         std::cerr << text << "\n";
         if (job_.claims.replaced() == 0) return;
         std::cerr << fmt::format(
-            "aleph: replaced {} file{}: damaged, or of another scene, other settings or another program\n",
-            job_.claims.replaced(), job_.claims.replaced() == 1 ? "" : "s");
+            "aleph: replaced {}: damaged, or of another scene, other settings or another program\n",
+            count_text(static_cast<std::size_t>(job_.claims.replaced()), "file"));
     }
 
     const FrameJob& job_;

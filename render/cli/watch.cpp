@@ -158,8 +158,7 @@ void run_maybe_watched(const WatchOptions& asked, SceneOptions& options, const s
             std::cerr << fmt::format("aleph: error: {}\n", printable(e.what(), 4000));
         }
         if (!watch.is_changed() && !options.quiet)
-            std::cerr << fmt::format("aleph: watching {} file{}; Ctrl-C ends\n", watch.size(),
-                                     watch.size() == 1 ? "" : "s")
+            std::cerr << fmt::format("aleph: watching {}; Ctrl-C ends\n", count_text(watch.size(), "file"))
                       << std::flush;
         wait_for_change(watch, *signals);
         if (!options.quiet)
