@@ -67,6 +67,11 @@ Bytes read_regular_file(const fs::path& path, const std::string& file, const std
     return bytes;
 }
 
+std::string read_text(const fs::path& path) {
+    const Bytes bytes = read_regular_file(path, path.string(), "");
+    return {bytes.begin(), bytes.end()};
+}
+
 fs::path code_file() {
     Dl_info info;
     link_map* map = nullptr;

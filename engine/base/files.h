@@ -20,6 +20,10 @@ inline constexpr std::uint64_t max_file_bytes = 0x7fffffff;
 Bytes read_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place,
                         std::uint64_t max_bytes = max_file_bytes);
 
+/// The bytes of read_regular_file as text.
+/// @throws InputError naming the path
+std::string read_text(const std::filesystem::path& path);
+
 /// The state of a file: device, number, size, and the time of its last change in s and ns. All 0: there is no
 /// file.
 using FileState = std::array<std::int64_t, 5>;

@@ -2,6 +2,7 @@
 // Loops over the pixels of an image.
 
 #include <algorithm>
+#include <type_traits>
 
 #include "engine/base/image.h"
 #include "engine/base/parallel.h"
@@ -17,6 +18,14 @@ void parallel_pixels(const Image<T>& image, int rows_per_chunk, const Visit& vis
             for (int x = 0; x < image.width; ++x) visit(x, y);
         }
     });
+}
+
+/// The image of value(a, b, ...) for the pixels a, b, ... of images of one size.
+template <class Value, class A, class... Others>
+auto map_pixels(const Value& value, const Image<A>& first, const Image<Others>&... others) {
+    Image<std::invoke_result_t<Value, const A&, const Others&...>> out(first.width, first.height);
+    for (std::size_t i = 0; i < out.size(); ++i) out.pixels[i] = value(first.pixels[i], others.pixels[i]...);
+    return out;
 }
 
 /// Calls visit(x, y), row by row, for the pixels that are within `reach` of one along rows and columns, itself too.

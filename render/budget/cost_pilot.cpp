@@ -63,7 +63,6 @@ int choose_every(const RenderSettings& settings) {
     return every;
 }
 
-/// Times parts of the full picture.
 void time_parts(const PilotRequest& request, Sequence& sequence, Pilot& pilot) {
     const PictureSettings& picture = request.settings.front().picture;
     const PicturePart part =

@@ -14,9 +14,10 @@
 #include "engine/scene/scene_hash.h"
 #include "render/cli/support/film_encoder.h"
 #include "render/cli/support/film_program.h"
-#include "render/cli/support/frame_locks.h"
+#include "render/cli/support/frame_claims.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
+#include "render/cli/support/render_signals.h"
 #include "render/cli/watch.h"
 #include "render/settings/frame_pattern.h"
 
@@ -65,8 +66,8 @@ FilmFrames list_frames(const FrameJob& job, const SceneOptions& options) {
 std::string describe_film(const SceneOptions& options, const FilmFrames& frames) {
     const PictureSize size = read_picture_size(frames.files.front());
     return fmt::format(
-        "aleph: wrote {}: {} frame{} of {}x{}, {} a second{}\n", printable(options.film, 400), frames.files.size(),
-        frames.files.size() == 1 ? "" : "s", size.width, size.height, describe_rate(frames.rate),
+        "aleph: wrote {}: {} of {}x{}, {} a second{}\n", printable(options.film, 400),
+        count_text(frames.files.size(), "frame"), size.width, size.height, describe_rate(frames.rate),
         is_padded(frames.ending, size) ? "; the last column or row stands twice, as sizes are even" : "");
 }
 

@@ -4,6 +4,7 @@
 
 #include <system_error>
 
+#include "engine/base/pixel_loops.h"
 #include "engine/image/image_file.h"
 #include "render/cli/support/output_path.h"
 #include "render/output/frame_files.h"
@@ -30,9 +31,7 @@ void write_importance(const std::filesystem::path& path, const FrameOutput& outp
         write_exr(path, with_texts(std::move(file), texts));
         return;
     }
-    Image<Rgb> grey(importance.width, importance.height);
-    for (std::size_t i = 0; i < grey.size(); ++i) grey.pixels[i] = Rgb(srgb_to_linear(importance.pixels[i]));
-    write_png(path, grey, texts);
+    write_png(path, map_pixels([](float value) { return Rgb(srgb_to_linear(value)); }, importance), texts);
 }
 
 /// "name.0020.partial.exr"

@@ -1,12 +1,12 @@
 // `aleph maps`: the maps of a scene's frames, or of frames without a scene.
 
+#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
 #include <map>
-#include <ranges>
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
@@ -70,7 +70,7 @@ void refuse_what_needs_a_scene(const MapsOptions& options) {
 std::string name_of_maps(const std::filesystem::path& pattern) {
     std::string name = pattern.stem().string();
     name.erase(std::min(name.find_first_of("#%"), name.size()));
-    while (!name.empty() && std::string_view("._-").find(name.back()) != std::string_view::npos) name.pop_back();
+    name.erase(name.find_last_not_of("._-") + 1);
     return (name.empty() ? "frame" : name) + maps_suffix;
 }
 
@@ -149,10 +149,7 @@ void write_image_maps(const MapsOptions& options) {
     const auto hash_of = [&](std::int64_t frame) {
         const auto [known, is_new] = hashes.emplace(frame, "");
         const auto file = images.files.find(frame);
-        if (is_new && file != images.files.end()) {
-            const Bytes bytes = read_regular_file(file->second, file->second.string(), "");
-            known->second = hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-        }
+        if (is_new && file != images.files.end()) known->second = hash_bytes(read_text(file->second));
         return known->second;
     };
     const std::string identity = identity_of(prepared, options);
@@ -171,24 +168,12 @@ void write_image_maps(const MapsOptions& options) {
         replaced, first_replaced);
 }
 
-constexpr std::size_t line_length = 112, indent = 27;  // of the channels in the help
-
-/// "  NAMES    HELP", in lines of at most line_length.
+/// "  NAMES    HELP", in lines of at most 112 bytes.
 std::string format_channel(const ChannelInfo& info) {
-    std::string text, line = fmt::format("  {}", fmt::join(info.names, " "));
-    const auto new_line = [&] {
-        text += line + "\n";
-        line = std::string(indent, ' ');
-    };
-    if (line.size() + 1 > indent) new_line();
-    line.resize(indent, ' ');
-    for (const auto part : std::views::split(info.help, ' ')) {
-        const std::string_view word(part.begin(), part.end());
-        if (line.size() > indent && line.size() + 1 + word.size() > line_length) new_line();
-        if (line.size() > indent) line += ' ';
-        line += word;
-    }
-    return text + line + "\n";
+    constexpr int line_length = 112, indent = 27;
+    std::string names = fmt::format("  {}", fmt::join(info.names, " "));
+    if (names.size() + 1 > indent) names += "\n" + std::string(indent, ' ');
+    return fmt::format("{:<{}}{}\n", names, indent, OIIO::Strutil::wordwrap(info.help, line_length, indent));
 }
 
 constexpr const char* after_channels =

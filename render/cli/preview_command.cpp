@@ -12,8 +12,8 @@
 #include "engine/base/parallel.h"
 #include "render/cli/commands.h"
 #include "render/cli/film.h"
-#include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/output_path.h"
+#include "render/cli/support/progress.h"
 #include "render/cli/support/render_signals.h"
 #include "render/cli/watch.h"
 #include "render/cli/write_frames.h"
@@ -80,7 +80,6 @@ std::vector<int> choose_for_sheet(const std::vector<int>& frames) {
     return chosen;
 }
 
-/// Where film and sheet go.
 struct PreviewFiles {
     std::string film;  ///< empty: none
     fs::path sheet;
@@ -126,7 +125,6 @@ class PreviewFrames {
         return output;
     }
 
-    /// Writes the sheet of the frames that were made.
     void write(const fs::path& file) const {
         std::vector<Panel> panels;
         for (const auto& [frame, panel] : panels_) panels.push_back(panel);

@@ -55,45 +55,12 @@ constexpr const char* render_footer =
     "  aleph render scenes/pool/scene.json --frames 20 --guide none --spp 16 -o unguided.exr  the baseline\n"
     "  aleph render scenes/pool/scene.json --frames 20 --accuracy 0 --gather 4096 --spp 1 -o dense.exr";
 
-/// @throws InputError (--resume) if --budget is given, --verify or --strict
-void refuse_beside_resume(bool budget, bool verify, bool strict) {
-    if (budget) {
-        throw InputError("", "--resume",
-                         "--budget may choose another error than before; give --error with the number that it chose");
-    }
-    if (verify)
-        throw InputError("", "--resume", "--verify checks the frames that it renders; render all of them with it");
-    if (strict)
-        throw InputError("", "--resume", "files of frames do not tell what --strict asks; render all of them with it");
-}
-
-/// @throws InputError if the error is asked for as well, or a setting that it chooses, without which it means nothing;
-/// or a cache file, which is for one error
-void refuse_beside_budget(const SceneOptions& options, const std::string& cache) {
-    for (const char* const key : {"error", "spp", "sampling", "gather", "accuracy"}) {
-        if (!options.settings.contains(key)) continue;
-        throw InputError("--budget", std::string("--") + key,
-                         "give one of the two: a budget chooses the error and what it takes");
-    }
-    if (!cache.empty()) {
-        throw InputError("--budget", "--cache",
-                         "give one of the two: light is kept for one error, a budget chooses it");
-    }
-}
-
 /// @throws InputError for frames that are path traced, as the references are that would judge them
 void refuse_traced(const RenderSettings& settings) {
     if (settings.light.integrator != Integrator::path) return;
     throw InputError("--verify", "--integrator path",
                      "give one of the two: frames are judged by traced paths, which tell nothing of their like; "
                      "variance.Y of the files has the noise of each pixel");
-}
-
-/// @throws InputError for what measures parts of the whole picture
-void refuse_beside_crop(bool budget, bool verify) {
-    if (budget) throw InputError("--budget", "--crop", "give one of the two: a budget is for whole pictures");
-    if (verify)
-        throw InputError("--verify", "--crop", "give one of the two: blocks are judged with what is around them");
 }
 
 struct RenderOptions {
@@ -104,14 +71,35 @@ struct RenderOptions {
     std::optional<std::string> budget, verify;
 };
 
+/// @throws InputError for two options of which one could not have its way
+void refuse_contradictions(const RenderOptions& options) {
+    const SceneOptions& scene = options.scene;
+    const auto refuse = [](bool both, const char* option, const std::string& other, const char* reason) {
+        if (both) throw InputError(option, other, reason);
+    };
+    const auto refuse_beside_resume = [&](bool given, const char* reason) {
+        refuse(scene.resume && given, "", "--resume", reason);
+    };
+    const bool crop = !scene.crop.empty(), verify = options.verify.has_value(), budget = options.budget.has_value();
+    refuse_beside_resume(budget,
+                         "--budget may choose another error than before; give --error with the number that it chose");
+    refuse_beside_resume(verify, "--verify checks the frames that it renders; render all of them with it");
+    refuse_beside_resume(scene.strict, "files of frames do not tell what --strict asks; render all of them with it");
+    refuse(budget && crop, "--budget", "--crop", "give one of the two: a budget is for whole pictures");
+    refuse(verify && crop, "--verify", "--crop", "give one of the two: blocks are judged with what is around them");
+    for (const char* const key : {"error", "spp", "sampling", "gather", "accuracy"}) {
+        refuse(budget && scene.settings.contains(key), "--budget", std::string("--") + key,
+               "give one of the two: a budget chooses the error and what it takes");
+    }
+    refuse(budget && !options.cache.empty(), "--budget", "--cache",
+           "give one of the two: light is kept for one error, a budget chooses it");
+}
+
 void render_once(const RenderOptions& options) {
     const FrameRequest request{.frame = true, .maps = options.aovs, .progress = {}};
     const double check = options.verify ? parse_seconds(*options.verify, "--verify") : 0.0;
     std::optional<Budget> budget;
-    if (options.budget) {
-        budget.emplace().statistics.asked = parse_seconds(*options.budget, "--budget");
-        refuse_beside_budget(options.scene, options.cache);
-    }
+    if (options.budget) budget.emplace().statistics.asked = parse_seconds(*options.budget, "--budget");
     PreparedScene prepared = prepare_scene(options.scene);
     if (check > 0.0) refuse_traced(prepared.settings);
     if (budget) {
@@ -128,9 +116,7 @@ void render_once(const RenderOptions& options) {
 
 int render(RenderOptions options) {
     options.scene.keeps_to_error = !options.budget;
-    if (options.scene.resume)
-        refuse_beside_resume(options.budget.has_value(), options.verify.has_value(), options.scene.strict);
-    if (!options.scene.crop.empty()) refuse_beside_crop(options.budget.has_value(), options.verify.has_value());
+    refuse_contradictions(options);
     const FilmFolder folder = choose_film(options.scene, {.frame = true, .maps = options.aovs, .progress = {}});
     run_maybe_watched(options.watch, options.scene, [&] { render_once(options); });
     return exit_done;

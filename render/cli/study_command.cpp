@@ -13,7 +13,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/study_output.h"
-#include "render/cli/support/output_conflicts.h"
+#include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
 #include "render/cli/support/render_signals.h"
 #include "render/settings/frame_pattern.h"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "render/cli/support/options.h"
 #include "render/study/pages/pages.h"
 #include "render/study/search_study.h"
 
@@ -52,14 +54,11 @@ std::string cell(const VariantResult& variant, const Metric& metric) {
 using Row = std::vector<std::string>;
 
 void print_row(const Row& row, const std::vector<std::size_t>& widths, bool markdown, std::ostream& out) {
-    std::string text = markdown ? "|" : "";
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        if (i > 0 && !markdown) text += "  ";
-        if (markdown) text += " ";
-        text += i == 0 ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("{:>{}}", row[i], widths[i]);
-        if (markdown) text += " |";
-    }
-    out << text << "\n";
+    Row cells;
+    for (std::size_t i = 0; i < row.size(); ++i)
+        cells.push_back(i == 0 ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("{:>{}}", row[i], widths[i]));
+    if (markdown) return fmt::print(out, "| {} |\n", fmt::join(cells, " | "));
+    fmt::print(out, "{}\n", fmt::join(cells, "  "));
 }
 
 void print_rows(const std::vector<Row>& rows, bool markdown, std::ostream& out) {
@@ -161,8 +160,7 @@ std::vector<OutputFile> study_files(const std::filesystem::path& folder) {
 }
 
 std::string study_command_line() {
-    const Bytes bytes = read_regular_file("/proc/self/cmdline", "/proc/self/cmdline", "");
-    std::string line(bytes.begin(), bytes.end());  // words that end with 0
+    std::string line = read_text("/proc/self/cmdline");  // words that end with 0
     line.erase(0, line.rfind('/', line.find('\0')) + 1);
     if (line.ends_with('\0')) line.pop_back();
     std::ranges::replace(line, '\0', ' ');
@@ -171,8 +169,8 @@ std::string study_command_line() {
 
 void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out) {
     print_head(prepared, results, out);
-    fmt::print(out, "Means over {} frame{}; * no other variant is faster and better.\n\n", results.frames.size(),
-               results.frames.size() == 1 ? "" : "s");
+    fmt::print(out, "Means over {}; * no other variant is faster and better.\n\n",
+               count_text(results.frames.size(), "frame"));
     print_table(prepared, results.variants, markdown, out);
 }
 

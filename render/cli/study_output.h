@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/support/output_conflicts.h"
+#include "render/cli/support/output_path.h"
 #include "render/study/effects_ledger.h"
 #include "render/study/run_study.h"
 #include "render/study/study_files.h"

@@ -7,10 +7,11 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
+#include <string>
 
 #include "engine/base/files.h"
 #include "render/cli/scene_options.h"
-#include "render/cli/support/image_viewer.h"
 
 namespace aleph {
 
@@ -21,11 +22,15 @@ class SceneChanged : public std::exception {};
 class SceneWatch {
   public:
     /// @param scene   watched also where nothing of it could be read
-    /// @param viewer  "HOST:PORT" of a viewer that shows what is made
-    /// @throws InputError (--viewer)
-    SceneWatch(const std::filesystem::path& scene, const std::string& viewer) : scene_(scene), viewer_(viewer) {}
+    /// @param viewer  "HOST:PORT" of a viewer that shows what is made: tev, or another one with its protocol. Over TCP,
+    /// the length of the packet in bytes, 32 bits little endian, these four included; a byte for the operation, 0 to
+    /// open a file and 1 to read it again; a byte, 1 to bring it to the front; the file's path, ended by 0.
+    /// @throws InputError (--viewer) for other text, a port outside 1 to 65535 or a host that is not this one
+    SceneWatch(const std::filesystem::path& scene, const std::string& viewer);
 
-    void show(const std::filesystem::path& file) { viewer_.show(file); }
+    /// Has the viewer show a file. Does nothing where none listens; waits a second at most for one that does not
+    /// answer.
+    void show(const std::filesystem::path& file);
 
     /// Takes the files of the scene that is loaded now in place of those before.
     void note(const ReadFiles& read);
@@ -44,7 +49,8 @@ class SceneWatch {
     std::mutex mutex_;
     std::chrono::steady_clock::time_point next_{};
     std::filesystem::path changed_;
-    ImageViewer viewer_;
+    std::string host_, port_;  ///< of the viewer
+    std::set<std::filesystem::path> shown_;
 };
 
 struct WatchOptions {

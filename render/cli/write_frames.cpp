@@ -11,8 +11,9 @@
 #include "engine/scene/scene_hash.h"
 #include "render/cli/budget.h"
 #include "render/cli/film.h"
-#include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/output_path.h"
+#include "render/cli/support/progress.h"
+#include "render/cli/support/render_signals.h"
 #include "render/settings/fingerprint.h"
 #include "render/verify/probe.h"
 
@@ -23,11 +24,6 @@ namespace {
 constexpr std::size_t kept_pictures = std::size_t{1} << 30;  // bytes, to be checked
 constexpr std::size_t least_probes = 4;
 
-std::string number(std::size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-/// Checks the frames in random places for so many seconds.
 /// @param scene     with what --forbid leaves out
 /// @param prepared  says how the frames were rendered
 VerifiedStatistics verify_frames(Scene scene, const PreparedScene& prepared, const SceneOptions& options,
@@ -45,7 +41,7 @@ VerifiedStatistics verify_frames(Scene scene, const PreparedScene& prepared, con
         probes.push_back(prober.measure(probes.size()));
         clock.add_to(seconds);
         const double of_least = static_cast<double>(probes.size()) / static_cast<double>(least_probes);
-        progress.update(wanted * std::min(seconds / wanted, of_least), number(probes.size(), "block"));
+        progress.update(wanted * std::min(seconds / wanted, of_least), count_text(probes.size(), "block"));
     }
     VerifiedStatistics verified = sum_up(probes, prepared.settings.error > 0.0 ? prepared.settings.error : 1.0);
     verified.seconds = seconds;
@@ -84,34 +80,6 @@ FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& opti
     const std::string film = film_fingerprint(options, prepared.frames, prepared.scene.film.frame_rate, prints.of);
     return FrameClaims({prepared.frames, file, prints.of, film, options.resume,
                         [&options, film] { return is_film_finished(options, film); }});
-}
-
-void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
-    const RenderSignals signals;
-    FrameWriter writer(job, options, request);
-    writer.make_all();
-    std::optional<BudgetStatistics> budget;
-    if (job.budget) {
-        budget = job.budget->statistics;
-        StageClock clock = job.budget->clock;
-        clock.add_to(budget->took);
-        writer.statistics().set_budget(*budget);
-    }
-    writer.finish();
-    if (!options.film.empty()) finish_film(job, options);
-    if (!options.quiet && budget) std::cerr << describe_budget(*budget);
-    std::string missed = options.strict ? writer.describe_missed() : "";
-    if (job.verify) {
-        const VerifiedStatistics verified = job.verify(writer.estimate());
-        std::cout << describe_verified(verified) << std::flush;
-        writer.statistics().set_verified(verified);
-        writer.statistics().finish();
-        signals.stop_if_asked(": all frames are written, and checked as far as said");
-        if (options.strict && verified.beyond.share > most_beyond)
-            missed += fmt::format("{}measured over all frames: {} %", missed.empty() ? "" : "; ",
-                                  format_percent(verified.beyond.share));
-    }
-    if (!missed.empty()) throw Stopped("--strict: " + missed, exit_beyond);
 }
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
@@ -174,8 +142,8 @@ std::string describe_verified(const VerifiedStatistics& verified) {
                                    : fmt::format("differ by more than {:g} visible differences", verified.error);
     std::string text = fmt::format("aleph: verified: {} % of the pixels {} (95 %: {} to {} %, {} in {})",
                                    format_percent(verified.beyond.share), differ, format_percent(verified.beyond.low),
-                                   format_percent(verified.beyond.high), number(verified.blocks, "block"),
-                                   number(verified.frames, "frame"));
+                                   format_percent(verified.beyond.high), count_text(verified.blocks, "block"),
+                                   count_text(verified.frames, "frame"));
     if (verified.estimated) text += fmt::format(", estimated: {} %", format_percent(*verified.estimated));
     text += "\naleph: verified: ";
     if (verified.error != 1.0)
@@ -183,11 +151,11 @@ std::string describe_verified(const VerifiedStatistics& verified) {
                             format_percent(verified.seen.low), format_percent(verified.seen.high));
     text += fmt::format("{} % flicker, {} % last; by paths of 16 bounces or more, over {}\n",
                         format_percent(verified.flicker.share), format_percent(verified.lasting.share),
-                        number(verified.window, "frame"));
+                        count_text(verified.window, "frame"));
     if (verified.unsettled > 0) {
         text +=
             fmt::format("aleph: verified: in {} noise of the paths was left, so that their shares are less certain\n",
-                        number(verified.unsettled, "block"));
+                        count_text(verified.unsettled, "block"));
     }
     return text;
 }

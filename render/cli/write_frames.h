@@ -31,12 +31,6 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
 
 FrameClaims claim_frames(const PreparedScene& prepared, const SceneOptions& options, const FramePrints& prints);
 
-/// Makes every frame that is not finished and writes it; waits for those that other processes make. The statistics
-/// (--stats) of finished frames are written as they go along (StatisticsFile). Prints at the end, on standard error,
-/// which files were written.
-/// @throws Stopped after SIGTERM or SIGINT
-void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request);
-
 /// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.
 /// @param cache  file that keeps the light of lighting keyframes; empty: none
 /// @param budget  what they are to take; printed afterwards beside what they took

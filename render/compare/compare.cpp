@@ -14,7 +14,6 @@ namespace aleph {
 
 namespace {
 
-/// One channel of both pictures, of one size.
 struct ChannelPair {
     std::string name;
     const Image<float>* a;
@@ -28,10 +27,6 @@ bool is_certainty(const std::string& channel) {
 
 constexpr std::array<std::string_view, 5> count_names = {"samples.Y", "records.Y", "invalid.Y", "cache.count",
                                                          "cache.radius"};
-
-bool belongs_to(const std::string& channel, const std::string& wanted) {
-    return channel == wanted || channel.starts_with(wanted + ".");
-}
 
 /// Channels of `other` that have to be in `image` too, and are not.
 std::vector<std::string> missing_in(const ChannelImage& image, const ChannelImage& other) {
@@ -82,7 +77,8 @@ std::vector<ChannelPair> match_channels(const ChannelImage& a, const ChannelImag
         bool found = false;
         for (const Channel& channel : b.channels) {
             const Image<float>* in_a = a.find(channel.name);
-            if (!belongs_to(channel.name, name) || !in_a) continue;
+            const bool is_named = channel.name == name || channel.name.starts_with(name + ".");
+            if (!is_named || !in_a) continue;
             found = true;
             if (std::ranges::find(pairs, channel.name, &ChannelPair::name) == pairs.end()) {
                 pairs.push_back({channel.name, in_a, &channel.values});

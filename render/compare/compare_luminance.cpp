@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/base/errors.h"
+#include "engine/base/pixel_loops.h"
 #include "engine/base/viewing.h"
 
 namespace aleph {
@@ -45,9 +46,7 @@ std::optional<double> find_number(const ChannelImage& image, const std::string& 
 Image<Rgb> join_channels(const ChannelImage& image, const std::string& prefix) {
     const Image<float>*r = image.find(prefix + "R"), *g = image.find(prefix + "G"), *b = image.find(prefix + "B");
     if (!r || !g || !b) return {};
-    Image<Rgb> colour(r->width, r->height);
-    for (std::size_t i = 0; i < colour.size(); ++i) colour.pixels[i] = {r->pixels[i], g->pixels[i], b->pixels[i]};
-    return colour;
+    return map_pixels([](float red, float green, float blue) { return Rgb(red, green, blue); }, *r, *g, *b);
 }
 
 bool is_encoded(const ChannelImage& image) {
@@ -77,18 +76,16 @@ double display_white_of(const ChannelImage& a, const ChannelImage& b) {
 
 LuminanceError compute_luminance_error(const ChannelImage& a, const ChannelImage& b) {
     const Colours colours = colours_of(a, b);
-    LuminanceError result{Image<double>(colours.b.width, colours.b.height), {}, display_white_of(a, b)};
+    LuminanceError result{.error = {}, .variance = {}, .display_white = display_white_of(a, b)};
     const double white = result.display_white;
-    for (std::size_t i = 0; i < result.error.size(); ++i) {
-        const double d = double{luminance(colours.a.pixels[i])} - double{luminance(colours.b.pixels[i])};
-        result.error.pixels[i] = std::isfinite(d) ? white * d : std::numeric_limits<double>::quiet_NaN();
-    }
-    if (const Image<float>* variance = b.find("variance.Y")) {
-        result.variance = Image<double>(variance->width, variance->height);
-        for (std::size_t i = 0; i < variance->size(); ++i) {
-            result.variance.pixels[i] = white * white * double{variance->pixels[i]};
-        }
-    }
+    result.error = map_pixels(
+        [&](const Rgb& ca, const Rgb& cb) {
+            const double d = double{luminance(ca)} - double{luminance(cb)};
+            return std::isfinite(d) ? white * d : std::numeric_limits<double>::quiet_NaN();
+        },
+        colours.a, colours.b);
+    if (const Image<float>* variance = b.find("variance.Y"))
+        result.variance = map_pixels([&](float v) { return white * white * double{v}; }, *variance);
     return result;
 }
 

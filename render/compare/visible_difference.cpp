@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "engine/base/errors.h"
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "engine/base/pyramid.h"
 #include "render/compare/compare_luminance.h"
 #include "render/compare/visible_signal.h"
@@ -48,19 +49,23 @@ Image<float> even_pixels(const Image<float>& image) {
     return half;
 }
 
-Image<float> least(Image<float> a, const Image<float>& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a.pixels[i] = std::min(a.pixels[i], b.pixels[i]);
-    return a;
+Image<float> least(const Image<float>& a, const Image<float>& b) {
+    return map_pixels([](float one, float other) { return std::min(one, other); }, a, b);
 }
 
-std::vector<Image<float>> differences(std::vector<Image<float>> a, const std::vector<Image<float>>& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        for (std::size_t p = 0; p < a[i].size(); ++p) a[i].pixels[p] -= b[i].pixels[p];
-    }
-    return a;
+std::vector<Image<float>> differences(const std::vector<Image<float>>& a, std::vector<Image<float>> b) {
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] = difference(a[i], std::move(b[i]));
+    return b;
 }
 
 }  // namespace
+
+std::optional<FrameRate> find_frame_rate(const ChannelImage& image) {
+    const auto found = image.metadata.find("framesPerSecond");
+    const auto* const rate = found == image.metadata.end() ? nullptr : std::get_if<std::array<int, 2>>(&found->second);
+    if (rate == nullptr || (*rate)[0] <= 0 || (*rate)[1] <= 0) return std::nullopt;
+    return FrameRate{(*rate)[0], (*rate)[1]};
+}
 
 ViewingSettings read_viewing(const ChannelImage& maps) {
     ViewingSettings settings;
@@ -68,12 +73,7 @@ ViewingSettings read_viewing(const ChannelImage& maps) {
     take("whiteLuminance", settings.viewing.display_white);
     take("pixelsPerDegree", settings.viewing.pixels_per_degree);
     take("displayPersistence", settings.viewing.persistence);
-    const auto rate = maps.metadata.find("framesPerSecond");
-    if (rate != maps.metadata.end()) {
-        const auto* fraction = std::get_if<std::array<int, 2>>(&rate->second);
-        if (fraction && (*fraction)[0] > 0 && (*fraction)[1] > 0)
-            settings.frame_rate = {(*fraction)[0], (*fraction)[1]};
-    }
+    settings.frame_rate = find_frame_rate(maps).value_or(settings.frame_rate);
     return settings;
 }
 
@@ -118,11 +118,7 @@ std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const Pictur
     const VisualChannels shown = compute_visual_channels(picture, white),
                          truth = compute_visual_channels(reference, white);
     VisualChannels noisy;
-    if (!noise.empty()) {
-        Image<Rgb> sum = reference;
-        for (std::size_t i = 0; i < sum.size(); ++i) sum.pixels[i] += noise.pixels[i];
-        noisy = compute_visual_channels(sum, white);
-    }
+    if (!noise.empty()) noisy = compute_visual_channels(map_pixels(std::plus<Rgb>(), reference, noise), white);
     Frame next{frame,
                std::move(maps),
                {},
@@ -135,7 +131,7 @@ std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const Pictur
         for (std::size_t i = 0; i < a.size(); ++i)
             next.masker[c].push_back(least(local_amplitude(a[i], shapes_[i]), local_amplitude(b[i], shapes_[i])));
         if (!noise.empty()) next.noise[c] = differences(split_bands(noisy[c]), b);
-        next.error[c] = differences(std::move(a), b);
+        next.error[c] = differences(a, std::move(b));
     });
     frames_.push_back(std::move(next));
     const auto reach = static_cast<std::size_t>(filter_reach(settings_.frame_rate));

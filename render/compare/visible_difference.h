@@ -23,6 +23,9 @@ struct ViewingSettings {
     double tracking = tracking_efficiency;  ///< share of the image velocity that the eye follows, [0,1]
 };
 
+/// framesPerSecond of a picture; nothing where it has none, or one that is not above 0.
+std::optional<FrameRate> find_frame_rate(const ChannelImage& image);
+
 /// Reads whiteLuminance, pixelsPerDegree, displayPersistence and framesPerSecond; others keep their defaults.
 ViewingSettings read_viewing(const ChannelImage& maps);
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
 #include "perception/vision/castle.h"
 
 namespace aleph {
@@ -121,12 +121,11 @@ SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, c
 
 Image<float> masking_elevation(const Image<float>& masker, const Image<float>& background,
                                const Image<float>& sensitivity, int channel) {
-    Image<float> elevation(masker.width, masker.height);
-    for (std::size_t i = 0; i < masker.size(); ++i) {
-        const float contrast = sensitivity.pixels[i] * masker.pixels[i] / std::max(darkest, background.pixels[i]);
-        elevation.pixels[i] = contrast_masking(contrast, channel);
-    }
-    return elevation;
+    return map_pixels(
+        [&](float amplitude, float adapted, float sensitive) {
+            return contrast_masking(sensitive * amplitude / std::max(darkest, adapted), channel);
+        },
+        masker, background, sensitivity);
 }
 
 void add_squares(const SignalParts& parts, const Image<float>& elevation, const BandShape& shape,

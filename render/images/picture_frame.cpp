@@ -11,6 +11,8 @@
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "engine/json/close_names.h"
+#include "render/compare/compare_luminance.h"
+#include "render/compare/visible_difference.h"
 
 namespace aleph {
 
@@ -30,7 +32,6 @@ std::string last_name(const std::string& layer) {
     return dot == std::string::npos ? layer : layer.substr(dot + 1);
 }
 
-/// Channels of one file, by layer.
 class Layers {
   public:
     Layers(const ChannelImage& file, std::string name) : file_(file), name_(std::move(name)) {
@@ -151,16 +152,6 @@ Image<float> read_depth(const Layers& layers, const std::string& wanted) {
     return layer ? *layers.find(*layer, "Z") : Image<float>();
 }
 
-/// From the file's value of motion.valid; `valid` for what is none of its codes.
-MotionValidity validity_of(float code) {
-    const auto whole = static_cast<int>(std::lround(std::clamp(code, -4.0f, 1.0f)));
-    return static_cast<MotionValidity>(whole);
-}
-
-bool is_inside(const glm::dvec2& place, const Image<float>& image) {
-    return place.x >= 0.0 && place.y >= 0.0 && place.x <= image.width && place.y <= image.height;
-}
-
 /// The channels of a motion, and what takes them to x right, y down.
 struct MotionChannels {
     const Image<float>&u, &v;
@@ -173,8 +164,7 @@ struct MotionChannels {
 MotionField read_motion(const MotionChannels& channels, const Image<float>& depth) {
     const auto& [u, v, sign, codes, speeds, pixels_by_speed] = channels;
     const double longest = std::hypot(u.width, u.height);
-    MotionField motion{Image<glm::dvec2>(u.width, u.height), Image<double>(u.width, u.height),
-                       Image<MotionValidity>(u.width, u.height, MotionValidity::valid)};
+    MotionField motion = make_motion_field(u.width, u.height, MotionValidity::valid);
     for (int y = 0; y < u.height; ++y) {
         for (int x = 0; x < u.width; ++x) {
             glm::dvec2 way = sign * glm::dvec2(u(x, y), v(x, y));
@@ -186,10 +176,11 @@ MotionField read_motion(const MotionChannels& channels, const Image<float>& dept
             if (!finite) {
                 validity = MotionValidity::no_counterpart;
             } else if (codes != nullptr && std::isfinite((*codes)(x, y))) {
-                validity = validity_of((*codes)(x, y));
+                validity = static_cast<MotionValidity>(std::lround(std::clamp((*codes)(x, y), -4.0f, 1.0f)));
             } else if (far && length == 0.0) {
                 validity = MotionValidity::background;
-            } else if (!is_inside(glm::dvec2(x + 0.5, y + 0.5) + way, u)) {
+            } else if (const glm::dvec2 place = glm::dvec2(x + 0.5, y + 0.5) + way;
+                       !(place.x >= 0.0 && place.y >= 0.0 && place.x <= u.width && place.y <= u.height)) {
                 validity = MotionValidity::leaves_screen;
             }
             if (length > longest) way *= longest / length;
@@ -204,12 +195,10 @@ MotionField read_motion(const MotionChannels& channels, const Image<float>& dept
 
 /// Pixels per frame for each degree per second, by the file's attributes; 0 where they do not tell.
 double find_pixels_by_speed(const ChannelImage& file) {
-    const auto rate = file.metadata.find("framesPerSecond"), density = file.metadata.find("pixelsPerDegree");
-    if (rate == file.metadata.end() || density == file.metadata.end()) return 0.0;
-    const auto* const frames = std::get_if<std::array<int, 2>>(&rate->second);
-    const auto* const pixels = std::get_if<double>(&density->second);
-    if (frames == nullptr || pixels == nullptr || (*frames)[0] <= 0 || (*frames)[1] <= 0) return 0.0;
-    const double factor = *pixels * (*frames)[1] / (*frames)[0];
+    const std::optional<FrameRate> rate = find_frame_rate(file);
+    const std::optional<double> density = find_number(file, "pixelsPerDegree");
+    if (!rate || !density) return 0.0;
+    const double factor = *density * static_cast<double>(rate->denominator) / static_cast<double>(rate->numerator);
     return factor > 0.0 && std::isfinite(factor) ? factor : 0.0;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "engine/base/pixel_loops.h"
 #include "engine/pose/pose.h"
 #include "render/guide/error_report.h"
 #include "render/output/channel_table.h"
@@ -20,9 +21,7 @@ namespace {
 
 template <class T, class Pick>
 Image<float> pick(const Image<T>& image, const Pick& value_of) {
-    Image<float> out(image.width, image.height);
-    for (std::size_t i = 0; i < out.size(); ++i) out.pixels[i] = static_cast<float>(value_of(image.pixels[i]));
-    return out;
+    return map_pixels([&](const T& value) { return static_cast<float>(value_of(value)); }, image);
 }
 
 void add(ChannelImage& file, const std::string& name, Image<float> values) {
@@ -68,7 +67,6 @@ void add_cryptomatte(ChannelImage& file, const Image<Hit>& hits, const Scene& sc
     file.metadata[prefix + "manifest"] = cryptomatte_manifest(shown);
 }
 
-/// Adds a description of each channel, as the attribute channel:NAME.
 void add_descriptions(ChannelImage& file) {
     for (const ChannelInfo& info : channel_table()) {
         for (const std::string& name : info.names) {
@@ -193,9 +191,7 @@ std::string cryptomatte_prefix(std::string_view layer) {
 }
 
 Image<float> make_importance(const Image<float>& aleph) {
-    Image<float> importance(aleph.width, aleph.height);
-    for (std::size_t i = 0; i < aleph.size(); ++i) importance.pixels[i] = 1.0f / aleph.pixels[i];
-    return importance;
+    return pick(aleph, [](float elevation) { return 1.0f / elevation; });
 }
 
 void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& color) {

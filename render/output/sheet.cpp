@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/pixel_loops.h"
 #include "engine/image/image_file.h"
 #include "engine/image/library.h"
 
@@ -90,8 +91,7 @@ Panel color_panel(const std::string& caption, const Image<Rgb>& linear) {
 }
 
 Panel map_panel(const std::string& caption, const Image<float>& map, const MapRange& range) {
-    Image<float> positions(map.width, map.height);
-    for (std::size_t i = 0; i < map.size(); ++i) positions.pixels[i] = scale_position(map.pixels[i], range);
+    const Image<float> positions = map_pixels([&](float value) { return scale_position(value, range); }, map);
     return {caption, image_library().color_scale(positions), fmt::format("{:g}", range.low),
             fmt::format("{:g}", range.high)};
 }

@@ -51,7 +51,6 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
     facts.volume = facts.glass && values.glass.thickness > 0.0f;
 }
 
-/// True for any texture but normal maps.
 bool has_texture(const MaterialTextures& textures) {
     return std::ranges::any_of(material_textures, [&](const MaterialTexture& texture) {
         return !is_normal_map(texture.slot) && textures[texture.slot].texture != no_index;
@@ -112,13 +111,9 @@ bool is_in_view(const CameraView& view, const Bounds& box) {
     return std::max({left, right, above, below, behind}) < 8;
 }
 
-bool contains(const Bounds& box, const glm::dvec3& point) {
-    return glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
-}
-
 /// True if a ray of the camera may start in a box: all start at one place, or on a plane as wide as the picture.
 bool may_start_inside(const CameraView& view, const Bounds& box) {
-    if (!view.orthographic) return contains(box, view.position);
+    if (!view.orthographic) return distance_to(box, view.position) == 0.0;
     int behind = 0;
     for (int i = 0; i < 8; ++i) behind += to_camera(view, box.corner(i)).z > 0.0 ? 1 : 0;
     return behind > 0 && behind < 8 && is_in_view(view, box);

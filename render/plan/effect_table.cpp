@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/pixel_loops.h"
+
 namespace aleph {
 
 const EffectTable& effect_table() {
@@ -84,11 +86,8 @@ Image<Rgb> make_effect_picture(const Image<Hit>& hits, const FrameFacts& facts, 
     }
     std::vector<Rgb> colors(instances, Rgb(0.0f));
     for (const ObjectFacts& object : facts.objects) colors[object.instance] = mix(left_out, object.material, facts);
-    Image<Rgb> picture(hits.width, hits.height, Rgb(0.0f));
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (hits.pixels[i].instance != no_index) picture.pixels[i] = colors[hits.pixels[i].instance];
-    }
-    return picture;
+    return map_pixels([&](const Hit& hit) { return hit.instance == no_index ? Rgb(0.0f) : colors[hit.instance]; },
+                      hits);
 }
 
 }  // namespace aleph

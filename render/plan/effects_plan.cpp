@@ -34,11 +34,6 @@ void override_by_user(const RenderSettings& settings, Effect effect, PlannedEffe
 
 }  // namespace
 
-const char* decision_name(Decision decision) {
-    constexpr const char* names[] = {"simulate", "simplify", "skip"};
-    return names[static_cast<int>(decision)];
-}
-
 EffectSet EffectsPlan::left_out() const {
     EffectSet set;
     for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -78,8 +73,9 @@ RenderSettings without_forbidden(RenderSettings settings, const EffectTable& tab
 }
 
 ordered_json to_json(const PlannedEffect& planned) {
+    constexpr const char* decisions[] = {"simulate", "simplify", "skip"};
     ordered_json json = {{"effect", planned.name},
-                         {"decision", decision_name(planned.decision)},
+                         {"decision", decisions[static_cast<int>(planned.decision)]},
                          {"reason", planned.reason},
                          {"bound", nullptr}};
     if (planned.bound) {

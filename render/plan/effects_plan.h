@@ -15,9 +15,6 @@ enum class Decision {
     skip,
 };
 
-/// "simulate", "simplify", "skip".
-const char* decision_name(Decision decision);
-
 /// The most that a pixel changes by what is left out.
 struct EffectBound {
     double luminance = 0.0;   ///< cd/m2, exposure applied

@@ -53,7 +53,6 @@ bool may_block(const LightFacts& light, const ObjectFacts& receiver, const Objec
     return overlap(hull, blocker.bounds);
 }
 
-/// True if anything may stand between a light and a surface.
 bool may_be_shadowed(const FrameFacts& facts, const LightFacts& light) {
     const std::size_t count = facts.objects.size();
     if (count * count * facts.lights.size() > most_shadow_tests) return true;

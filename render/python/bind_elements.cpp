@@ -15,9 +15,11 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-py::object copy_points(const std::vector<glm::vec3>& values) {
-    return py::array_t<float>({static_cast<py::ssize_t>(values.size()), py::ssize_t{3}},
-                              reinterpret_cast<const float*>(values.data()));
+/// A copy, (values, 3).
+template <class Number, class Triple>
+py::array_t<Number> copy_triples(const std::vector<Triple>& values) {
+    return py::array_t<Number>({static_cast<py::ssize_t>(values.size()), py::ssize_t{3}},
+                               reinterpret_cast<const Number*>(values.data()));
 }
 
 void set_positions(const Element<Mesh>& element,
@@ -95,16 +97,11 @@ void bind_lights_and_cameras(py::module_& module) {
 void bind_nodes_and_meshes(py::module_& module) {
     auto mesh = bind_elements<Mesh>(module, "Mesh", "Meshes", "Triangles of one material.");
     mesh.def_property(
-            "positions", [](const Element<Mesh>& e) { return copy_points(e.get().positions); }, &set_positions,
+            "positions", [](const Element<Mesh>& e) { return copy_triples<float>(e.get().positions); }, &set_positions,
             "A copy of the points, (points, 3), metres in the space of its node. Those of a mesh that neither deforms "
             "nor is made from a shape may be assigned.")
         .def_property_readonly(
-            "triangles",
-            [](const Element<Mesh>& e) {
-                const std::vector<glm::uvec3>& triangles = e.get().triangles;
-                return py::array_t<std::uint32_t>({static_cast<py::ssize_t>(triangles.size()), py::ssize_t{3}},
-                                                  reinterpret_cast<const std::uint32_t*>(triangles.data()));
-            },
+            "triangles", [](const Element<Mesh>& e) { return copy_triples<std::uint32_t>(e.get().triangles); },
             "A copy of the indices of points, (triangles, 3).")
         .def_property(
             "material",

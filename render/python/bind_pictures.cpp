@@ -11,8 +11,6 @@
 #include "render/output/frame_files.h"
 #include "render/python/arrays.h"
 #include "render/python/bindings.h"
-#include "render/python/frame_object.h"
-#include "render/python/settings_object.h"
 #include "render/settings/motion_source.h"
 
 namespace aleph::python {
@@ -22,10 +20,8 @@ namespace {
 /// Displacements in pixels, y down; NaN: no counterpart.
 MotionField take_motion(const py::object& object, const std::string& what) {
     const Image<glm::dvec2> steps = take_vectors(object, what);
-    const int width = steps.width, height = steps.height;
-    MotionField motion{Image<glm::dvec2>(width, height), Image<double>(width, height),
-                       Image<MotionValidity>(width, height, MotionValidity::valid)};
-    const double diagonal = std::hypot(width, height);
+    MotionField motion = make_motion_field(steps.width, steps.height, MotionValidity::valid);
+    const double diagonal = std::hypot(steps.width, steps.height);
     for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
         const glm::dvec2 step = steps.pixels[i];
         const double length = glm::length(step);
@@ -81,10 +77,6 @@ ChannelImage take_picture(const py::object& object, const std::string& what) {
     return make_color_image(color);
 }
 
-py::object maybe(const std::optional<double>& value) {
-    return value ? py::object(py::float_(*value)) : py::none();
-}
-
 py::dict compare(const py::object& a, const py::object& b, const py::object& threshold, double display_white,
                  double tolerance) {
     const ChannelImage first = take_picture(a, "a"), second = take_picture(b, "b");
@@ -132,7 +124,7 @@ py::dict find_seen(const py::sequence& a, const py::sequence& b, const py::seque
     out["seen"] = shares.seen;
     out["flicker"] = shares.flicker;
     out["lasting"] = shares.lasting;
-    out["noticed"] = maybe(shares.noticed);
+    out["noticed"] = shares.noticed;
     return out;
 }
 

@@ -10,8 +10,6 @@
 #include "engine/base/parallel.h"
 #include "render/frame/sequence.h"
 #include "render/python/bindings.h"
-#include "render/python/frame_object.h"
-#include "render/python/settings_object.h"
 #include "render/settings/frame_list.h"
 
 namespace aleph::python {

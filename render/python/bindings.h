@@ -6,9 +6,15 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 
+#include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
-#include "render/pixels/shaded_frame.h"
+#include "perception/vision/vision_model.h"
+#include "render/frame/frame_output.h"
+#include "render/guide/accuracy_map.h"
+#include "render/guide/stopping_rule.h"
+#include "render/settings/settings.h"
 
 namespace aleph::python {
 
@@ -46,5 +52,44 @@ using Work = std::function<void(const FrameProgress&)>;
 /// @throws what the work throws, what `on_progress` raises, KeyboardInterrupt, InputError for a number of threads
 /// outside 0 to 4096
 void run_without_lock(int threads, const py::object& on_progress, const Work& work);
+
+/// The parts of a scene that the file of its frame names: film, names and materials of objects.
+struct FrameOrigin {
+    Scene scene;  ///< without geometry
+    RenderSettings settings;
+    double exposure = 1.0;
+};
+
+/// The scene without its geometry and pictures.
+std::shared_ptr<const FrameOrigin> describe_origin(const Scene& scene, const RenderSettings& settings, double exposure);
+
+struct Frame {
+    FrameOutput output;
+    std::shared_ptr<const FrameOrigin> origin;
+};
+
+/// The channels of the frame's file with all of its maps.
+ChannelImage frame_channels(const Frame& frame);
+
+/// elevation(frequency, retinal, tracked, luminance) gives f for arrays of pixels; threshold(luminance) the least
+/// visible difference, both cd/m2; None: the thesis's. They are called from any thread, one at a time, with the
+/// interpreter's lock; so are the functions of GivenSettings.
+std::unique_ptr<VisionModel> make_vision(const std::string& name, const py::function& elevation,
+                                         const py::object& threshold);
+
+/// Settings, and the functions that they point to.
+struct GivenSettings {
+    RenderSettings settings;
+    std::unique_ptr<VisionModel> vision;
+    std::unique_ptr<AccuracyAdapter> adapter;
+    std::unique_ptr<StoppingRule> rule;
+};
+
+/// The scene's settings with the arguments in their places. Numbers of the scene (exposure) go there. Functions may be
+/// `vision`; `adapter`(aleph, accuracy), which gives the accuracy of each pixel; and `sampling`(x, y, samples, error,
+/// deviation, tolerance), True where a pixel has enough samples.
+/// @param keeps_to_error  without a setting that chooses the work, an error of 1 is asked for
+/// @throws InputError
+GivenSettings read_settings(Scene& scene, const py::dict& arguments, bool keeps_to_error);
 
 }  // namespace aleph::python

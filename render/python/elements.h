@@ -53,10 +53,9 @@ py::object element_or_none(const std::shared_ptr<Scene>& scene, ElementList<E> l
 template <class E>
 std::size_t find_element(const Elements<E>& all, const std::string& name) {
     const std::vector<E>& list = all.scene.get()->*all.list;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        if (list[i].name == name) return i;
-    }
-    throw py::key_error(fmt::format("there is no {} '{}'", all.kind, name));
+    const auto found = std::ranges::find(list, name, &E::name);
+    if (found == list.end()) throw py::key_error(fmt::format("there is no {} '{}'", all.kind, name));
+    return static_cast<std::size_t>(found - list.begin());
 }
 
 /// Binds the class of an element and that of its list. @return the class, for its properties

@@ -1,4 +1,4 @@
-#include "render/python/frame_object.h"
+#include "render/python/bindings.h"
 
 #include <pybind11/stl.h>
 
@@ -6,7 +6,6 @@
 #include "engine/scene/place.h"
 #include "render/output/frame_files.h"
 #include "render/python/arrays.h"
-#include "render/python/bindings.h"
 
 namespace aleph::python {
 
@@ -87,7 +86,6 @@ void add_perception(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
                                                                                 "Degrees per second.");
 }
 
-/// By the ending of the name.
 void save(const Frame& frame, const py::object& to) {
     const std::filesystem::path path = to_path(to);
     const std::string ending = path.extension().string();

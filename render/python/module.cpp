@@ -4,7 +4,6 @@
 
 #include "engine/base/errors.h"
 #include "render/python/bindings.h"
-#include "render/python/settings_object.h"
 #include "render/settings/setting_table.h"
 
 namespace aleph::python {

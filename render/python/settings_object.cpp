@@ -1,4 +1,4 @@
-#include "render/python/settings_object.h"
+#include "render/python/bindings.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,23 +27,6 @@ Floats to_row(const py::object& result, py::ssize_t count, const char* what) {
     return Floats(py::module_::import("numpy").attr("full")(count, values, "float32"));
 }
 
-class PythonVision;
-
-/// One row of pixels.
-class PythonRow : public ElevationRow {
-  public:
-    PythonRow(const PythonVision& vision, std::array<double, band_count> rho, int width)
-        : vision_(vision), rho_(rho), width_(width) {}
-    void load(const StimulusRow& row) override { row_ = row; }
-    void elevations(int band, float* out) const override;
-
-  private:
-    const PythonVision& vision_;
-    std::array<double, band_count> rho_;
-    int width_;
-    StimulusRow row_;
-};
-
 class PythonVision : public VisionModel {
   public:
     PythonVision(std::string name, py::function elevation, py::object threshold)
@@ -54,7 +37,7 @@ class PythonVision : public VisionModel {
     bool uses_luminance() const override { return true; }
 
     ElevationRowMaker make_rows(const std::array<double, band_count>& rho, const Presentation&) const override {
-        return [this, rho](int width) { return std::make_unique<PythonRow>(*this, rho, width); };
+        return [this, rho](int width) { return std::make_unique<Row>(*this, rho, width); };
     }
 
     void thresholds(const float* luminance, std::size_t count, float* out) const override {
@@ -81,6 +64,22 @@ class PythonVision : public VisionModel {
     }
 
   private:
+    class Row : public ElevationRow {
+      public:
+        Row(const PythonVision& vision, const std::array<double, band_count>& rho, int width)
+            : vision_(vision), rho_(rho), width_(static_cast<std::size_t>(width)) {}
+        void load(const StimulusRow& row) override { row_ = row; }
+        void elevations(int band, float* out) const override {
+            vision_.find_elevations(rho_.at(static_cast<std::size_t>(band)), row_, width_, out);
+        }
+
+      private:
+        const PythonVision& vision_;
+        std::array<double, band_count> rho_;
+        std::size_t width_;
+        StimulusRow row_;
+    };
+
     static py::array_t<float> row(const float* values, std::size_t count) {
         return py::array_t<float>(static_cast<py::ssize_t>(count), values);
     }
@@ -89,10 +88,6 @@ class PythonVision : public VisionModel {
     py::function elevation_;
     py::object threshold_;
 };
-
-void PythonRow::elevations(int band, float* out) const {
-    vision_.find_elevations(rho_.at(static_cast<std::size_t>(band)), row_, static_cast<std::size_t>(width_), out);
-}
 
 class PythonAdapter : public AccuracyAdapter {
   public:

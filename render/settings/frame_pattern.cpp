@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A field that starts at `at`.
 std::optional<NumberField> field_at(const std::string& name, std::size_t at) {
     if (name[at] == '#') {
         const std::size_t end = std::min(name.find_first_not_of('#', at), name.size());

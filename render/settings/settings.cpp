@@ -58,7 +58,6 @@ void refuse_contradiction(const EffectSettings& effects, const std::string& sour
     }
 }
 
-/// Returns whether settings say how much work a picture takes.
 bool chooses_work(const SettingMap& settings) {
     constexpr const char* keys[] = {"error", "accuracy", "gather", "spp", "sampling", "light_samples", "integrator"};
     return std::ranges::any_of(keys, [&](const char* key) { return settings.contains(key); });

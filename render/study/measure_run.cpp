@@ -11,7 +11,6 @@ namespace aleph {
 
 namespace {
 
-/// Errors in the thresholds of one viewer.
 void measure_viewer(const LuminanceError& error, const Image<float>& threshold, const std::string& suffix,
                     MetricValues& out) {
     const ThresholdFigures figures = measure_error(error, threshold);

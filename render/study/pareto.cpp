@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <ranges>
 #include <utility>
 
 #include "engine/base/errors.h"
@@ -45,10 +46,8 @@ std::vector<int> rank_points(std::span<const CostPoint> points) {
         std::vector<std::size_t> front;
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (ranks[i] >= 0) continue;
-            bool beaten = false;
-            for (std::size_t j = 0; j < points.size() && !beaten; ++j)
-                beaten = ranks[j] < 0 && dominates(points[j], points[i]);
-            if (!beaten) front.push_back(i);
+            const auto beats = [&](std::size_t j) { return ranks[j] < 0 && dominates(points[j], points[i]); };
+            if (std::ranges::none_of(std::views::iota(std::size_t{0}, points.size()), beats)) front.push_back(i);
         }
         ALEPH_CHECK(!front.empty(), "points that are no numbers");
         for (const std::size_t i : front) ranks[i] = rank;

@@ -10,8 +10,8 @@
 #include "render/compare/compare_luminance.h"
 #include "render/settings/frame_list.h"
 #include "render/study/effects_ledger.h"
+#include "render/study/reference_picture.h"
 #include "render/study/search_study.h"
-#include "render/study/threshold_noise.h"
 
 namespace aleph {
 

@@ -10,7 +10,6 @@
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
 #include "render/study/reference_picture.h"
-#include "render/study/threshold_noise.h"
 
 namespace aleph {
 
@@ -159,7 +158,6 @@ class StudyRunner {
         }
     }
 
-    /// The references of a scene's frames.
     std::vector<ChannelImage> prepare_frames(const PreparedStudyScene& scene) {
         std::vector<ChannelImage> references;
         const std::size_t first = results_.frames.size();
@@ -174,7 +172,6 @@ class StudyRunner {
         return references;
     }
 
-    /// The frames of scene s.
     std::span<const JudgingFrame> frames_of(std::size_t s) const {
         std::size_t first = 0;
         for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();

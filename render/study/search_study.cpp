@@ -87,7 +87,6 @@ PreparedStudy study_of(const PreparedStudy& prepared, const PreparedStudyScene& 
     return small;
 }
 
-/// Adds the results of a scene.
 void merge(StudyResults scene, StudyResults& all) {
     std::ranges::move(scene.frames, std::back_inserter(all.frames));
     all.made += scene.made;

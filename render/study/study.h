@@ -32,7 +32,7 @@ struct StudyAxis {
 /// A variant: settings that differ from the study's own, or pictures that another program made.
 struct StudyVariant {
     std::string name;
-    SettingMap settings;  ///< or noise that is added to the reference (threshold_noise.h)
+    SettingMap settings;  ///< or noise that is added to the reference (reference_picture.h)
     std::map<std::int64_t, std::filesystem::path> pictures{};  ///< files by frame; empty: rendered
     bool forbids_more = false;                                 ///< beside what a scene forbids, not in its place
 };

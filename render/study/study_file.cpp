@@ -22,11 +22,6 @@ constexpr const char* schema_text =
 #include "study_schema.inc"
     ;
 
-std::string read_text(const std::filesystem::path& file) {
-    const Bytes bytes = read_regular_file(file, file.string(), "");
-    return {bytes.begin(), bytes.end()};
-}
-
 SettingValue read_value(const nlohmann::json& value) {
     if (value.is_boolean()) return value.get<bool>();
     if (value.is_number()) return value.get<double>();
@@ -92,7 +87,6 @@ std::map<std::int64_t, std::filesystem::path> find_pictures(const JsonRef& at, c
     }
 }
 
-/// Reads the lists of objects.
 void read_lists(const JsonRef& root, const std::filesystem::path& folder, Study& study) {
     for_each_object(root, "scenes", [&](const JsonRef& scene, std::size_t) {
         const std::filesystem::path file = scene.require("scene").string();

@@ -125,10 +125,10 @@ std::optional<std::vector<FrameRun>> RunStore::find(const RunName& name, const s
     for (const int frame : frames) {
         if (!std::filesystem::exists(picture(name, frame))) return std::nullopt;
     }
-    const Bytes bytes = read_regular_file(path, path.string(), "");
+    const std::string text = read_text(path);
     std::vector<FrameRun> runs;
     try {
-        nlohmann::json::parse(bytes.begin(), bytes.end()).at("frames").get_to(runs);
+        nlohmann::json::parse(text).at("frames").get_to(runs);
     } catch (const nlohmann::json::exception&) {
         throw InputError(path.string(), "",
                          "is no finished run of a study; remove it, and the study will make it again");

@@ -20,7 +20,6 @@ int choose_samples(int samples, double noise, int most_samples) {
 
 using Pairs = std::vector<PicturePair>;
 
-/// Counts what is seen in the probe's frame.
 VisibleMaps judge(const ProbeWindow& window, const Pairs& pairs, std::int64_t frame, const ViewingSettings& viewing) {
     VisibleDifference difference(viewing, frame);
     std::vector<VisibleMaps> maps;

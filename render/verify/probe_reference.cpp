@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "engine/base/pixel_loops.h"
 #include "engine/base/pyramid.h"
 #include "engine/base/sampling.h"
 
@@ -34,35 +36,30 @@ Span choose_span(double place, int length) {
     return {first, (i + 1) * length / count - first};
 }
 
-/// Values times weights, and weights.
-struct Weighted {
-    std::array<Image<float>, 3> sums;
-    Image<float> weights;
-};
-
-Weighted pull(const Weighted& fine) {
-    return {{reduce(fine.sums[0]), reduce(fine.sums[1]), reduce(fine.sums[2])}, reduce(fine.weights)};
-}
+/// Red, green and blue times weights, and the weights.
+using Weighted = std::array<Image<float>, 4>;
 
 /// Fills what weighs less than 1 from the coarser level.
 void push(const Weighted& coarse, Weighted& fine) {
-    const LevelSize size{fine.weights.width, fine.weights.height};
-    for (Image<float>& sums : fine.sums) {
-        const Image<float> beyond = expand(coarse.sums[static_cast<std::size_t>(&sums - fine.sums.data())], size);
-        for (std::size_t i = 0; i < sums.size(); ++i)
-            sums.pixels[i] += (1.0f - fine.weights.pixels[i]) * beyond.pixels[i];
+    const Image<float>& weights = fine[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Image<float> beyond = expand(coarse[c], {weights.width, weights.height});
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            fine[c].pixels[i] += (1.0f - weights.pixels[i]) * beyond.pixels[i];
     }
 }
 
-/// Weights of at most 1: what is known well keeps its value.
-void saturate(Weighted& level) {
-    for (std::size_t i = 0; i < level.weights.size(); ++i) {
-        float& weight = level.weights.pixels[i];
+/// The next coarser level, with weights of at most 1: what is known well keeps its value.
+Weighted pull(const Weighted& fine) {
+    Weighted level{reduce(fine[0]), reduce(fine[1]), reduce(fine[2]), reduce(fine[3])};
+    for (std::size_t i = 0; i < level[3].size(); ++i) {
+        float& weight = level[3].pixels[i];
         const float full = std::min(1.0f, 4.0f * weight);
         const float scale = weight > 0.0f ? full / weight : 0.0f;
-        for (Image<float>& sums : level.sums) sums.pixels[i] *= scale;
+        for (std::size_t c = 0; c < 3; ++c) level[c].pixels[i] *= scale;
         weight = full;
     }
+    return level;
 }
 
 constexpr std::uint64_t reference_seed = 0x7665726966790000ull;  // keeps references apart from all that they judge
@@ -123,25 +120,22 @@ ProbePlace place_probe(std::size_t number, std::span<const std::int64_t> frames,
 
 Image<Rgb> continue_error(const Image<Rgb>& error, const PicturePart& part) {
     const Image<float> empty(error.width, error.height);
-    std::vector<Weighted> levels{{{empty, empty, empty}, empty}};
+    std::vector<Weighted> levels{{empty, empty, empty, empty}};
     bool any = false;
     for (std::size_t i = 0; i < error.size(); ++i) {
         if (part.pixels[i] == 0 || !is_finite(error.pixels[i])) continue;
         any = true;
-        levels[0].weights.pixels[i] = 1.0f;
-        for (int c = 0; c < 3; ++c) levels[0].sums[static_cast<std::size_t>(c)].pixels[i] = error.pixels[i][c];
+        levels[0][3].pixels[i] = 1.0f;
+        for (int c = 0; c < 3; ++c) levels[0][static_cast<std::size_t>(c)].pixels[i] = error.pixels[i][c];
     }
     Image<Rgb> out(error.width, error.height, Rgb(0.0f));
     if (!any) return out;
-    while (levels.back().weights.width > 1 || levels.back().weights.height > 1) {
-        levels.push_back(pull(levels.back()));
-        saturate(levels.back());
-    }
+    while (levels.back()[3].size() > 1) levels.push_back(pull(levels.back()));
     Weighted& top = levels.back();  // one pixel, which may weigh little
-    for (Image<float>& sums : top.sums) sums.pixels[0] /= std::max(top.weights.pixels[0], 1e-6f);
+    for (std::size_t c = 0; c < 3; ++c) top[c].pixels[0] /= std::max(top[3].pixels[0], 1e-6f);
     for (std::size_t i = levels.size() - 1; i-- > 0;) push(levels[i + 1], levels[i]);
     for (std::size_t i = 0; i < out.size(); ++i) {
-        out.pixels[i] = {levels[0].sums[0].pixels[i], levels[0].sums[1].pixels[i], levels[0].sums[2].pixels[i]};
+        out.pixels[i] = {levels[0][0].pixels[i], levels[0][1].pixels[i], levels[0][2].pixels[i]};
         if (part.pixels[i] != 0 && !is_finite(error.pixels[i])) out.pixels[i] = error.pixels[i];
     }
     return out;
@@ -149,16 +143,10 @@ Image<Rgb> continue_error(const Image<Rgb>& error, const PicturePart& part) {
 
 MotionMaps read_maps(const FrameOutput& output) {
     const MotionField& field = output.motion;
-    const int width = output.hits.width, height = output.hits.height;
-    MotionMaps maps{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height),
-                    Image<float>(width, height)};
-    for (std::size_t i = 0; i < maps.u.size(); ++i) {
-        maps.u.pixels[i] = static_cast<float>(field.displacement.pixels[i].x);
-        maps.v.pixels[i] = static_cast<float>(-field.displacement.pixels[i].y);
-        maps.valid.pixels[i] = static_cast<float>(static_cast<int>(field.validity.pixels[i]));
-        maps.object.pixels[i] = static_cast<float>(static_cast<int>(output.hits.pixels[i].instance));
-    }
-    return maps;
+    return {map_pixels([](const glm::dvec2& way) { return static_cast<float>(way.x); }, field.displacement),
+            map_pixels([](const glm::dvec2& way) { return static_cast<float>(-way.y); }, field.displacement),
+            map_pixels([](MotionValidity code) { return static_cast<float>(static_cast<int>(code)); }, field.validity),
+            map_pixels([](const Hit& hit) { return static_cast<float>(hit.instance); }, output.hits)};
 }
 
 std::vector<std::int64_t> list_window(std::int64_t frame, int reach, const FrameRange& range,
@@ -219,9 +207,7 @@ PicturePair make_probe_pair(const ProbeFrame& frame, const PictureArea& area, co
         pair.noise.pixels[i] = 0.5f * (frame.halves[0].pixels[i] - frame.halves[1].pixels[i]);
     }
     const PicturePart part = crop(frame.part, area);
-    Image<Rgb> error(area.width, area.height);
-    for (std::size_t i = 0; i < error.size(); ++i) error.pixels[i] = pair.picture.pixels[i] - pair.reference.pixels[i];
-    error = continue_error(error, part);
+    const Image<Rgb> error = continue_error(map_pixels(std::minus<Rgb>(), pair.picture, pair.reference), part);
     for (std::size_t i = 0; i < error.size(); ++i) {
         if (part.pixels[i] != 0) continue;
         pair.reference.pixels[i] = glm::max(pair.picture.pixels[i] - error.pixels[i], Rgb(0.0f));

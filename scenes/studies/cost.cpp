@@ -15,7 +15,6 @@
 #include "render/settings/measure.h"
 #include "render/study/prepared_study.h"
 #include "scenes/studies/study_options.h"
-#include "scenes/studies/study_table.h"
 
 namespace aleph {
 
@@ -34,7 +33,6 @@ struct MeasuredFrame {
     std::vector<CostParts> whole;  ///< by error
 };
 
-/// Seconds of a frame rendered whole.
 CostParts measure_whole(const Scene& scene, const RenderSettings& settings, std::int64_t number) {
     CostParts parts;
     StageClock clock;
@@ -133,7 +131,6 @@ CostCoefficients fit_coefficients(const std::vector<MeasuredFrame>& frames) {
             .light_exponent = fit.light_exponent.value_or(usual.light_exponent)};
 }
 
-/// The pilot up to the error of an index.
 PilotSeconds end_pilot(PilotSeconds pilot, std::size_t last) {
     pilot.parts.resize(last + 1);
     return pilot;

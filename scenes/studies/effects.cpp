@@ -16,7 +16,6 @@
 #include "render/study/prepared_study.h"
 #include "render/study/timed_run.h"
 #include "scenes/studies/study_options.h"
-#include "scenes/studies/study_table.h"
 
 namespace aleph {
 
@@ -50,11 +49,9 @@ Picture render_picture(const Scene& scene, const RenderSettings& settings, std::
 
 /// Differences of luminance, cd/m2.
 Image<double> find_differences(const Picture& a, const Picture& b, double white) {
-    Image<double> differences(a.color.width, a.color.height);
-    for (std::size_t i = 0; i < a.color.size(); ++i) {
-        differences.pixels[i] = white * (double{luminance(a.color.pixels[i])} - luminance(b.color.pixels[i]));
-    }
-    return differences;
+    return map_pixels(
+        [white](const Rgb& one, const Rgb& other) { return white * (double{luminance(one)} - luminance(other)); },
+        a.color, b.color);
 }
 
 /// A difference of two ways to render, over several seeds: mean, and variance of the mean.
@@ -141,7 +138,6 @@ bool differs(const Rgb& a, const Rgb& b) {
     return false;
 }
 
-/// The result of a trial.
 struct Finding {
     double difference = 0.0, noise = 0.0;  ///< the largest; of the noise what is allowed for, cd/m2
     double seconds = 0.0, rays = 0.0;      ///< with the effect
@@ -222,7 +218,6 @@ void try_frame(const FrameOfScene& which, const EffectsOptions& options, const S
     }
 }
 
-/// Sets the frames of --quick.
 void make_quick(EffectsOptions& options) {
     options.study.size = "32x24";
     options.frames = {"scenes/cornell/scene.json@3",      "scenes/pool-still/scene.json@0",

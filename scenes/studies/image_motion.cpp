@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/base/pixel_loops.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/posed_view.h"
 #include "engine/rays/ray_scene.h"
@@ -19,7 +20,6 @@
 #include "render/pixels/pixel_surfaces.h"
 #include "render/study/timed_run.h"
 #include "scenes/studies/study_options.h"
-#include "scenes/studies/study_table.h"
 
 namespace aleph {
 
@@ -90,10 +90,7 @@ RegionErrors find_errors(const MotionField& field, const MotionField& truth, con
 }
 
 Image<float> lengths_of(const Image<glm::dvec2>& displacement) {
-    Image<float> lengths(displacement.width, displacement.height);
-    for (std::size_t i = 0; i < lengths.size(); ++i)
-        lengths.pixels[i] = static_cast<float>(glm::length(displacement.pixels[i]));
-    return lengths;
+    return map_pixels([](const glm::dvec2& way) { return static_cast<float>(glm::length(way)); }, displacement);
 }
 
 /// An even number of pixels that 99.8 % of the motion stays under.
@@ -197,8 +194,8 @@ void print_table(const Motions& motions, const std::vector<bool>& movers, bool m
 std::vector<Panel> make_panels(const Motions& motions, int frame) {
     const MotionField& census = motions.find(fmt::format("`census`, {}", of_frames));
     const std::string best = fmt::format("`{}`, {}", has_flow() ? "flow" : "image", of_frames);
-    Image<glm::dvec2> error = census.displacement;
-    for (std::size_t i = 0; i < error.size(); ++i) error.pixels[i] -= motions.model().displacement.pixels[i];
+    const Image<glm::dvec2> error =
+        map_pixels(std::minus<glm::dvec2>(), census.displacement, motions.model().displacement);
     const Image<float> lengths = lengths_of(motions.model().displacement);
     const MapRange range{0.0, scale_of(lengths)};
     return {color_panel(fmt::format("frame {}", frame), motions.now.shaded.color),

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <limits>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "render/cli/support/options.h"
-#include "render/cli/support/output_conflicts.h"
+#include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/frame_pattern.h"
@@ -95,42 +98,32 @@ ProgressLook terminal_look(bool quiet) {
     return look;
 }
 
-/// The pixels of a picture within the whole one.
-PictureArea find_window(const ChannelImage& image) {
+/// The whole picture, relative to the first pixel of what the file has of it.
+PictureArea find_whole(const ChannelImage& image) {
     const Image<float>& first = image.channels.front().values;
-    if (!image.whole) return {0, 0, first.width, first.height};
-    return {-image.whole->x, -image.whole->y, first.width, first.height};
-}
-
-/// Size of the whole picture.
-glm::ivec2 find_whole_size(const ChannelImage& image) {
-    const PictureArea window = find_window(image);
-    return image.whole ? glm::ivec2(image.whole->width, image.whole->height) : glm::ivec2(window.width, window.height);
+    return image.whole.value_or(PictureArea{0, 0, first.width, first.height});
 }
 
 /// Cuts pictures and maps to the window that all of them have. Those of other sizes are left as they are, to be
 /// refused.
 /// @throws InputError if they have no pixel in common
 void cut_to_common_window(const std::vector<ChannelImage*>& images) {
-    PictureArea common = find_window(*images.front());
+    const PictureArea whole = find_whole(*images.front());
+    glm::ivec2 first(-whole.x, -whole.y), end(std::numeric_limits<int>::max());
     for (const ChannelImage* image : images) {
-        if (find_whole_size(*image) != find_whole_size(*images.front())) return;
-        const PictureArea window = find_window(*image);
-        const int right = std::min(common.x + common.width, window.x + window.width);
-        const int bottom = std::min(common.y + common.height, window.y + window.height);
-        common.x = std::max(common.x, window.x);
-        common.y = std::max(common.y, window.y);
-        common.width = right - common.x;
-        common.height = bottom - common.y;
+        const PictureArea own = find_whole(*image);
+        if (own.width != whole.width || own.height != whole.height) return;
+        const Image<float>& values = image->channels.front().values;
+        first = glm::max(first, -glm::ivec2(own.x, own.y));
+        end = glm::min(end, glm::ivec2(values.width, values.height) - glm::ivec2(own.x, own.y));
     }
-    if (common.width <= 0 || common.height <= 0)
+    const glm::ivec2 size = end - first;
+    if (size.x <= 0 || size.y <= 0)
         throw InputError("", "", "the pictures are windows of one that have no pixel in common");
     for (ChannelImage* image : images) {
-        const PictureArea window = find_window(*image);
-        if (window == common) continue;
+        const PictureArea own = find_whole(*image);
         for (Channel& channel : image->channels)
-            channel.values =
-                crop(channel.values, {common.x - window.x, common.y - window.y, common.width, common.height});
+            channel.values = crop(channel.values, {first.x + own.x, first.y + own.y, size.x, size.y});
     }
 }
 

@@ -69,27 +69,6 @@ ordered_json describe_points(const Scene& scene, const ScenePose& posed_scene, c
     return {{"count", count}, {"first", std::move(first)}};
 }
 
-}  // namespace
-
-ordered_json explain_moment(const Scene& scene, double seconds) {
-    const ScenePose posed_scene = pose(scene, seconds);
-    const NodePaths paths(scene);
-    std::vector<Bounds> bounds(scene.nodes.size());
-    for (const Instance& instance : posed_scene.instances)
-        add_instance(bounds[instance.node], scene, posed_scene, instance);
-    ordered_json objects = ordered_json::array();
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        ordered_json object = {
-            {"path", paths[i]}, {"world", to_rows(posed_scene.world[i])}, {"visible", posed_scene.visible[i] != 0}};
-        object["bounds"] = to_json(bounds[i]);
-        if (!scene.nodes[i].meshes.empty()) object["points"] = describe_points(scene, posed_scene, scene.nodes[i]);
-        objects.push_back(std::move(object));
-    }
-    return {{"seconds", seconds}, {"objects", std::move(objects)}};
-}
-
-namespace {
-
 Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
     try {
         return load_scene(file, limits);
@@ -140,6 +119,23 @@ int explain(const ExplainOptions& options) {
 }
 
 }  // namespace
+
+ordered_json explain_moment(const Scene& scene, double seconds) {
+    const ScenePose posed_scene = pose(scene, seconds);
+    const NodePaths paths(scene);
+    std::vector<Bounds> bounds(scene.nodes.size());
+    for (const Instance& instance : posed_scene.instances)
+        add_instance(bounds[instance.node], scene, posed_scene, instance);
+    ordered_json objects = ordered_json::array();
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        ordered_json object = {
+            {"path", paths[i]}, {"world", to_rows(posed_scene.world[i])}, {"visible", posed_scene.visible[i] != 0}};
+        object["bounds"] = to_json(bounds[i]);
+        if (!scene.nodes[i].meshes.empty()) object["points"] = describe_points(scene, posed_scene, scene.nodes[i]);
+        objects.push_back(std::move(object));
+    }
+    return {{"seconds", seconds}, {"objects", std::move(objects)}};
+}
 
 void add_explain_command(CLI::App& app, Command& command) {
     CLI::App* explain_app = app.add_subcommand("explain", "describe a scene without rendering it");

@@ -149,11 +149,6 @@ bool is_area_light(const Scene& scene, const Node& node) {
     });
 }
 
-/// "base_color" of "base_color_texture".
-std::string texture_name(const std::string& key) {
-    return key.substr(0, key.rfind("_texture"));
-}
-
 std::string path_or_name(const Scene& scene, int index) {
     const SceneImage& image = scene.images[index];
     return image.path.empty() ? name_or_number(image.name, "image", static_cast<std::size_t>(index)) : image.path;
@@ -254,7 +249,8 @@ ordered_json describe_materials(const Scene& scene) {
         for (const auto& field : material_textures) {
             const int index = material.textures[field.slot].image;
             if (index == no_index) continue;
-            item["textures"][texture_name(field.key)] = path_or_name(scene, index);
+            const std::string key = field.key;  // "base_color_texture"
+            item["textures"][key.substr(0, key.rfind("_texture"))] = path_or_name(scene, index);
         }
         if (ordered_json animated = list_tracks(material); !animated.empty()) item["animated"] = std::move(animated);
         out.push_back(std::move(item));

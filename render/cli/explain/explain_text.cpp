@@ -172,6 +172,22 @@ std::string bound_text(const ordered_json& bound) {
     return fmt::format("{} cd/m2, {} thresholds", number(bound["luminance"]), number(bound["thresholds"]));
 }
 
+/// Those that something has set. The error that `aleph render` asks for by itself is one.
+std::string settings_text(const ordered_json& settings) {
+    std::string text;
+    for (const ordered_json& setting : settings) {
+        const bool is_asked = setting["key"] == "error" && setting["value"] != 0.0;
+        if (setting["from"] == "default" && !is_asked) continue;
+        const ordered_json& value = setting["value"];
+        text += fmt::format("  {:<18} {:<11} {}\n", text_of(setting["key"]),
+                            value.is_number()   ? fmt::format("{:g}", value.get<double>())
+                            : value.is_string() ? text_of(value)
+                                                : value.dump(),
+                            text_of(setting["from"]));
+    }
+    return text.empty() ? text : "\nsettings of `aleph render`, and where they come from\n" + text;
+}
+
 }  // namespace
 
 std::string plan_text(const ordered_json& plan, const ordered_json& frames) {
@@ -191,26 +207,6 @@ std::string plan_text(const ordered_json& plan, const ordered_json& frames) {
     }
     return text;
 }
-
-namespace {
-
-/// Those that something has set. The error that `aleph render` asks for by itself is one.
-std::string settings_text(const ordered_json& settings) {
-    std::string text;
-    for (const ordered_json& setting : settings) {
-        const bool is_asked = setting["key"] == "error" && setting["value"] != 0.0;
-        if (setting["from"] == "default" && !is_asked) continue;
-        const ordered_json& value = setting["value"];
-        text += fmt::format("  {:<18} {:<11} {}\n", text_of(setting["key"]),
-                            value.is_number()   ? fmt::format("{:g}", value.get<double>())
-                            : value.is_string() ? text_of(value)
-                                                : value.dump(),
-                            text_of(setting["from"]));
-    }
-    return text.empty() ? text : "\nsettings of `aleph render`, and where they come from\n" + text;
-}
-
-}  // namespace
 
 std::string explain_text(const ordered_json& explained, std::size_t max_objects) {
     std::string text = fmt::format("{}\n", printable(explained["file"].get<std::string>(), 300));

@@ -36,7 +36,6 @@ struct FarmOptions {
     FarmResources resources;
 };
 
-/// The path of this program.
 std::string this_program() {
     return fs::read_symlink("/proc/self/exe").string();
 }
@@ -93,7 +92,6 @@ void refuse_line_breaks(const FarmJob& job) {
     }
 }
 
-/// Runs a command; its exit code.
 int run_words(const std::vector<std::string>& words) {
     std::cout.flush();
     const int status = std::system(quote_words(words).c_str());

@@ -20,6 +20,27 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* job_file = "job.json";
 
+/// Calls visit(object, key, field) for all that the file has of a job, in its order.
+template <class Job, class Visit>
+void visit_fields(Json& json, Job& job, const Visit& visit) {
+    visit(json, "scheduler", job.scheduler);
+    Json& resources = json["resources"];
+    visit(resources, "time", job.resources.time);
+    visit(resources, "partition", job.resources.partition);
+    visit(resources, "memory", job.resources.memory);
+    visit(resources, "cpus", job.resources.cpus);
+    visit(resources, "hosts", job.resources.hosts);
+    visit(resources, "jobs", job.resources.jobs);
+    visit(json, "tasks", job.tasks);
+    visit(json, "command", job.command);
+    visit(json, "arguments", job.arguments);
+    visit(json, "frames", job.frames);
+    visit(json, "output", job.output);
+    visit(json, "stats", job.stats);
+    visit(json, "working", job.working);
+    visit(json, "rounds", job.rounds);
+}
+
 }  // namespace
 
 FrameCommand parse_frame_command(const FarmJob& job) {
@@ -55,13 +76,8 @@ std::vector<std::string> divide_frames(const std::vector<int>& frames, int tasks
 }
 
 void write_farm_job(const FarmJob& job) {
-    const FarmResources& r = job.resources;
-    const Json resources{{"time", r.time}, {"partition", r.partition}, {"memory", r.memory},
-                         {"cpus", r.cpus}, {"hosts", r.hosts},         {"jobs", r.jobs}};
-    const Json json{{"scheduler", job.scheduler}, {"resources", resources},     {"tasks", job.tasks},
-                    {"command", job.command},     {"arguments", job.arguments}, {"frames", job.frames},
-                    {"output", job.output},       {"stats", job.stats},         {"working", job.working.string()},
-                    {"rounds", job.rounds}};
+    Json json;
+    visit_fields(json, job, [](Json& object, const char* key, const auto& field) { object[key] = field; });
     try {
         write_file(job.folder / job_file, json.dump(2) + "\n");
     } catch (const Json::type_error&) {
@@ -76,27 +92,11 @@ FarmJob read_farm_job(const fs::path& folder) {
         throw InputError(printable(folder.string(), 400), "",
                          "there is no job of `aleph farm` in this folder; give the folder of its results");
     }
-    const Bytes bytes = read_regular_file(file, file.string(), "");
+    const std::string text = read_text(file);
     FarmJob job;
     try {
-        const Json json = Json::parse(bytes.begin(), bytes.end());
-        json.at("scheduler").get_to(job.scheduler);
-        json.at("tasks").get_to(job.tasks);
-        const Json& resources = json.at("resources");
-        FarmResources& r = job.resources;
-        resources.at("time").get_to(r.time);
-        resources.at("partition").get_to(r.partition);
-        resources.at("memory").get_to(r.memory);
-        resources.at("cpus").get_to(r.cpus);
-        resources.at("hosts").get_to(r.hosts);
-        resources.at("jobs").get_to(r.jobs);
-        json.at("command").get_to(job.command);
-        json.at("arguments").get_to(job.arguments);
-        json.at("frames").get_to(job.frames);
-        json.at("output").get_to(job.output);
-        json.at("stats").get_to(job.stats);
-        job.working = json.at("working").get<std::string>();
-        json.at("rounds").get_to(job.rounds);
+        Json json = Json::parse(text);
+        visit_fields(json, job, [](Json& object, const char* key, auto& field) { object.at(key).get_to(field); });
     } catch (const nlohmann::json::exception&) {
         throw InputError(file.string(), "", "this is not as `aleph farm` wrote it");
     }

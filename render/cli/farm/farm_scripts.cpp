@@ -25,7 +25,6 @@ std::string quote(const std::string& word) {
     return quoted + "'";
 }
 
-/// Files of a round.
 fs::path file_of(const FarmJob& job, const std::string& name, const std::string& ending) {
     return job.folder / fmt::format("{}.{}{}", name, job.rounds, ending);
 }
@@ -74,7 +73,6 @@ std::string in_slurm_pattern(const fs::path& file) {
     return text;
 }
 
-/// Lines of an sbatch script.
 std::string slurm_head(const FarmJob& job, std::size_t tasks) {
     const FarmResources& resources = job.resources;
     std::string head;

@@ -1,10 +1,9 @@
 #include "render/cli/support/film_encoder.h"
 
+#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iterator>
-#include <sstream>
 #include <system_error>
 
 #include "engine/base/errors.h"
@@ -28,14 +27,9 @@ std::string file_word(const fs::path& file) {
     return "file:" + file.string();
 }
 
-Words split(const std::string& text) {
-    std::istringstream words(text);
-    return {std::istream_iterator<std::string>(words), {}};
-}
-
 /// How PNG files come in: one after the other, so that neither numbers nor names matter.
 Words input_words(const FilmFrames& frames) {
-    return split(
+    return OIIO::Strutil::splits(
         fmt::format("-hide_banner -loglevel error -nostdin -y -f image2pipe -c:v png -framerate {}/{} -i pipe:0",
                     frames.rate.numerator, frames.rate.denominator));
 }
@@ -61,8 +55,8 @@ std::string filters_420(const PictureSize& size) {
 
 /// Compression without visible loss.
 Words codec_words(const std::string& ending) {
-    if (ending == ".webm") return split("-c:v libvpx-vp9 -crf 20 -b:v 0 -cpu-used 2 -row-mt 1 -f webm");
-    return split("-c:v libx264 -crf 16 -movflags +faststart -f " + ending.substr(1));
+    if (ending == ".webm") return OIIO::Strutil::splits("-c:v libvpx-vp9 -crf 20 -b:v 0 -cpu-used 2 -row-mt 1 -f webm");
+    return OIIO::Strutil::splits("-c:v libx264 -crf 16 -movflags +faststart -f " + ending.substr(1));
 }
 
 /// @param share  of the whole work that this is, after what was done before
@@ -117,9 +111,9 @@ void encode_film(const fs::path& ffmpeg, const fs::path& film, const FilmFrames&
     if (frames.ending == ".gif") {
         // Two passes: in one, ffmpeg would keep all frames in memory until it knows the palette.
         const std::string palette = file_word(film) + ".palette";
-        const Words make = split("-vf palettegen=reserve_transparent=0 -f image2pipe -c:v png");
+        const Words make = OIIO::Strutil::splits("-vf palettegen=reserve_transparent=0 -f image2pipe -c:v png");
         run_pass(ffmpeg, joined({input, make, {palette}}), frames, {0.0, 0.5}, check);
-        const Words use = split("-lavfi [0:v][1:v]paletteuse=dither=sierra2_4a -f gif");
+        const Words use = OIIO::Strutil::splits("-lavfi [0:v][1:v]paletteuse=dither=sierra2_4a -f gif");
         run_pass(ffmpeg, joined({input, {"-f", "png_pipe", "-i", palette}, use, {file_word(film)}}), frames, {0.5, 0.5},
                  check);
     } else {

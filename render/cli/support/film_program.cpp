@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <ranges>
 #include <string_view>
 #include <system_error>
 
@@ -34,7 +35,6 @@ constexpr std::size_t errors_kept = 2000;  // bytes
                       fmt::format("{}: {}", what, std::generic_category().message(error)));
 }
 
-/// Two ends that are connected.
 struct Ends {
     FileDescriptor ours, theirs;
 };
@@ -135,13 +135,10 @@ bool read_some(int file, std::string& text) {
 
 fs::path find_program(const std::string& name) {
     const char* const path = std::getenv("PATH");
-    std::string_view left = path == nullptr ? "" : path;
-    while (!left.empty()) {
-        const std::size_t end = left.find(':');
-        const fs::path file = fs::path(left.substr(0, end)) / name;
+    for (const auto folder : std::views::split(std::string_view(path == nullptr ? "" : path), ':')) {
+        const fs::path file = fs::path(folder.begin(), folder.end()) / name;
         std::error_code error;
         if (fs::is_regular_file(file, error) && ::access(file.c_str(), X_OK) == 0) return file;
-        left.remove_prefix(end == std::string_view::npos ? left.size() : end + 1);
     }
     return {};
 }

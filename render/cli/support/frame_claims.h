@@ -1,6 +1,7 @@
 #pragma once
 // Which frames a process is to make: with --resume those that are not finished, divided among the processes that render
-// them.
+// them, also on several machines with a shared folder. Locks keep two from writing the same frame, and frames of two
+// renders from mixing.
 
 #include <filesystem>
 #include <functional>
@@ -9,9 +10,35 @@
 #include <string>
 #include <vector>
 
-#include "render/cli/support/frame_locks.h"
+#include "engine/base/file_descriptor.h"
 
 namespace aleph {
+
+/// Locks on bytes of one file beside the frames (open file description locks of Linux): the system ends them with the
+/// process, however that ends. The file holds the fingerprint of what is rendered, and is removed by the last process
+/// that uses it.
+class FrameLocks {
+  public:
+    /// Where the file system has no locks, nothing is locked.
+    /// @param file      the lock file
+    /// @param identity  what is rendered: processes that render the same may share the output
+    /// @throws OutputError if another process renders something else here, or if the file cannot be made
+    FrameLocks(std::filesystem::path file, const std::string& identity);
+    ~FrameLocks();
+    FrameLocks(const FrameLocks&) = delete;
+    FrameLocks& operator=(const FrameLocks&) = delete;
+
+    /// Locks a frame. Returns whether no other process has it.
+    bool lock(int frame);
+    void unlock(int frame);
+
+  private:
+    bool open();
+
+    std::filesystem::path file_;
+    FileDescriptor lock_;
+    bool works_ = true;
+};
 
 /// Where the state of a frame is kept while it is made: ".name.0020.exr.checkpoint".
 std::filesystem::path checkpoint_file(const std::filesystem::path& file);

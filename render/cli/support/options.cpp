@@ -40,11 +40,6 @@ void flush_results() {
     throw OutputError("standard output", "cannot write the results");
 }
 
-/// Returns whether a text reads as an option rather than as a value. Negative numbers are values.
-bool is_option(const CLI::App& app, const std::string& text) {
-    return text.starts_with("--") || (text.starts_with("-") && app.get_option_no_throw(text) != nullptr);
-}
-
 /// Refuses an empty value, as of a variable of a script that was never set. CLI11 takes whatever follows an option for
 /// its value, so that a forgotten file name would make a file "--aovs".
 /// @throws CLI::ValidationError naming the option
@@ -52,7 +47,10 @@ void refuse_missing_values(const CLI::App& app) {
     for (const CLI::Option* option : app.get_options()) {
         for (const std::string& value : option->results()) {
             if (value.empty()) throw CLI::ValidationError(option_label(*option), "its value is empty");
-            if (option->get_positional() || !is_option(app, value)) continue;
+            // Negative numbers are values.
+            const bool is_option =
+                value.starts_with("--") || (value.starts_with("-") && app.get_option_no_throw(value) != nullptr);
+            if (option->get_positional() || !is_option) continue;
             throw CLI::ValidationError(option_label(*option),
                                        fmt::format("a value is missing before {} (a file of that name is ./{})",
                                                    printable(value), printable(value)));
@@ -78,7 +76,6 @@ std::vector<std::string> subcommand_names(const CLI::App& app) {
     return names;
 }
 
-/// Advice after wrong usage: the end of the message.
 std::string where_to_look(const CLI::App& app) {
     const std::string words = words_of(chosen_app(app));
     const std::vector<std::string> names = subcommand_names(chosen_app(app));
@@ -105,7 +102,6 @@ std::string describe_unexpected(const CLI::App& app) {
     return fmt::format("there is no command {}{}", printable(text), close_suggestion(text, known));
 }
 
-/// Lets the last value count of an option that is given several times.
 void let_last_value_count(CLI::App& app) {
     for (CLI::Option* option : app.get_options()) {
         if (!option->get_positional() && option->get_expected_max() == 1) option->take_last();
@@ -168,6 +164,10 @@ double parse_seconds(const std::string& text, const std::string& option) {
     const double seconds = parse_value<double>(text, option);
     if (!(seconds > 0.0)) throw InputError(option, printable(text), "expected seconds above 0");
     return seconds;
+}
+
+std::string count_text(std::size_t count, const std::string& what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {

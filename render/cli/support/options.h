@@ -56,6 +56,9 @@ CLI::Option* add_number(CLI::App& app, const std::string& option, T& value, cons
     return app.add_option_function<std::string>(option, read, help)->type_name("NUMBER");
 }
 
+/// "1 frame", "12 frames".
+std::string count_text(std::size_t count, const std::string& what);
+
 /// Prints each as a line on standard error.
 void print_warnings(const std::vector<std::string>& warnings);
 

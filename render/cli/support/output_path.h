@@ -1,5 +1,6 @@
 #pragma once
-// Files that the frames are written to: "name.####.exr", "name.%04d.exr", or a folder.
+// Files that a command writes: those of the frames, "name.####.exr", "name.%04d.exr" or a folder; and outputs that
+// would replace a file which the same command reads or writes.
 
 #include <filesystem>
 #include <string>
@@ -27,5 +28,17 @@ OutputFormat output_format(const std::filesystem::path& path);
 /// @throws InputError (place "--output")
 std::vector<std::filesystem::path> output_paths(const std::string& pattern, const std::string& scene_name,
                                                 const std::vector<int>& frames);
+
+struct OutputFile {
+    std::filesystem::path path;  ///< empty: none
+    std::string option;          ///< that names it, for messages
+};
+
+/// Called before anything is written. Files are the same by identity: another spelling of a path, a symbolic link, and
+/// for files that are read a hard link too. Writing one of two hard links leaves the other as it is, so outputs that
+/// are hard links of each other are allowed.
+/// @param inputs  files that the command reads; empty paths are left out
+/// @throws InputError (place: the option)
+void refuse_overwriting(const std::vector<std::filesystem::path>& inputs, const std::vector<OutputFile>& outputs);
 
 }  // namespace aleph

@@ -28,10 +28,8 @@ std::filesystem::path rows_file(const std::filesystem::path& path) {
 }
 
 /// Empty where there is no such file.
-std::string read_text(const std::filesystem::path& path) {
-    if (!std::filesystem::exists(path)) return {};
-    const Bytes bytes = read_regular_file(path, path.string(), "");
-    return {bytes.begin(), bytes.end()};
+std::string read_if_there(const std::filesystem::path& path) {
+    return std::filesystem::exists(path) ? read_text(path) : std::string();
 }
 
 }  // namespace
@@ -46,11 +44,11 @@ std::map<std::string, std::string> read_statistics_rows(const std::filesystem::p
         if (row.is_object() && row.contains("fingerprint") && row["fingerprint"].is_string())
             to[row["fingerprint"].get<std::string>()] = indent_row(row.dump(2));
     };
-    const Json whole = Json::parse(read_text(path), nullptr, false);
+    const Json whole = Json::parse(read_if_there(path), nullptr, false);
     if (whole.is_object() && whole.contains("frames") && whole["frames"].is_array()) {
         for (const Json& row : whole["frames"]) add(row, rows);
     }
-    std::istringstream lines(read_text(rows_file(path)));
+    std::istringstream lines(read_if_there(rows_file(path)));
     for (std::string line; std::getline(lines, line);) add(Json::parse(line, nullptr, false), unfinished);
     rows.merge(unfinished);
     return rows;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
+#include "engine/base/pixel_loops.h"
 #include "render/compare/compare_luminance.h"
 #include "render/compare/reference_passes.h"
 #include "render/output/sheet.h"
@@ -17,11 +18,7 @@ namespace {
 constexpr int least_width = 240;  // pixels, of a panel
 
 Image<float> divide_error(const LuminanceError& error, const Image<float>& threshold) {
-    Image<float> ratio(threshold.width, threshold.height);
-    for (std::size_t i = 0; i < ratio.size(); ++i) {
-        ratio.pixels[i] = static_cast<float>(std::abs(error.error.pixels[i]) / threshold.pixels[i]);
-    }
-    return ratio;
+    return map_pixels([](double e, float t) { return static_cast<float>(std::abs(e) / t); }, error.error, threshold);
 }
 
 }  // namespace

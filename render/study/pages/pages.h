@@ -58,6 +58,12 @@ class ReportLayers {
     std::string elements_;
 };
 
+/// A script element of JSON, which a "</script>" in a text must not end.
+std::string script_json(const char* id, const nlohmann::ordered_json& json);
+
+/// Puts a text in the place of a comment of the page.
+void insert(std::string& page, std::string_view place, const std::string& text);
+
 /// The bundled page with a place for data; empty where the program was built without it.
 std::string_view viewer_template();
 

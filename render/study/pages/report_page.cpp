@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "engine/base/errors.h"
 #include "render/compare/visible_difference.h"
-#include "render/study/pages/script_json.h"
 
 namespace aleph {
 
@@ -206,6 +206,18 @@ class ReportWriter {
 };
 
 }  // namespace
+
+std::string script_json(const char* id, const Json& json) {
+    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return fmt::format("<script id=\"{}\" type=\"application/json\">{}</script>", id,
+                       OIIO::Strutil::replace(text, "<", "\\u003c", true));
+}
+
+void insert(std::string& page, std::string_view place, const std::string& text) {
+    const std::size_t at = page.find(place);
+    ALEPH_CHECK(at != std::string::npos, std::string(place));
+    page.replace(at, place.size(), text);
+}
 
 std::string encode_layer(const std::vector<const Image<float>*>& channels, LayerType type) {
     const std::size_t width = type == LayerType::f16 ? 2 : 4, count = channels.front()->size() * channels.size();

@@ -7,8 +7,7 @@
 
 #include "engine/base/files.h"
 #include "render/compare/compare_luminance.h"
-#include "render/study/pages/script_json.h"
-#include "render/study/threshold_noise.h"
+#include "render/study/reference_picture.h"
 
 namespace aleph {
 
@@ -21,10 +20,9 @@ std::string picture_link(const std::filesystem::path& picture) {
     std::filesystem::path file = picture;
     file += ".png";
     write_png(file, linear_colour(read_image(picture)));
-    const Bytes bytes = read_regular_file(file, file.string(), "");
+    const std::string bytes = read_text(file);
     std::filesystem::remove(file);
-    return "data:image/png;base64," +
-           OIIO::Strutil::base64_encode({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return "data:image/png;base64," + OIIO::Strutil::base64_encode(bytes);
 }
 
 /// The first setting that is swept over numbers; null if there is none.

@@ -3,7 +3,6 @@
 #include <climits>
 
 #include "engine/image/image_file.h"
-#include "render/cli/support/output_conflicts.h"
 #include "render/cli/support/output_path.h"
 #include "render/settings/frame_list.h"
 #include "tests/render/cli/answers.h"

@@ -6,7 +6,7 @@
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "render/cli/frame_writer.h"
-#include "render/cli/support/frame_locks.h"
+#include "render/cli/support/frame_claims.h"
 #include "render/cli/support/statistics_file.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"

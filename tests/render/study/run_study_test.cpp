@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "render/study/reference_picture.h"
 #include "render/study/study.h"
-#include "render/study/threshold_noise.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test.h"
