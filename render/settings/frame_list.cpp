@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <ranges>
 #include <unordered_set>
 
 #include "engine/base/errors.h"
@@ -70,8 +69,9 @@ std::vector<int> parse_frame_list(std::string_view text) {
     std::vector<int> frames;
     std::unordered_set<int> seen;
     std::int64_t named = 0;
-    for (const auto part : std::views::split(text, ',')) {
-        const std::string_view item = trim({part.begin(), part.end()});
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        const std::string_view item = trim(text.substr(begin, comma - begin));
         if (item.empty()) refuse(text, "a frame is missing");
         const Range range = parse_item(item);
         named += range.count();
@@ -79,6 +79,7 @@ std::vector<int> parse_frame_list(std::string_view text) {
         for (std::int64_t frame = range.first; frame <= range.last; frame += range.step) {
             if (seen.insert(static_cast<int>(frame)).second) frames.push_back(static_cast<int>(frame));
         }
+        begin = comma + 1;
     }
     return frames;
 }
