@@ -221,6 +221,7 @@ answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
 answers 2 'no file' aleph study first.json "${study[@]}" --sweep spp=1 --pictures other=none.####.exr
 is [ "$(wc -l <swept/study.csv)" = 3 ]
+is grep -q '"command": "aleph study first.json' swept/study.json
 is grep -q '"share_beyond"' swept/study.json
 is grep -q '"file": "runs/' swept/study.json
 answers 2 'no variant is called nope' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept --errors nope

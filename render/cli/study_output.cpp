@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -160,7 +161,8 @@ std::vector<OutputFile> study_files(const std::filesystem::path& folder) {
 }
 
 std::string study_command_line() {
-    std::string line = read_text("/proc/self/cmdline");  // words that end with 0
+    std::ifstream words("/proc/self/cmdline", std::ios::binary);  // each ends with 0; the file tells no size
+    std::string line(std::istreambuf_iterator<char>(words), {});
     line.erase(0, line.rfind('/', line.find('\0')) + 1);
     if (line.ends_with('\0')) line.pop_back();
     std::ranges::replace(line, '\0', ' ');
