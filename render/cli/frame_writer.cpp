@@ -82,13 +82,14 @@ std::string describe(const CopiedRun& run) {
 
 class FrameWriter {
   public:
-    FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request)
+    FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request, RenderSignals& signals)
         : job_(job),
           output_(job.claims.output()),
           options_(options),
           request_(request),
           statistics_(options.stats, job.scene, job.settings, job.exposure,
-                      job.budget ? std::optional(job.budget->statistics) : std::nullopt) {
+                      job.budget ? std::optional(job.budget->statistics) : std::nullopt),
+          signals_(signals) {
         if (options.resume && !options.stats.empty()) rows_ = statistics_.take_over();
     }
 
@@ -254,7 +255,7 @@ class FrameWriter {
     const SceneOptions& options_;
     const FrameRequest& request_;
     StatisticsFile statistics_;
-    RenderSignals signals_;
+    RenderSignals& signals_;
     std::map<std::string, std::string> rows_;  ///< of an earlier run, by fingerprint
     std::vector<FinishedFrame> made_;
     std::vector<std::size_t> kept_;  ///< places of frames that others made
@@ -276,8 +277,8 @@ std::string describe_copies(const std::vector<FinishedFrame>& frames) {
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
-    const RenderSignals signals;
-    FrameWriter writer(job, options, request);
+    RenderSignals signals;
+    FrameWriter writer(job, options, request, signals);
     writer.make_all();
     std::optional<BudgetStatistics> budget;
     if (job.budget) {

@@ -44,7 +44,7 @@ std::string describe_copies(const std::vector<FinishedFrame>& frames);
 /// Makes every frame that is not finished and writes it; waits for those that other processes make. The statistics
 /// (--stats) of finished frames are written as they go along (StatisticsFile). Prints at the end, on standard error,
 /// which files were written.
-/// @throws Stopped after SIGTERM or SIGINT
+/// @throws Stopped after SIGTERM or SIGINT, and where frames err by more than --strict allows
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request);
 
 }  // namespace aleph

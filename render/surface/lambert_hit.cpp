@@ -33,8 +33,11 @@ void prefetch_corners(const ShadingScene& shading, const Hit& hit) {
     const glm::uvec3& t = instance.mesh->triangles[hit.primitive];
     const PosedMesh* const deformed = instance.deformed;
     for (int k = 0; k < 3; ++k) {
-        if (deformed == nullptr) __builtin_prefetch(&instance.mesh->positions[t[k]]);
-        if (deformed != nullptr) __builtin_prefetch(&deformed->positions[t[k]]);
+        if (deformed == nullptr) {
+            __builtin_prefetch(&instance.mesh->positions[t[k]]);
+        } else {
+            __builtin_prefetch(&deformed->positions[t[k]]);
+        }
     }
 }
 

@@ -38,10 +38,11 @@ Span choose_span(double place, int length) {
 
 /// Red, green and blue times weights, and the weights.
 using Weighted = std::array<Image<float>, 4>;
+constexpr std::size_t weights_at = 3;
 
 /// Fills what weighs less than 1 from the coarser level.
 void push(const Weighted& coarse, Weighted& fine) {
-    const Image<float>& weights = fine[3];
+    const Image<float>& weights = fine[weights_at];
     for (std::size_t c = 0; c < 3; ++c) {
         const Image<float> beyond = expand(coarse[c], {weights.width, weights.height});
         for (std::size_t i = 0; i < weights.size(); ++i)
@@ -51,9 +52,9 @@ void push(const Weighted& coarse, Weighted& fine) {
 
 /// The next coarser level, with weights of at most 1: what is known well keeps its value.
 Weighted pull(const Weighted& fine) {
-    Weighted level{reduce(fine[0]), reduce(fine[1]), reduce(fine[2]), reduce(fine[3])};
-    for (std::size_t i = 0; i < level[3].size(); ++i) {
-        float& weight = level[3].pixels[i];
+    Weighted level{reduce(fine[0]), reduce(fine[1]), reduce(fine[2]), reduce(fine[weights_at])};
+    for (std::size_t i = 0; i < level[weights_at].size(); ++i) {
+        float& weight = level[weights_at].pixels[i];
         const float full = std::min(1.0f, 4.0f * weight);
         const float scale = weight > 0.0f ? full / weight : 0.0f;
         for (std::size_t c = 0; c < 3; ++c) level[c].pixels[i] *= scale;
@@ -125,14 +126,14 @@ Image<Rgb> continue_error(const Image<Rgb>& error, const PicturePart& part) {
     for (std::size_t i = 0; i < error.size(); ++i) {
         if (part.pixels[i] == 0 || !is_finite(error.pixels[i])) continue;
         any = true;
-        levels[0][3].pixels[i] = 1.0f;
+        levels[0][weights_at].pixels[i] = 1.0f;
         for (int c = 0; c < 3; ++c) levels[0][static_cast<std::size_t>(c)].pixels[i] = error.pixels[i][c];
     }
     Image<Rgb> out(error.width, error.height, Rgb(0.0f));
     if (!any) return out;
-    while (levels.back()[3].size() > 1) levels.push_back(pull(levels.back()));
+    while (levels.back()[weights_at].size() > 1) levels.push_back(pull(levels.back()));
     Weighted& top = levels.back();  // one pixel, which may weigh little
-    for (std::size_t c = 0; c < 3; ++c) top[c].pixels[0] /= std::max(top[3].pixels[0], 1e-6f);
+    for (std::size_t c = 0; c < 3; ++c) top[c].pixels[0] /= std::max(top[weights_at].pixels[0], 1e-6f);
     for (std::size_t i = levels.size() - 1; i-- > 0;) push(levels[i + 1], levels[i]);
     for (std::size_t i = 0; i < out.size(); ++i) {
         out.pixels[i] = {levels[0][0].pixels[i], levels[0][1].pixels[i], levels[0][2].pixels[i]};
