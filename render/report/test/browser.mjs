@@ -92,6 +92,11 @@ export async function choose(page, holder, name, value) {
   }, holder, name, value);
 }
 
+/** Clicks an element in the page itself: its handlers have run when this ends, which a click of the pointer does not promise. */
+export function click(page, selector) {
+  return page.$eval(selector, node => node.click());
+}
+
 /** Clicks the middle of a pixel of a pane, at zoom 1. */
 export async function clickPixel(page, id, x, y, size) {
   const canvas = await page.$(`#panes canvas[data-pane="${id}"]`);

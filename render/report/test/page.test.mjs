@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import {
-  accessibilityFaults, brushAll, choose, clickPixel, readWalk, redraw, selectedRows, selectionTimes, waitForPanes,
+  accessibilityFaults, brushAll, choose, click, clickPixel, readWalk, redraw, selectedRows, selectionTimes, waitForPanes,
 } from './browser.mjs';
 import { all, openPage, size, study, template } from './fixture.mjs';
 import { makeStudy } from './sample.mjs';
@@ -34,7 +34,7 @@ describe('the page', () => {
     for (const layout of ['side', 'swipe', 'blink']) {
       const page = await openPage({ calm: true, dark: layout === 'swipe', width: layout === 'blink' ? 360 : 1280 });
       await page.evaluate(() => document.querySelectorAll('details').forEach(node => { node.open = true; }));
-      await page.click(`input[value="${layout}"]`);
+      await click(page, `input[value="${layout}"]`);
       await page.waitForSelector(`#panes[data-layout="${layout}"]`);
       await page.focus('.stage');
       await page.keyboard.press('Enter');
@@ -48,8 +48,8 @@ describe('the page', () => {
     const page = await openPage();
     const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
     const light = await background();
-    await page.click('#theme');
-    await page.click('#theme');
+    await click(page, '#theme');
+    await click(page, '#theme');
     assert.match(await page.$eval('#theme', node => node.textContent), /dark/);
     assert.notEqual(await background(), light);
     await page.evaluate(() => localStorage.clear());
@@ -78,10 +78,10 @@ describe('the page', () => {
     const page = await openPage({}, data);
     const bytes = data.layers.reduce((sum, text) => sum + text.length, 0);
     const paint = await page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime);
-    await page.click('[data-sort="metric:processor_seconds"]');
+    await click(page, '[data-sort="metric:processor_seconds"]');
     await brushAll(page);
     await waitForPanes(page, ['reference', ...all]);
-    await page.click(`tr[data-variant="${all[1]}"]`);
+    await click(page, `tr[data-variant="${all[1]}"]`);
     await waitForPanes(page, ['reference', all[1]]);
     await page.evaluate(() => [...document.querySelectorAll('#table-buttons button')].find(node => node.textContent === 'Select all').click());
     await waitForPanes(page, ['reference', ...all]);

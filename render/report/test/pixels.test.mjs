@@ -1,7 +1,7 @@
 // The pictures, and the values that the pixel walk shows of them.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { choose, clickPixel, readWalk, redraw, waitForPanes } from './browser.mjs';
+import { choose, click, clickPixel, readWalk, redraw, waitForPanes } from './browser.mjs';
 import { all, id, openPage, size, study } from './fixture.mjs';
 import { frames, storedValue } from './sample.mjs';
 
@@ -9,7 +9,7 @@ describe('pixel walk', () => {
   it('shows exactly what is stored', async () => {
     const page = await openPage();
     const variant = id(2, 'saliency');
-    await page.click(`tr[data-variant="${variant}"]`);
+    await click(page, `tr[data-variant="${variant}"]`);
     await waitForPanes(page, ['reference', variant]);
     for (const frame of frames) {
       await choose(page, '#frame-controls', 'Frame', String(frame));
@@ -90,7 +90,7 @@ describe('pictures', () => {
   it('count the pixels beyond one threshold', async () => {
     const page = await openPage();
     const counts = async variant => {
-      await page.click(`tr[data-variant="${variant}"]`);
+      await click(page, `tr[data-variant="${variant}"]`);
       await waitForPanes(page, ['reference', variant]);
       await page.waitForSelector('.beyond');
       return page.$eval('.beyond', node => Number(node.dataset.value));
@@ -107,7 +107,7 @@ describe('pictures', () => {
   it('count disagreement with a judge, pixel by pixel', async () => {
     const page = await openPage();
     const variant = id(2, 'saliency');
-    await page.click(`tr[data-variant="${variant}"]`);
+    await click(page, `tr[data-variant="${variant}"]`);
     await choose(page, '#frame-controls', 'Show', 'disagreement.colorvideovdp');
     await page.waitForSelector('.counts li');
     const counts = await page.$$eval('.counts li', nodes => nodes.map(node => Number(node.dataset.value)));
@@ -135,12 +135,12 @@ describe('pictures', () => {
 
   it('can be swiped with the keyboard', async () => {
     const page = await openPage();
-    await page.click('input[value="swipe"]');
+    await click(page, 'input[value="swipe"]');
     await page.waitForSelector('.handle');
     await page.focus('.handle');
     await page.keyboard.press('Home');
     for (let i = 0; i < 5; ++i) await page.keyboard.press('ArrowRight');
-    assert.equal(await page.$eval('.handle', node => node.getAttribute('aria-valuenow')), '10');
+    await page.waitForSelector('.handle[aria-valuenow="10"]');
     assert.match(await page.$eval('.stage canvas:nth-of-type(2)', node => node.style.clipPath), /10%/);
     await choose(page, '#frame-controls', 'B', id(1, 'none'));
     await waitForPanes(page, ['reference', id(1, 'none')]);
@@ -149,7 +149,7 @@ describe('pictures', () => {
   it('blink, but not where motion is to be reduced', async () => {
     for (const calm of [false, true]) {
       const page = await openPage({ calm });
-      await page.click('input[value="blink"]');
+      await click(page, 'input[value="blink"]');
       await page.waitForSelector('.stage[data-visible]');
       const changes = page.evaluate(stop => new Promise(resolve => {
         const observer = new MutationObserver(() => resolve('blinked'));

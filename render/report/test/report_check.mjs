@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, describe, it } from 'node:test';
 import fs from 'node:fs';
 import zlib from 'node:zlib';
-import { brushAll, choose, clickPixel, launch, open, readWalk, selectedRows, shownPanes, waitForPanes } from './browser.mjs';
+import { brushAll, choose, click, clickPixel, launch, open, readWalk, selectedRows, shownPanes, waitForPanes } from './browser.mjs';
 import { halfValue } from './sample.mjs';
 
 const file = process.env.REPORT;
@@ -40,7 +40,7 @@ describe('the report', () => {
     const { page } = opened;
     const [x, y] = [study.metrics[0], study.metrics[1] ?? study.metrics[0]];
     const drawn = study.variants.filter(variant => [x, y].every(metric => Number.isFinite(variant.metrics[metric.name]?.value)));
-    await page.click('tr[data-variant]');
+    await click(page, 'tr[data-variant]');
     await brushAll(page);
     await page.waitForFunction(count => document.querySelectorAll('tr[aria-selected="true"]').length === count, { timeout: 10000 }, drawn.length);
     assert.deepEqual(await selectedRows(page), drawn.map(variant => variant.id));
@@ -56,7 +56,7 @@ describe('the report', () => {
     const { page } = opened;
     const { frame } = entry;
     const [x, y] = [Math.floor(study.width / 3), Math.floor(study.height / 3)];
-    await page.click('tr[data-variant]');
+    await click(page, 'tr[data-variant]');
     await choose(page, '#frame-controls', 'Frame', String(frame));
     await waitForPanes(page, ['reference', variant.id]);
     await clickPixel(page, variant.id, x, y, study);

@@ -1,7 +1,7 @@
 // The selection by chart and table, and what follows it.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { brushAll, choose, selectedRows, shownPanes, waitForPanes, waitForTooltip } from './browser.mjs';
+import { brushAll, choose, click, selectedRows, shownPanes, waitForPanes, waitForTooltip } from './browser.mjs';
 import { all, id, openPage, size, study } from './fixture.mjs';
 import { makeStudy } from './sample.mjs';
 
@@ -21,7 +21,7 @@ describe('selection', () => {
     assert.deepEqual(await selectedRows(page), all);
     const width = () => page.$eval('#chart .brush_brush path', node => node.getBoundingClientRect().width);
     assert.ok(await width() > 100);
-    await page.click(`tr[data-variant="${all[2]}"]`);
+    await click(page, `tr[data-variant="${all[2]}"]`);
     await waitForPanes(page, ['reference', all[2]]);
     assert.ok(await width() < 2);
   });
@@ -75,7 +75,7 @@ describe('table', () => {
     const page = await openPage({}, data);
     const names = await page.$$eval('td[data-column="variant"]', nodes => nodes.map(node => node.textContent.replace('front', '')));
     assert.deepEqual(names.slice(0, 4), ['error 0.5, guide none', 'fixed 3', 'old', 'error 1, guide saliency']);
-    await page.click('tr[data-variant="fixed 3"]');
+    await click(page, 'tr[data-variant="fixed 3"]');
     assert.match(await page.$eval('#selection', node => node.textContent), /1 of 6 selected: fixed 3$/);
     const swept = await openPage();
     assert.equal(await swept.$('td[data-column="variant"]'), null, 'its settings name each');
@@ -85,9 +85,9 @@ describe('table', () => {
     const page = await openPage();
     const seconds = () => page.$$eval('td[data-column="metric:processor_seconds"]', nodes => nodes.map(node => Number(node.dataset.value)));
     const wanted = study.variants.map(variant => variant.metrics.processor_seconds.value).sort((a, b) => a - b);
-    await page.click('button[data-sort="metric:processor_seconds"]');
+    await click(page, 'button[data-sort="metric:processor_seconds"]');
     assert.deepEqual(await seconds(), wanted);
-    await page.click('button[data-sort="metric:processor_seconds"]');
+    await click(page, 'button[data-sort="metric:processor_seconds"]');
     assert.deepEqual(await seconds(), wanted.reverse());
   });
 
@@ -111,7 +111,7 @@ describe('table', () => {
 describe('other parts', () => {
   it('show the bars of time and rays, and the plan', async () => {
     const page = await openPage();
-    await page.click(`tr[data-variant="${all[3]}"]`);
+    await click(page, `tr[data-variant="${all[3]}"]`);
     await page.waitForFunction(key => document.querySelector('#bars').dataset.drawn === key, {}, all[3]);
     assert.ok(await page.$$eval('#bars svg .mark-rect path', nodes => nodes.length) >= 2 * (5 + 3));
     assert.match(await page.$eval('[data-effect="depth_of_field"]', node => node.textContent), /left out.*<b>/);
