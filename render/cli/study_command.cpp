@@ -158,7 +158,6 @@ void override_study(const StudyCommandOptions& options, Study& study) {
         study.runs.seeds.clear();
         for (int seed = 0; seed < options.seeds; ++seed) study.runs.seeds.push_back(static_cast<std::uint32_t>(seed));
     }
-    for (const std::string& judge : options.judges) study.judges.push_back(parse_judge(judge));
     if (options.viewers.empty()) return;
     study.viewers.clear();
     for (const std::string& viewer : options.viewers) study.viewers.push_back(make_viewer(viewer));
@@ -182,6 +181,8 @@ int run(const StudyCommandOptions& options) {
     Study study = make_study(options);
     override_study(options, study);
     const PreparedStudy prepared = prepare_study(std::move(study));
+    std::vector<StudyJudge> judges;
+    for (const std::string& judge : options.judges) judges.push_back(parse_judge(judge));
     for (const std::string& variant : options.extras.errors) check_variant_name(prepared, variant);
     for (const PreparedStudyScene& scene : prepared.scenes)
         if (!options.quiet) print_warnings(scene.scene.source.warnings);
@@ -198,8 +199,9 @@ int run(const StudyCommandOptions& options) {
         return exit_done;
     }
     refuse_overwriting(read.paths(), study_files(folder));
-    const StudyResults results =
+    StudyResults results =
         prepared.study.search ? search_study(prepared, folder, show) : run_study(prepared, folder, show);
+    results.judges = judges;
     progress.reset();
     if (prepared.study.search)
         print_search(prepared, results, options.markdown, std::cout);

@@ -221,7 +221,6 @@ CompareResult compare_images(const ChannelImage& a, const ChannelImage& b, const
     if (aleph_map) result.threshold = compare_with_threshold(a, b, *aleph_map);
     result.counted = settings.standard_errors ? result.luminance->far : result.beyond;
     result.exceeded = exceeded_limits(result, settings);
-    result.same = !result.a.any() && !result.b.any() && result.exceeded.empty();
     return result;
 }
 

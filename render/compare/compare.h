@@ -69,8 +69,8 @@ struct CompareResult {
     std::optional<LuminanceDifference> luminance;  ///< where both pictures have R, G and B
     std::optional<ThresholdDifference> threshold;  ///< if a map was given
     std::vector<std::string> exceeded;             ///< limits that are exceeded: "share", "max_error", ...
-    bool same = false;
 
+    bool same() const { return !a.any() && !b.any() && exceeded.empty(); }
     std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
     double percent(std::size_t count) const {
         return 100.0 * static_cast<double>(count) / static_cast<double>(pixels());

@@ -17,7 +17,7 @@ void SequenceComparison::add(std::int64_t frame, const ChannelImage& a, const Ch
                              const SequenceMaps& maps) {
     ALEPH_CHECK(frames_.empty() || frames_.back().frame < frame, fmt::format("frame {}", frame));
     FrameComparison comparison{frame, compare_images(a, b, settings_, maps.threshold), std::nullopt, false};
-    comparison.same = comparison.result.same;
+    comparison.same = comparison.result.same();
     if (maps.threshold) threshold_.add(compute_luminance_error(a, b), *maps.threshold->find("threshold.Y"));
     frames_.push_back(std::move(comparison));
     if (!maps.visible) return;

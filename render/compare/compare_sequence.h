@@ -39,7 +39,7 @@ struct FrameComparison {
     std::int64_t frame = 0;
     CompareResult result;
     std::optional<VisibleShares> visible;  ///< where maps for it were given
-    bool same = false;  ///< result.same, and at most `share` percent of the pixels have a visible difference
+    bool same = false;  ///< result.same(), and at most `share` percent of the pixels have a visible difference
 };
 
 /// Over all frames so far.

@@ -18,12 +18,13 @@
 
 namespace aleph {
 
-/// Seconds by stage, in the order in which they run. `total` includes `write` where the caller adds it.
+/// Seconds by stage, in the order in which they run. `total` includes `write` where the caller adds it; `plan` is what
+/// planning took of other stages.
 struct StageSeconds {
     double pose = 0, update = 0, first_hits = 0, estimate = 0, motion = 0, perception = 0, fill = 0, shade = 0,
-           write = 0, total = 0;
+           write = 0, total = 0, plan = 0;
 };
-/// The stages by name, in that order.
+/// The stages by name, in that order, without the plan.
 std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& seconds);
 
 /// Facts about the quick estimate, and what the model of vision made of it.
@@ -38,7 +39,7 @@ struct FrameStatistics {
     /// The earlier frame whose picture this is, because nothing changes between the two. Times and counts are those of
     /// rendering it, or 0 if that output was kept.
     std::optional<std::int64_t> copy_of;
-    std::optional<PictureArea> window;  ///< FrameRequest::window
+    std::optional<PictureArea> window;  ///< FrameRequest::window: where the images lie in the whole picture
     StageSeconds seconds;
     FrameCounts counts;  ///< of all stages
     TracedRays traced;
@@ -46,7 +47,6 @@ struct FrameStatistics {
     std::size_t instances_touched = 0;
     std::optional<ErrorShares> error;  ///< where the visible threshold is known, and pixels have several samples
     EffectsPlan plan;
-    double plan_seconds = 0.0;  ///< that planning took, part of other stages
     double peak_memory_mib = 0.0;
     /// Lighting keyframes that were computed for this frame, not counted above: those it needs that no frame before it
     /// did.
@@ -76,23 +76,22 @@ struct SurfaceMaps {
     Image<Rgb> albedo;        ///< base of what is reflected; 0 for background. Of a scene only
     Image<float> depth;       ///< planar, m; 1e30 for background
     Image<glm::vec3> normal;  ///< world, towards the viewer; 0 for background
+    Image<Rgb> effects;       ///< make_effect_picture. Of a scene only
 };
 
 /// Maps of motion and perception are computed for the irradiance cache with a guide, and wherever `maps` are requested.
 struct FrameOutput {
-    ShadedFrame shaded;                 ///< filled if `frame`
-    CameraView view;                    ///< of the whole picture
-    std::optional<PictureArea> window;  ///< FrameRequest::window: where the images lie in it
-    Image<Hit> hits;                    ///< through the pixel centres
-    Image<Rgb> estimate;                ///< sanitized
-    MotionField motion;                 ///< pixels, x right, y down; the channel forward.v is positive upwards
-    MotionField backward;               ///< to the frame before; with `maps`, of a scene, model-based
-    bool motion_from_picture = false;   ///< as another program wrote it, not computed
-    Image<float> velocity;              ///< deg/s
+    ShadedFrame shaded;                ///< filled if `frame`
+    CameraView view;                   ///< of the whole picture
+    Image<Hit> hits;                   ///< through the pixel centres
+    Image<Rgb> estimate;               ///< sanitized
+    MotionField motion;                ///< pixels, x right, y down; the channel forward.v is positive upwards
+    MotionField backward;              ///< to the frame before; with `maps`, of a scene, model-based
+    bool motion_from_picture = false;  ///< as another program wrote it, not computed
+    Image<float> velocity;             ///< deg/s
     PerceptionMaps perception;
     ErrorLimits limits;
     SurfaceMaps surface;  ///< filled if `maps`
-    Image<Rgb> effects;   ///< make_effect_picture. Filled if `maps`
     FrameStatistics statistics;
 };
 

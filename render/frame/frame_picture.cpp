@@ -136,7 +136,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
     if (request.maps) {
         const ShadingScene& shading = s.here.shading();
         fill_geometry_maps(shading, prepared.centers, out);
-        out.effects =
+        out.surface.effects =
             make_effect_picture(prepared.centers.hits, plan.input.facts, plan.effects, shading.instances.size());
     }
     out.hits = prepared.centers.hits;
@@ -145,7 +145,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
     stats.traced = s.traced() - before;
     s.motion.end_edited();
     stats.plan = plan.effects;
-    stats.plan_seconds = plan.seconds;
+    stats.seconds.plan = plan.seconds;
     stats.peak_memory_mib = peak_memory_mib();
     total.add_to(stats.seconds.total);
     return std::move(out);

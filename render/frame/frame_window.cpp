@@ -43,14 +43,14 @@ void cut_to_window(FrameOutput& output, const PictureArea& window) {
         };
         (cut_one(images), ...);
     };
-    cut(output.hits, output.estimate, output.velocity, output.effects);
+    cut(output.hits, output.estimate, output.velocity);
     cut(output.limits.alpha, output.limits.threshold, output.limits.threshold_noise);
-    cut(output.surface.albedo, output.surface.depth, output.surface.normal);
+    cut(output.surface.albedo, output.surface.depth, output.surface.normal, output.surface.effects);
     cut_motion(output.motion, cut);
     cut_motion(output.backward, cut);
     cut_maps(output.perception, cut);
     cut_shaded(output.shaded, cut);
-    output.window = output.statistics.window = window;
+    output.statistics.window = window;
     if (output.statistics.error)
         output.statistics.error = output.shaded.error_shares =
             count_errors(output.shaded.errors, output.shaded.error_shares.asked);

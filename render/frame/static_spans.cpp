@@ -67,7 +67,7 @@ std::int64_t StaticSpans::find_first(std::int64_t frame) {
 
 std::optional<FrameOutput> StaticFrame::copy(std::int64_t first, const FrameRequest& request) const {
     if (!output_ || first_ != first || frame_ != request.frame || maps_ != request.maps ||
-        output_->window != request.window)
+        output_->statistics.window != request.window)
         return std::nullopt;
     std::optional<FrameOutput> copy = output_;
     copy->statistics.peak_memory_mib = peak_memory_mib();

@@ -107,7 +107,7 @@ void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene)
     add(file, "objectId.X", pick(output.hits, [](const Hit& hit) { return hit.instance; }));
     add_cryptomatte(file, output.hits, scene);
     if (!output.surface.albedo.empty()) add_color(file, "albedo.", output.surface.albedo);
-    if (!output.effects.empty()) add_color(file, "effects.", output.effects);
+    if (!output.surface.effects.empty()) add_color(file, "effects.", output.surface.effects);
     add(file, "samples.Y", output.shaded.samples);
     add(file, "error.Y", output.shaded.errors.total);
     for (std::size_t cause = 0; cause < cause_count; ++cause) {
@@ -207,8 +207,9 @@ ChannelImage make_color_image(const Image<Rgb>& color) {
 }
 
 std::optional<PictureArea> find_whole(const FrameOutput& output) {
-    if (!output.window) return std::nullopt;
-    return PictureArea{-output.window->x, -output.window->y, output.view.width, output.view.height};
+    const std::optional<PictureArea>& window = output.statistics.window;
+    if (!window) return std::nullopt;
+    return PictureArea{-window->x, -window->y, output.view.width, output.view.height};
 }
 
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,

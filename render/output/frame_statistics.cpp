@@ -115,7 +115,7 @@ Json frame_json(const FrameStatistics& f) {
               {"median_cd_m2", f.estimate.median_luminance}}},
             {"saliency_fallback", f.estimate.saliency_fallback},
             {"plan", to_json(f.plan)},
-            {"plan_seconds", f.plan_seconds},
+            {"plan_seconds", f.seconds.plan},
             {"instances_updated", f.instances_touched},
             {"peak_memory_mib", f.peak_memory_mib}};
 }

@@ -92,7 +92,7 @@ py::dict compare(const py::object& a, const py::object& b, const py::object& thr
     settings.tolerance = tolerance;
     const CompareResult result = compare_images(first, second, settings, map ? &*map : nullptr);
     py::dict out;
-    out["same"] = result.same;
+    out["same"] = result.same();
     out["max"] = result.all.max_abs;
     out["rms"] = result.all.rms;
     out["relative_mse"] = result.all.relative_mse;

@@ -65,7 +65,6 @@ class StudyRunner {
             average_frames(result);
             results_.variants.push_back(std::move(result));
         }
-        results_.judges = study_.judges;
         find_front(results_.variants);
         return std::move(results_);
     }

@@ -14,7 +14,8 @@ namespace aleph {
 struct StudyResults {
     std::vector<VariantResult> variants;
     std::vector<JudgingFrame> frames;
-    std::vector<StudyJudge> judges;
+    std::vector<StudyJudge>
+        judges;  ///< for the report, beside the thresholds of the viewers; run_study leaves it empty
     std::size_t made = 0, found = 0;  ///< runs that were rendered, and those that were finished before
 };
 

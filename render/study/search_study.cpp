@@ -114,7 +114,6 @@ class Search {
     StudyResults run() {
         for (const PreparedStudyScene& scene : prepared_.scenes) merge(search(scene), results_);
         std::ranges::for_each(results_.variants, average_frames);
-        results_.judges = prepared_.study.judges;
         return std::move(results_);
     }
 

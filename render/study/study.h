@@ -81,7 +81,6 @@ struct Study {
     std::optional<StudySearch> search;   ///< adds the best fixed settings
     std::vector<std::string> metrics;    ///< metric_table.h; empty: the usual ones
     std::vector<StudyViewer> viewers;    ///< at least one; the first judges where one threshold is meant
-    std::vector<StudyJudge> judges;      ///< beside the thresholds of the viewers
     StudyRuns runs;
 };
 

@@ -28,7 +28,7 @@ std::set<std::string> written_channels() {
                    output.shaded.cache_radius, output.hits, output.estimate, output.motion.displacement,
                    output.motion.path_length, output.motion.validity, output.velocity, output.limits.alpha,
                    output.limits.threshold, output.limits.threshold_noise, output.surface.depth, output.surface.normal,
-                   output.surface.albedo, output.effects);
+                   output.surface.albedo, output.surface.effects);
     output.backward = output.motion;
     make_one_pixel(output.shaded.errors.total);
     for (Image<float>& cause : output.shaded.errors.by_cause) make_one_pixel(cause);

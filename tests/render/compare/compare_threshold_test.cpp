@@ -117,17 +117,17 @@ TEST(CompareNoise, TwoNoisyPicturesShareTheirStandardErrors) {
 
 TEST(CompareNoise, StandardErrorsReplaceTheChannels) {
     const ChannelImage b = noisy(40, 30, 0.5f, 0.01f, 8), a = noisy(40, 30, 0.5f, 0.01f, 9);
-    EXPECT_FALSE(compare_images(a, b).same);
+    EXPECT_FALSE(compare_images(a, b).same());
     CompareSettings settings;
     settings.standard_errors = 6.0;
-    EXPECT_TRUE(compare_images(a, b, settings).same);
+    EXPECT_TRUE(compare_images(a, b, settings).same());
     ChannelImage shifted = a;
     for (Channel& channel : shifted.channels) {
         if (channel.name != "variance.Y") channel.values(7, 5) += 0.2f;
     }
-    EXPECT_FALSE(compare_images(shifted, b, settings).same);
+    EXPECT_FALSE(compare_images(shifted, b, settings).same());
     settings.tolerance = 0.2;
-    EXPECT_TRUE(compare_images(shifted, b, settings).same);
+    EXPECT_TRUE(compare_images(shifted, b, settings).same());
     EXPECT_THROW(compare_images(grey_image(4, 4, 0.5f), grey_image(4, 4, 0.5f), settings), InputError);
 }
 
@@ -140,11 +140,11 @@ TEST(CompareNoise, ABrokenVarianceLiftsNoLimit) {
     for (const float broken : {float_infinity, float_nan}) {
         for (Channel& channel : b.channels)
             if (channel.name == "variance.Y") channel.values(3, 3) = broken;
-        EXPECT_FALSE(compare_images(a, b, settings).same) << broken;
+        EXPECT_FALSE(compare_images(a, b, settings).same()) << broken;
     }
     ChannelImage black = grey_image(8, 8, 0.0f), dark = grey_image(8, 8, 0.001f);
     add_channel(black, "variance.Y", 1e-6f);
-    EXPECT_TRUE(compare_images(dark, black, {.tolerance = 0.01}).same) << "no limit is asked for";
+    EXPECT_TRUE(compare_images(dark, black, {.tolerance = 0.01}).same()) << "no limit is asked for";
 }
 
 TEST(CompareNoise, PixelsBeyondStandardErrorsAreThoseThatCount) {

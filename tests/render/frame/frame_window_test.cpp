@@ -37,7 +37,7 @@ TEST(FrameWindow, HasTheMapsOfTheWholePicture) {
     RenderSettings settings = window_settings();
     settings.perception.guide = Guide::saliency;
     const FrameOutput whole = render_window(settings, std::nullopt), part = render_window(settings, window);
-    EXPECT_EQ(part.window, window);
+    EXPECT_EQ(part.statistics.window, window);
     EXPECT_EQ(part.view.width, 40);
     expect_cut("estimate", whole.estimate, part.estimate);
     expect_cut("motion", whole.motion.displacement, part.motion.displacement);
