@@ -164,8 +164,9 @@ PreparedMotion prepare_motion(const Scene& scene, const PosedView& now, const Po
     const bool same = same_projection(motion.now, motion.other);
 
     motion.background.counterpart = true;
-    motion.background.now = make_background_map(motion.now, motion.now);
-    motion.background.other = make_background_map(motion.now, motion.other);
+    const glm::dmat3 axes = background_axes(now.view, now.pose);
+    motion.background.now = make_background_map(axes, axes);
+    motion.background.other = make_background_map(axes, background_axes(other.view, other.pose));
     motion.background.still = motion.now.orthographic || (same && motion.background.now == motion.background.other);
 
     const std::vector<Instance>&instances = now.pose.instances, &other_instances = other.pose.instances;
@@ -239,7 +240,8 @@ void ModelMotion::sum_paths(PreparedMotion& all, const PosedView& now, const Pos
     for (const double seconds : times) {  // outside, so that one pose lives at a time
         const ScenePose& posed = pose_between(seconds);
         all.step = make_camera_view(posed.cameras[now.camera], now.view.width, now.view.height);
-        all.background.step = make_background_map(now.view, all.step);
+        all.background.step =
+            make_background_map(background_axes(now.view, now.pose), background_axes(all.step, posed));
         for (std::size_t i = 0; i < all.objects.size(); ++i) {
             all.objects[i].step = make_camera_from_object(all.step, posed.world[instance_of(i).node]);
             all.objects[i].shape_step = &posed.meshes[instance_of(i).mesh];

@@ -11,7 +11,7 @@ namespace aleph {
 /// motion.valid; the first that applies of: no counterpart, behind the camera, leaves the screen, hidden.
 enum class MotionValidity : std::int8_t {
     valid = 1,
-    background = 0,       ///< nothing was hit: camera rotation alone moves it
+    background = 0,       ///< nothing was hit: rotations of camera and environment alone move it
     behind_camera = -1,   ///< at or behind the other frame's near plane; displacement 0
     leaves_screen = -2,   ///< displacement kept
     no_counterpart = -3,  ///< object not visible in the other frame, topology change, camera cut; displacement 0

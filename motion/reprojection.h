@@ -30,9 +30,16 @@ inline CameraFromObject make_camera_from_object(const CameraView& view, const gl
             to_camera(view, glm::dvec3(world_from_object[3]))};
 }
 
-/// The background lies at infinity: only rotation moves it. Its points are directions in the axes of `now`.
-inline CameraFromObject make_background_map(const CameraView& now, const CameraView& view) {
-    return {glm::transpose(view.axes) * now.axes, glm::dvec3(0.0)};
+/// The camera's axes in the frame of the environment's picture.
+inline glm::dmat3 background_axes(const CameraView& view, const ScenePose& pose) {
+    return glm::transpose(pose.environment_rotation) * view.axes;
+}
+
+/// The background lies at infinity: only the rotations of the camera and of the picture move it. Its points are
+/// directions in the camera's axes now.
+/// @param now, other  background_axes
+inline CameraFromObject make_background_map(const glm::dmat3& now, const glm::dmat3& other) {
+    return {glm::transpose(other) * now, glm::dvec3(0.0)};
 }
 
 /// Barycentric coordinates of a hit, clamped to the triangle: rounding may have moved them outside. NaN becomes 0.

@@ -111,6 +111,11 @@ double turn_of_node(const Node& node, double begin, double end) {
     return turn_along(node.transform.rotation, begin, end);
 }
 
+double turn_of_picture(const Environment& environment, double begin, double end) {
+    if (environment.axis_rotation) return turn_along(environment.axis_rotation->angle, begin, end);
+    return turn_along(environment.rotation, begin, end);
+}
+
 /// Returns whether the parent's transform does not apply.
 bool is_detached(const Node& node, double begin, double end) {
     return evaluate(node.inherits, begin) == 0.0 && evaluate(node.inherits, end) == 0.0;
@@ -153,7 +158,8 @@ void TurnFinder::find(int camera_node, double begin, double end) {
         total_[n] = (above == no_index ? 0.0 : total_[above]) + turn_of_node(node, begin, end);
         shared_[n] = carries_camera_[n] != 0 ? total_[n] : (above == no_index ? 0.0 : shared_[above]);
     }
-    background_ = camera_node == no_index ? 0.0 : total_[camera_node];
+    camera_ = camera_node == no_index ? 0.0 : total_[camera_node];
+    background_ = camera_ + turn_of_picture(scene_.environment, begin, end);
     for (const int node : carriers) carries_camera_[node] = 0;
 
     for (const int node : skinned_) {
@@ -168,7 +174,7 @@ void TurnFinder::find(int camera_node, double begin, double end) {
 }
 
 double TurnFinder::turn_against_camera(int node) const {
-    return (total_[node] - shared_[node]) + (background_ - shared_[node]);
+    return (total_[node] - shared_[node]) + (camera_ - shared_[node]);
 }
 
 double TurnFinder::of_node(int node) const {

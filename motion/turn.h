@@ -25,7 +25,7 @@ class TurnFinder {
     /// between the poses at both ends. What camera and node inherit alike does not count. A node with a skinned mesh
     /// turns as far as the joint that turns most.
     double of_node(int node) const;
-    /// Turn of the camera against the world, radians.
+    /// Turn of the camera against the environment's picture, radians.
     double background() const { return background_; }
 
     /// Times evenly between `begin` and `end`, in that direction, so many that from one to the next nothing that has a
@@ -39,8 +39,9 @@ class TurnFinder {
 
     const Scene& scene_;
     const PosePlan& plan_;
-    std::vector<int> with_mesh_;  ///< nodes whose turn can differ from the background's and that carry a mesh
+    std::vector<int> with_mesh_;  ///< nodes whose turn can differ from that of the world and that carry a mesh
     std::vector<int> skinned_;    ///< of those, the ones with a skinned mesh
+    double camera_ = 0.0;         ///< turn of the camera against the world, radians
     double background_ = 0.0;
     // Per node, radians; 0 for nodes that cannot move. Along the way from the root: the whole turn, and the part of it
     // that the camera shares.

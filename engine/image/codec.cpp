@@ -43,6 +43,7 @@ Interleaved<T> decode_with_library(ByteView bytes, ImageFormat format, const std
     std::vector<std::uint8_t> stripped;
     if (format == ImageFormat::png) stripped = strip_png(bytes, name);
     if (format == ImageFormat::jpeg) stripped = strip_jpeg(bytes, name);
+    if (format == ImageFormat::hdr) check_hdr_order(bytes, name);
     if (!stripped.empty()) bytes = stripped;
     Interleaved<T> pixels;
     const auto place = [&](int width, int height, int channels) -> void* {
@@ -59,16 +60,22 @@ Interleaved<T> decode_with_library(ByteView bytes, ImageFormat format, const std
     return pixels;
 }
 
+/// The whole picture. What the file has no pixels for is black, and not there where the file has alpha.
 Image<glm::vec4> colors_of(const ChannelImage& image, const std::string& name) {
     std::array<const Image<float>*, 4> sources{image.find("R"), image.find("G"), image.find("B"), image.find("A")};
     if (const Image<float>* grey = image.find("Y"); grey && !sources[0] && !sources[1] && !sources[2]) {
         sources[0] = sources[1] = sources[2] = grey;
     }
     if (!sources[0] || !sources[1] || !sources[2]) throw InputError(name, "", "the EXR has no channels R, G, B (or Y)");
-    Image<glm::vec4> colours(sources[0]->width, sources[0]->height, {0.0f, 0.0f, 0.0f, 1.0f});
-    for (std::size_t i = 0; i < colours.size(); ++i) {
-        for (int c = 0; c < 4; ++c) {
-            if (sources[c]) colours.pixels[i][c] = sources[c]->pixels[i];
+    const int width = sources[0]->width, height = sources[0]->height;
+    const PictureArea whole = image.whole.value_or(PictureArea{0, 0, width, height});
+    check_size(whole.width, whole.height, name);
+    Image<glm::vec4> colours(whole.width, whole.height, {0.0f, 0.0f, 0.0f, sources[3] ? 0.0f : 1.0f});
+    for (int y = 0; y < whole.height; ++y) {
+        for (int x = 0; x < whole.width; ++x) {
+            if (!lies_within({whole.x + x, whole.y + y, 1, 1}, width, height)) continue;
+            for (int c = 0; c < 4; ++c)
+                if (sources[c]) colours(x, y)[c] = (*sources[c])(whole.x + x, whole.y + y);
         }
     }
     return colours;

@@ -29,6 +29,10 @@ std::optional<ImageFormat> detect_format(ByteView bytes);
 std::vector<std::uint8_t> strip_png(ByteView bytes, const std::string& name);
 std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name);
 
+/// @throws InputError if the resolution line of an HDR file has its pixels in another order than from the top left, row
+/// by row: OpenImageIO reads them as if they were
+void check_hdr_order(ByteView bytes, const std::string& name);
+
 /// Reads each attribute of an EXR file's header alone: it has to lie within the file, and to end where its size says.
 /// Imf::InputFile takes the memory that an attribute names before it reads it, and goes on where a value ends, whatever
 /// its size: a file of 4 KB could ask for 2 GB.

@@ -164,6 +164,19 @@ std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name) {
     throw InputError(name, "", "the JPEG is damaged before its first pixel");
 }
 
+void check_hdr_order(ByteView bytes, const std::string& name) {
+    // An empty line ends the header. The next one names the axes, the slower first, and the signs of their directions:
+    // -Y is down.
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::size_t empty = text.find("\n\n");
+    if (empty == std::string_view::npos) return;  // the decoder refuses it
+    const std::string_view rest = text.substr(empty + 2), line = rest.substr(0, rest.find('\n'));
+    if (line.starts_with("-Y ") && line.find(" +X ") != std::string_view::npos) return;
+    throw InputError(name, "",
+                     fmt::format("its pixels are in the order \"{}\"; rows from the top left (-Y, +X) can be read",
+                                 printable(std::string(line), 40)));
+}
+
 void check_exr_header(ByteView bytes, const std::string& name) {
     Imf::staticInitialize();
     std::string place;

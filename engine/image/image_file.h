@@ -67,7 +67,7 @@ ChannelImage read_image(const std::filesystem::path& path);
 /// Returns whether read_image reads the file: no part of it is damaged.
 bool can_read_image(const std::filesystem::path& path);
 
-/// One of the two images is filled: `bytes` for PNG and JPEG, else `floats`. Components: R, G, B, A.
+/// One of the two images is filled: `bytes` for PNG and JPEG, else `floats`. R, G, B, A; colours of an EXR are times A.
 struct DecodedTexture {
     Image<glm::u8vec4> bytes;
     Image<glm::vec4> floats;

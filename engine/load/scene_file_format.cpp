@@ -36,6 +36,24 @@ std::size_t clean_texels(Image<glm::vec4>& image) {
     return changed;
 }
 
+/// OpenEXR's colours are multiplied by alpha, those of textures are not.
+void divide_by_alpha(Image<glm::vec4>& image) {
+    for (glm::vec4& texel : image.pixels) {
+        if (texel.w > 0.0f && texel.w != 1.0f) texel = glm::vec4(glm::vec3(texel) / texel.w, texel.w);
+    }
+}
+
+/// Rendering leaves out what is no light. Most infinite texels are lamps and suns beyond the range of half precision.
+void warn_of_infinite_light(const SceneImage& image, std::vector<std::string>& warnings) {
+    const auto infinite = std::ranges::count_if(image.floats.pixels, [](const glm::vec4& texel) {
+        return std::isinf(texel.x) || std::isinf(texel.y) || std::isinf(texel.z);
+    });
+    if (infinite == 0) return;
+    warnings.push_back(
+        fmt::format("{}: {} texels of {} are infinite there, and count as 0: its brightest light is missing",
+                    image.path, infinite, image.floats.size()));
+}
+
 void load_images(SceneText& text, const fs::path& folder, const std::string& file) {
     for (std::size_t i = 0; i < text.scene.images.size(); ++i) {
         SceneImage& image = text.scene.images[i];
@@ -45,7 +63,11 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
             DecodedTexture decoded = decode_texture(read_regular_file(folder / image.path, file, place), image.path);
             image.bytes = std::move(decoded.bytes);
             image.floats = std::move(decoded.floats);
-            if (static_cast<int>(i) == text.scene.environment.image) continue;  // rendering leaves out what is no light
+            if (static_cast<int>(i) == text.scene.environment.image) {
+                warn_of_infinite_light(image, text.scene.source.warnings);
+                continue;
+            }
+            divide_by_alpha(image.floats);
             if (const std::size_t changed = clean_texels(image.floats); changed > 0) {
                 text.scene.source.warnings.push_back(
                     fmt::format("{}: {} texels of {} are below 0, NaN or infinite there, and count as 0", image.path,

@@ -140,7 +140,7 @@ struct Deformation {
     TimeSampling normal_sampling;
     std::vector<std::vector<glm::vec3>> normal_samples;
 
-    /// A mesh with targets or a skin stands under exactly one node. Skinned: the node's own transform does not matter.
+    /// Targets, then a skin. A skinned mesh stands under one node at most, whose own transform does not matter.
     std::vector<MorphTarget> targets;
     std::vector<Track<double>> target_weights;  ///< one per target
     int skin = no_index;

@@ -17,7 +17,7 @@ struct MotionMaps {
 };
 
 /// Returns whether the point seen in a pixel is at the place that the motion leads to: of a surface, or of the
-/// background, which the camera's rotation alone moves.
+/// background, which moves as well.
 inline bool moves_as_told(float valid) {
     return valid == 1.0f || valid == 0.0f;
 }

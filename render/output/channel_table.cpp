@@ -9,7 +9,7 @@ const std::vector<ChannelInfo>& channel_table() {
          "position in frame N+1 minus position in frame N, both at the centre of the shutter; in the scene's last "
          "frame N minus N-1, before a cut 0",
          "pixels, u positive to the right, v positive upwards",
-         "motion by the camera's rotation"},
+         "motion by the rotations of the camera and the environment"},
         {{"motion.valid"},
          "1 valid, 0 background, -1 behind the camera, -2 leaves the picture, -3 no counterpart, -4 hidden in frame "
          "N+1",
@@ -22,7 +22,7 @@ const std::vector<ChannelInfo>& channel_table() {
          "position in frame N-1 minus position in frame N; in the first frame that in N minus that in N+1, behind a "
          "cut 0; not where --motion compares quick estimates of a scene",
          "pixels, u positive to the right, v positive upwards",
-         "motion by the camera's rotation"},
+         "motion by the rotations of the camera and the environment"},
         {{"backward.valid"},
          "the same as motion.valid, for backward",
          "the same as motion.valid, for backward: -4 hidden in frame N-1",

@@ -45,9 +45,12 @@ glm::vec4 blend_texels(int width, int height, const glm::vec2& place, Wrap wrap_
 
 /// @param place  uv within [0,1]
 glm::vec4 sample_level(const Texture& texture, const TextureUse& use, int level, const glm::vec2& place) {
+    const bool weigh = texture.by_alpha && level == 0;
     const auto from = [&](const auto& image, const auto& decode) {
-        return blend_texels(image.width, image.height, place, use.wrap_u, use.wrap_v,
-                            [&](int x, int y) { return decode(image(x, y)); });
+        return blend_texels(image.width, image.height, place, use.wrap_u, use.wrap_v, [&](int x, int y) {
+            const glm::vec4 texel = decode(image(x, y));
+            return weigh ? weigh_by_alpha(texel) : texel;
+        });
     };
     if (level > 0) return from(texture.coarse[level - 1], [](const glm::vec4& t) { return t; });
     if (texture.image->bytes.empty()) return from(texture.image->floats, [](const glm::vec4& t) { return t; });
@@ -115,6 +118,25 @@ Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
     return probes;
 }
 
+glm::vec2 wrap_place(const TextureUse& use, const glm::vec2& place) {
+    return {wrap_coordinate(place.x, use.wrap_u), wrap_coordinate(place.y, use.wrap_v)};
+}
+
+glm::vec4 average_probes(const Texture& texture, const TextureUse& use, const glm::vec2& center, const Probes& probes) {
+    const int level = static_cast<int>(probes.level);
+    const float coarser = probes.level - static_cast<float>(level);
+    glm::vec2 at = center - probes.step * (0.5f * static_cast<float>(probes.count - 1));
+    glm::vec4 sum(0.0f);
+    for (int i = 0; i < probes.count; ++i) {
+        const glm::vec2 place = wrap_place(use, at);
+        glm::vec4 value = sample_level(texture, use, level, place);
+        if (coarser > 0.0f) value += (sample_level(texture, use, level + 1, place) - value) * coarser;
+        sum += value;
+        at += probes.step;
+    }
+    return sum * (1.0f / static_cast<float>(probes.count));
+}
+
 }  // namespace
 
 glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm::vec2& uv,
@@ -130,29 +152,15 @@ glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm
         probes = place_probes(texture, footprint);
     }
     for (float* u : {&center.x, &center.y}) *u = std::abs(*u) < max_texture_coordinate ? *u : 0.0f;
-    const auto wrap = [&](const glm::vec2& place) {
-        return glm::vec2(wrap_coordinate(place.x, use.wrap_u), wrap_coordinate(place.y, use.wrap_v));
-    };
-    if (probes.magnified) {
-        const glm::vec2 place = wrap(center);
-        if (!use.nearest) return sample_level(texture, use, 0, place);
+    if (probes.magnified && use.nearest) {
+        const glm::vec2 place = wrap_place(use, center);
         const int x = static_cast<int>(place.x * static_cast<float>(texture.width));
         const int y = static_cast<int>(place.y * static_cast<float>(texture.height));
         return read_texel(*texture.image, wrap_index(x, texture.width, use.wrap_u),
                           wrap_index(y, texture.height, use.wrap_v), texture.space);
     }
-    const int level = static_cast<int>(probes.level);
-    const float coarser = probes.level - static_cast<float>(level);
-    glm::vec2 at = center - probes.step * (0.5f * static_cast<float>(probes.count - 1));
-    glm::vec4 sum(0.0f);
-    for (int i = 0; i < probes.count; ++i) {
-        const glm::vec2 place = wrap(at);
-        glm::vec4 value = sample_level(texture, use, level, place);
-        if (coarser > 0.0f) value += (sample_level(texture, use, level + 1, place) - value) * coarser;
-        sum += value;
-        at += probes.step;
-    }
-    return sum * (1.0f / static_cast<float>(probes.count));
+    const glm::vec4 mean = average_probes(texture, use, center, probes);
+    return texture.by_alpha && mean.w > 0.0f ? glm::vec4(glm::vec3(mean) / mean.w, mean.w) : mean;
 }
 
 RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& point, const glm::vec3& direction,

@@ -24,8 +24,9 @@ enum class TextureSpace {
 struct Texture {
     const SceneImage* image = nullptr;  ///< must outlive the texture
     TextureSpace space = TextureSpace::linear;
+    bool by_alpha = false;                    ///< colours count by their alpha; coarse levels hold colour times alpha
     int width = 0, height = 0;                ///< texels of level 0
-    std::vector<Image<glm::vec4>> coarse;     ///< level 1 and up
+    std::vector<Image<glm::vec4>> coarse{};   ///< level 1 and up
     glm::vec3 smallest{0.0f}, largest{0.0f};  ///< of each colour channel, over all texels
 };
 
@@ -47,7 +48,8 @@ struct MaterialTextures : TextureSlots<TextureUse> {
 
 /// All textures of a scene. Made once (make_texture_set); look-ups only read it.
 struct TextureSet {
-    std::vector<Texture> textures;  ///< one for each image and space of materials that are ever shown
+    /// One for each image and space of materials that are ever shown, and one more where its alpha makes holes.
+    std::vector<Texture> textures;
     /// As Scene::materials, and one without textures at the end. A material that is hidden at all times has none.
     std::vector<MaterialTextures> materials;
     EnvironmentMap environment;  ///< empty: the scene has none
@@ -56,7 +58,9 @@ struct TextureSet {
 /// Builds the pyramids, in parallel. Keeps pointers to the scene's images: the scene must outlive the set.
 TextureSet make_texture_set(const Scene& scene);
 
-Texture make_texture(const SceneImage& image, TextureSpace space);
+/// @param by_alpha  the image is the base colour of a surface that its alpha makes holes in: the colours of texels that
+/// do not show do not count
+Texture make_texture(const SceneImage& image, TextureSpace space, bool by_alpha = false);
 TextureUse make_texture_use(const TextureRef& reference, int texture);
 
 /// The area that a look-up averages over, in uv before the reference's own transform.

@@ -68,6 +68,20 @@ Image<glm::vec4> reduce(int width, int height, const Read& read) {
     return out;
 }
 
+bool has_holes(const Texture& texture) {
+    for (int y = 0; y < texture.height; ++y) {
+        for (int x = 0; x < texture.width; ++x) {
+            if (read_texel(*texture.image, x, y, texture.space).w != 1.0f) return true;
+        }
+    }
+    return false;
+}
+
+/// Returns whether a surface does not show where the alpha of its texture is 0.
+bool shows_by_alpha(const Opacity& opacity) {
+    return opacity.mode == Opacity::Mode::blend || (opacity.mode == Opacity::Mode::mask && opacity.cutoff > 0.0);
+}
+
 /// Finds the range of all texels, without values that are not numbers.
 void find_range(Texture& texture) {
     glm::vec3 &smallest = texture.smallest, &largest = texture.largest;
@@ -97,16 +111,19 @@ std::vector<std::uint8_t> list_shown_materials(const Scene& scene) {
 
 }  // namespace
 
-Texture make_texture(const SceneImage& image, TextureSpace space) {
+Texture make_texture(const SceneImage& image, TextureSpace space, bool by_alpha) {
     Texture texture;
     texture.image = &image;
     texture.space = space;
     texture.width = image.bytes.empty() ? image.floats.width : image.bytes.width;
     texture.height = image.bytes.empty() ? image.floats.height : image.bytes.height;
+    texture.by_alpha = by_alpha && has_holes(texture);
     find_range(texture);
     if (texture.width <= 1 && texture.height <= 1) return texture;
-    texture.coarse.push_back(
-        reduce(texture.width, texture.height, [&](int x, int y) { return read_texel(image, x, y, space); }));
+    texture.coarse.push_back(reduce(texture.width, texture.height, [&](int x, int y) {
+        const glm::vec4 texel = read_texel(image, x, y, space);
+        return texture.by_alpha ? weigh_by_alpha(texel) : texel;
+    }));
     while (texture.coarse.back().size() > 1) {
         const Image<glm::vec4>& finer = texture.coarse.back();
         texture.coarse.push_back(reduce(finer.width, finer.height, [&](int x, int y) { return finer(x, y); }));
@@ -136,17 +153,17 @@ TextureUse make_texture_use(const TextureRef& reference, int texture) {
 
 TextureSet make_texture_set(const Scene& scene) {
     TextureSet set;
-    std::vector<std::array<int, 2>> known(scene.images.size(), {no_index, no_index});
-    const auto use = [&](const TextureRef& reference, TextureSpace space) {
+    std::vector<std::array<int, 3>> known(scene.images.size(), {no_index, no_index, no_index});
+    const auto use = [&](const TextureRef& reference, TextureSpace space, bool by_alpha) {
         if (reference.image == no_index) return TextureUse{};
         const SceneImage& image = scene.images[reference.image];
         if (image.bytes.empty() && image.floats.empty()) return TextureUse{};
         // A float image reads the same in both spaces.
-        const std::size_t slot = space == TextureSpace::srgb && !image.bytes.empty() ? 1 : 0;
+        const std::size_t slot = by_alpha ? 2 : space == TextureSpace::srgb && !image.bytes.empty() ? 1 : 0;
         int& index = known[reference.image][slot];
         if (index == no_index) {
             index = static_cast<int>(set.textures.size());
-            set.textures.push_back({&image, space, 0, 0, {}});
+            set.textures.push_back({.image = &image, .space = space, .by_alpha = by_alpha});
         }
         return make_texture_use(reference, index);
     };
@@ -156,7 +173,8 @@ TextureSet make_texture_set(const Scene& scene) {
         if (shown[m] == 0) continue;
         const Material& material = scene.materials[m];
         for (const auto& [key, slot] : material_textures) {
-            textures[slot] = use(material.textures[slot], is_color(slot) ? TextureSpace::srgb : TextureSpace::linear);
+            textures[slot] = use(material.textures[slot], is_color(slot) ? TextureSpace::srgb : TextureSpace::linear,
+                                 slot == TextureSlot::base_color && shows_by_alpha(material.opacity));
             if (textures[slot].texture == no_index) continue;
             textures.any = true;
             textures.maps_normals = textures.maps_normals || is_normal_map(slot);
@@ -167,7 +185,8 @@ TextureSet make_texture_set(const Scene& scene) {
         set.environment = make_environment_map(scene.images[scene.environment.image]);
     }
     parallel_each(set.textures.size(), 1, [&](std::size_t i) {
-        set.textures[i] = make_texture(*set.textures[i].image, set.textures[i].space);
+        const Texture& wanted = set.textures[i];
+        set.textures[i] = make_texture(*wanted.image, wanted.space, wanted.by_alpha);
     });
     return set;
 }

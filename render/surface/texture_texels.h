@@ -28,6 +28,12 @@ inline glm::vec4 decode_texel(const glm::u8vec4& b, TextureSpace space) {
     return {decode_linear(b.x), decode_linear(b.y), decode_linear(b.z), decode_linear(b.w)};
 }
 
+/// Colour times alpha, and alpha: sums of these leave out the colour of what is not there.
+inline glm::vec4 weigh_by_alpha(const glm::vec4& texel) {
+    const float alpha = texel.w > 0.0f ? texel.w : 0.0f;  // also for NaN
+    return {texel.x * alpha, texel.y * alpha, texel.z * alpha, alpha};
+}
+
 inline glm::vec4 read_texel(const SceneImage& image, int x, int y, TextureSpace space) {
     return image.bytes.empty() ? image.floats(x, y) : decode_texel(image.bytes(x, y), space);
 }

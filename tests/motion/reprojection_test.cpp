@@ -162,6 +162,24 @@ TEST(Reprojection, RP09_BackgroundFollowsRotation) {
     }
 }
 
+/// A picture that turns one way moves as the world does before a camera that turns the other way.
+TEST(Reprojection, RP09_BackgroundFollowsItsPicture) {
+    Scene turning = make_empty_scene({{0.0, 1.0, 0.0}, 0.0});
+    turning.environment.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, -1.0 * degrees)};
+    const MotionField field = background_motion(turning);
+    for (const int x : {0, 57, 199}) {
+        const double column = x + 0.5 - 100.0, row = 3.5 - 50.0;
+        const double seen = std::atan2(column, 100.0), next = seen + 1.0 * degrees;
+        EXPECT_NEAR(field.displacement(x, 3).x, 100.0 * std::tan(next) - column, 1e-9) << x;
+        EXPECT_NEAR(field.displacement(x, 3).y, row * std::cos(seen) / std::cos(next) - row, 1e-9) << x;
+        EXPECT_EQ(field.validity(x, 3), MotionValidity::background);
+    }
+    // Turned with its picture, a camera sees it at rest.
+    turning.nodes[0].transform.axis_rotation = turning.environment.axis_rotation;
+    const MotionField together = background_motion(turning);
+    for (const glm::dvec2& moved : together.displacement.pixels) ASSERT_LT(glm::length(moved), 1e-9);
+}
+
 TEST(Reprojection, RP09_BackgroundThatDoesNotMove) {
     const auto expect_rest = [](const Scene& scene, const char* name) {
         const MotionField field = background_motion(scene);

@@ -77,6 +77,25 @@ TEST(ReprojectionTurn, RP08_KeysBeyondAHalfTurnGoTheShortWay) {
     EXPECT_NEAR(motion.path_length, 150.0 * 90.0 * degrees, 0.01 * 235.62);
 }
 
+/// The picture of the environment, about the viewing axis.
+TEST(ReprojectionTurn, RP07_ASpinningBackground) {
+    Scene scene;
+    add_camera(scene);
+    const Image<Hit> hits(64, 48);
+    for (const bool by_keys : {false, true}) {
+        scene.environment.axis_rotation.reset();
+        if (by_keys) {
+            scene.environment.rotation = make_full_turn();
+        } else {
+            scene.environment.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 360.0 * degrees)};
+        }
+        const MotionField field = motion_between(scene, 0.0, 1.0, hits);
+        const double arc = 2.0 * std::numbers::pi * std::hypot(3.5 - 32.0, 40.5 - 24.0);
+        EXPECT_LT(glm::length(field.displacement(3, 40)), 1e-9);
+        EXPECT_NEAR(field.path_length(3, 40), arc, 0.01 * arc);
+    }
+}
+
 /// Times between 0 and 1 s; node 1 holds the camera.
 std::vector<double> subdivide(const Scene& scene) {
     const PosePlan plan = make_pose_plan(scene);

@@ -197,5 +197,46 @@ TEST(ImageIo, ReadsRadianceHdr) {
     EXPECT_EQ((*image.find("R"))(1, 0), 0.0f);
 }
 
+TEST(ImageIo, OtherOrdersOfHdrAreRefused) {
+    const auto decode = [](const std::string& resolution) {
+        const std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n" + std::string(8, '\x80');
+        return decode_texture({text.begin(), text.end()}, "a.hdr");
+    };
+    EXPECT_EQ(decode("-Y 2 +X 1").floats.height, 2);
+    for (const char* order : {"+Y 2 +X 1", "-Y 2 -X 1", "+X 1 -Y 2", "-X 2 +Y 1"}) {
+        EXPECT_EQ(
+            find_refusal([&] { decode(order); }).reason,
+            fmt::format("its pixels are in the order \"{}\"; rows from the top left (-Y, +X) can be read", order));
+    }
+}
+
+/// Some programs store only the rectangle that is not empty, or more than the picture.
+TEST(ImageIo, PixelsOfAnExrTextureLieInTheWholePicture) {
+    const ScratchFolder folder;
+    const auto decode = [&](const PictureArea& whole, bool has_alpha) {
+        ChannelImage image;
+        image.whole = whole;
+        for (const char* name : {"R", "G", "B", "A"}) {
+            if (*name != 'A' || has_alpha) image.channels.push_back({name, Image<float>(2, 1, 0.5f)});
+        }
+        image.channels[0].values(1, 0) = 0.25f;
+        write_exr(folder / "a.exr", image);
+        return decode_texture(read_numbers(folder / "a.exr"), "a.exr").floats;
+    };
+    const Image<glm::vec4> large = decode({-1, -2, 4, 3}, true);
+    ASSERT_EQ(large.width, 4);
+    ASSERT_EQ(large.height, 3);
+    EXPECT_EQ(large(1, 2), glm::vec4(0.5f));
+    EXPECT_EQ(large(2, 2), glm::vec4(0.25f, 0.5f, 0.5f, 0.5f));
+    EXPECT_EQ(std::ranges::count(large.pixels, glm::vec4(0.0f)), 10);
+    EXPECT_EQ(decode({-1, -2, 4, 3}, false)(0, 0), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    const Image<glm::vec4> small = decode({1, 0, 1, 1}, false);
+    EXPECT_EQ(small.pixels, (std::vector<glm::vec4>{{0.25f, 0.5f, 0.5f, 1.0f}}));
+    EXPECT_EQ(find_refusal([&] {
+                  decode({0, 0, 1 << 20, 1 << 20}, false);
+              }).reason.substr(0, 24),
+              "the picture is too large");
+}
+
 }  // namespace
 }  // namespace aleph

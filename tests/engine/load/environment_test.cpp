@@ -85,6 +85,28 @@ TEST_F(LoadEnvironment, TexelsThatAreNoLightCountAsZero) {
     EXPECT_EQ(texels(1, 1), glm::vec4(0.5f, 0.5f, 0.5f, 1.0f));
 }
 
+TEST_F(LoadEnvironment, ALightBeyondTheRangeOfItsFileIsMissed) {
+    Image<float> red(4, 2, 0.5f);
+    red(1, 0) = std::numeric_limits<float>::infinity();
+    write_sky(folder_ / "sky.exr", red);
+    EXPECT_TRUE(
+        has_warning(load_scene(write_scene(R"("environment_image": "sky.exr")")),
+                    "sky.exr: 1 texels of 8 are infinite there, and count as 0: its brightest light is missing"));
+}
+
+/// OpenEXR's colours are multiplied by alpha. A surface's are not, but the light of the surroundings is.
+TEST_F(LoadEnvironment, ColoursOfAnExrAreDividedByItsAlpha) {
+    ChannelImage image;
+    for (const char* name : {"R", "G", "B", "A"}) image.channels.push_back({name, Image<float>(3, 1, 0.25f)});
+    image.channels[3].values.pixels = {0.5f, 1.0f, 0.0f};
+    write_exr(folder_ / "t.exr", image);
+    const Scene card = load_scene(write_scene(R"("materials": {"m": {"base_color_texture": "t.exr"}})"));
+    EXPECT_EQ(card.images.at(0).floats.pixels,
+              (std::vector<glm::vec4>{glm::vec4(0.5f), {0.25f, 0.25f, 0.25f, 1.0f}, {0.25f, 0.25f, 0.25f, 0.0f}}));
+    const Scene sky = load_scene(write_scene(R"("environment_image": "t.exr")"));
+    EXPECT_EQ(sky.images.at(0).floats(0, 0), glm::vec4(0.25f, 0.25f, 0.25f, 0.5f));
+}
+
 TEST_F(LoadEnvironment, PicturesThatCannotBeReadAreRefused) {
     const auto refused = [&](const std::string& body, const std::string& place, const std::string& word) {
         expect_refused(write_scene(body), place, word);

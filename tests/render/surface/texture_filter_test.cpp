@@ -100,6 +100,48 @@ TEST(TextureFilter, ConstantPicturesStayExactly) {
     }
 }
 
+/// A card whose texture shows white texels, and black ones of alpha 0 that do not.
+Scene make_card(const Opacity& opacity) {
+    Scene scene;
+    SceneImage& image = scene.images.emplace_back(make_constant(8, 8, {255, 255, 255, 255}));
+    for (const auto [x, y] : all_pixels(image.bytes))
+        if ((x / 2 + y / 2) % 2 == 1) image.bytes(x, y) = glm::u8vec4(0);
+    Material& material = scene.materials.emplace_back();
+    material.textures[TextureSlot::base_color].image = 0;
+    material.opacity = opacity;
+    Mesh& mesh = scene.meshes.emplace_back();
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.material = 0;
+    scene.nodes.push_back({.meshes = {0}});
+    return scene;
+}
+
+TEST(TextureFilter, ColorsOfHolesDoNotCount) {
+    using Mode = Opacity::Mode;
+    constexpr UvFootprint whole{{1.0f, 0.0f}, {0.0f, 1.0f}}, cone{{1.0f, 0.0f}, {0.0f, 1.0f}, true},
+        row{{1.0f, 0.0f}, {0.0f, 0.01f}}, small{{0.01f, 0.0f}, {0.0f, 0.01f}};
+    const struct {
+        Opacity opacity;
+        bool counts;
+    } cases[] = {{{.mode = Mode::opaque}, true},
+                 {{.mode = Mode::mask}, false},
+                 {{.mode = Mode::mask, .cutoff = 0.0}, true},
+                 {{.mode = Mode::blend}, false}};
+    for (const auto& [opacity, counts] : cases) {
+        const Scene scene = make_card(opacity);
+        const TextureSet set = make_texture_set(scene);
+        const TextureUse& use = set.materials[0][TextureSlot::base_color];
+        for (const UvFootprint& footprint : {whole, cone, row, small}) {
+            // The middle of four fields: half of what is around it shows.
+            const glm::vec4 found = sample_texture(set, use, {0.5f, 0.5f}, footprint);
+            expect_near(found, glm::dvec4(glm::dvec3(counts ? 0.5 : 1.0), 0.5), 1e-5);
+        }
+        const glm::vec4 hole = sample_texture(set, use, {0.375f, 0.125f}, small);
+        expect_near(hole, glm::dvec4(0.0), 0.0);
+    }
+}
+
 TEST(TextureFilter, MagnificationIsBilinearWhateverTheFootprint) {
     const SceneImage image = make_noise(16, 8, 1);
     const TextureSet set = make_set(image);
