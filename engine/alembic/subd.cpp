@@ -168,7 +168,7 @@ std::vector<int> read_subdivision(AlembicReader& reader, int object, const Alemb
         cage.corners.points = read_optional<int>(reader, geom, ".cornerIndices", run.begin);
         cage.corners.sharpness = read_optional<float>(reader, geom, ".cornerSharpnesses", run.begin);
         add_faces(reader, object, run, parts, read_optional<int>(reader, geom, ".holes", run.begin), cage);
-        if (cage.faces.sizes.empty()) continue;
+        if (cage.faces.holes.size() == cage.faces.sizes.size()) continue;  // nothing to draw, as in an empty mesh
         if (cage.faces.sizes.size() > many_faces) cage.level = 1;
         add_uv(reader, object, geom, run, cage);
 

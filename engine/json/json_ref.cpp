@@ -35,6 +35,12 @@ JsonRef JsonRef::operator[](std::size_t i) const& {
     return JsonRef((*value_)[i], *this, {}, i);
 }
 
+std::vector<JsonRef> JsonRef::elements() const& {
+    std::vector<JsonRef> all;
+    for (std::size_t i = 0; i < array_size(); ++i) all.push_back((*this)[i]);
+    return all;
+}
+
 std::size_t JsonRef::array_size(std::size_t min_size) const {
     if (!value_->is_array()) fail(fmt::format("must be an array, found {}", value_->type_name()));
     if (value_->size() < min_size) {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <ranges>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace aleph {
 
@@ -35,11 +35,8 @@ class JsonRef {
     JsonRef operator[](std::size_t i) const&;
     JsonRef operator[](std::size_t i) const&& = delete;
     /// All elements of an array. They point to it.
-    auto elements() const& {
-        return std::views::iota(std::size_t{0}, array_size()) |
-               std::views::transform([this](auto i) { return (*this)[i]; });
-    }
-    auto elements() const&& = delete;
+    std::vector<JsonRef> elements() const&;
+    std::vector<JsonRef> elements() const&& = delete;
     /// @param min_size  fewest elements allowed
     std::size_t array_size(std::size_t min_size = 0) const;
 

@@ -35,10 +35,17 @@ VerifiedStatistics verify_frames(Scene scene, const PreparedScene& prepared, con
     std::vector<ProbeResult> probes;
     Progress progress("verify", wanted, progress_look(options.quiet, options.progress));
     const RenderSignals signals;
-    while (probes.size() < least_probes || seconds < wanted) {
-        if (signals.received() != 0 && !probes.empty()) break;
+    const auto stop_if_asked = [&](double, const char*) {
         signals.stop_if_asked(": all frames are written, and no block is checked");
-        probes.push_back(prober.measure(probes.size()));
+    };
+    while (probes.size() < least_probes || seconds < wanted) {
+        try {
+            stop_if_asked(0.0, "");
+            probes.push_back(prober.measure(probes.size(), stop_if_asked));
+        } catch (const Stopped&) {
+            if (probes.empty()) throw;
+            break;  // what is checked so far is told
+        }
         clock.add_to(seconds);
         const double of_least = static_cast<double>(probes.size()) / static_cast<double>(least_probes);
         progress.update(wanted * std::min(seconds / wanted, of_least), count_text(probes.size(), "block"));

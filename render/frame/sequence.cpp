@@ -213,7 +213,7 @@ LightTime Sequence::time_light(std::int64_t frame) {
 }
 
 std::vector<Image<Rgb>> Sequence::render_part(std::int64_t frame, const PicturePart& part,
-                                              std::span<const PartSamples> pictures) {
+                                              std::span<const PartSamples> pictures, const FrameProgress& progress) {
     SequenceState& s = state_for(frame);
     ALEPH_CHECK(s.shot.settings.light.integrator == Integrator::path && !s.shot.needs_perception(), "a part by paths");
     const std::int64_t first = s.static_spans.find_first(frame);
@@ -226,7 +226,7 @@ std::vector<Image<Rgb>> Sequence::render_part(std::int64_t frame, const PictureP
         SampleOptions options = find_sample_options(s, first, prepared.plan);
         options.part = &part;
         options.part_picture = true;
-        shade_prepared(s, first, prepared, nullptr, options);
+        shade_prepared(s, first, prepared, nullptr, options, {.progress = progress});
         made.push_back(std::move(prepared.out.shaded.color));
     }
     return made;

@@ -71,9 +71,10 @@ class Sequence {
 
     /// Pictures of a part of a frame, 0 elsewhere, one for each seed and number of samples, by paths: nothing of what
     /// they are made from is shared between pixels. Integrator::path without a guide.
+    /// @param progress  as FrameRequest has it
     /// @throws InputError as `render`
     std::vector<Image<Rgb>> render_part(std::int64_t frame, const PicturePart& part,
-                                        std::span<const PartSamples> pictures);
+                                        std::span<const PartSamples> pictures, const FrameProgress& progress = {});
 
     /// The first hits of a frame and its motion, with the hidden pixels: `hits` and `motion` of the output of `render`
     /// with all maps. MotionSource::model, and no edit before it.

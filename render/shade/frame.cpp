@@ -146,25 +146,25 @@ class FrameShading {
         expected_ = taken_ + sum_samples(ranges);
         if (!plan_.tolerance.empty()) expected_ += predict_samples(ranges, before, plan_.most);
         if (!options_.at_sample) {
-            take_at({context_.lighting, context_.view, options_.lens}, ranges);
+            take_at(ranges, [this] { return SampleScene{context_.lighting, context_.view, options_.lens}; });
         } else {
-            take_in_turn(ranges, [this](int i, int c, auto now) { take_at(options_.at_sample(i, c), now); });
+            take_in_turn(ranges,
+                         [this](int i, int c, auto now) { take_at(now, [&] { return options_.at_sample(i, c); }); });
         }
     }
 
-    void take_at(const SampleScene& scene, std::span<const PixelRange> ranges) {
+    /// @param find_scene  called if samples are left to take: to pose the scene takes longer than few samples do
+    template <class FindScene>
+    void take_at(std::span<const PixelRange> ranges, const FindScene& find_scene) {
+        const std::size_t task_ranges = find_task_ranges(ranges), slice_ranges = tasks_of_slice * task_ranges;
+        const std::span<const PixelRange> left = skip_taken(ranges, slice_ranges);
+        if (left.empty()) return;
+        const SampleScene scene = find_scene();
         integrator_->begin(scene);
         place_.lens = scene.lens;
-        out_.counts.rays.primary += scene.rays_cast;
-        const std::size_t task_ranges = find_task_ranges(ranges), slice_ranges = tasks_of_slice * task_ranges;
-        for (std::size_t begin = 0; begin < ranges.size(); begin += slice_ranges) {
-            const auto slice = ranges.subspan(begin, std::min(slice_ranges, ranges.size() - begin));
-            if (skip_ > 0) {  // an earlier process has taken it
-                --skip_;
-                ++slices_;
-                taken_ += sum_samples(slice);
-                continue;
-            }
+        if (left.size() == ranges.size()) out_.counts.rays.primary += scene.rays_cast;  // once, by the first process
+        for (std::size_t begin = 0; begin < left.size(); begin += slice_ranges) {
+            const auto slice = left.subspan(begin, std::min(slice_ranges, left.size() - begin));
             parallel_for(slice.size(), task_ranges, [&](std::size_t first, std::size_t last) {
                 ShadingTask task(scene.lighting.rays, context_.lighting.rays);
                 take_ranges(scene, task, slice.subspan(first, last - first));
@@ -173,6 +173,17 @@ class FrameShading {
             offer();
             report_progress(slice);
         }
+    }
+
+    /// Leaves out the slices that an earlier process has taken. @return the ranges that are left
+    std::span<const PixelRange> skip_taken(std::span<const PixelRange> ranges, std::size_t slice_ranges) {
+        for (; skip_ > 0 && !ranges.empty(); --skip_) {
+            const auto slice = ranges.first(std::min(slice_ranges, ranges.size()));
+            ++slices_;
+            taken_ += sum_samples(slice);
+            ranges = ranges.subspan(slice.size());
+        }
+        return ranges;
     }
 
     void take_ranges(const SampleScene& scene, ShadingTask& task, std::span<const PixelRange> ranges) {

@@ -77,7 +77,7 @@ Prober::Prober(Scene scene, const RenderSettings& settings, const std::string& c
       frames_(std::move(frames)),
       pictures_(pictures) {}
 
-ProbeResult Prober::measure(std::size_t number) {
+ProbeResult Prober::measure(std::size_t number, const FrameProgress& progress) {
     ProbeResult result{.place = place_probe(number, frames_, width_, height_)};
     ProbeWindow window = find_probe_window(result.place, reference_);
     const Scene& scene = reference_.scene();
@@ -86,7 +86,7 @@ ProbeResult Prober::measure(std::size_t number) {
     Pairs pairs;
     for (int round = 0;; ++round) {
         const int more = choose_samples(result.samples, result.noise, most_samples) / 2;
-        add_reference_samples(window, round, more, reference_);
+        add_reference_samples(window, round, more, reference_, progress);
         result.samples += 2 * more;
         pairs.clear();
         for (const ProbeFrame& each : window.frames)

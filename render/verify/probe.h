@@ -60,7 +60,8 @@ class Prober {
 
     /// The reference takes as many samples as settle its noise: for each pixel at least 64 in each frame, at most
     /// 12,288 in all frames of the window.
-    ProbeResult measure(std::size_t number);
+    /// @param progress  of each picture; what it throws ends the probe
+    ProbeResult measure(std::size_t number, const FrameProgress& progress = {});
 
   private:
     Sequence reference_;

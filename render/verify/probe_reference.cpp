@@ -188,13 +188,14 @@ ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence) {
     return window;
 }
 
-void add_reference_samples(ProbeWindow& window, int round, int samples, Sequence& sequence) {
+void add_reference_samples(ProbeWindow& window, int round, int samples, Sequence& sequence,
+                           const FrameProgress& progress) {
     for (ProbeFrame& each : window.frames) {
         // Where samples lie in a pixel may depend on their number alone. Halves of equal numbers would make the same
         // error at an edge, which their difference does not tell.
         const PartSamples pictures[] = {{half_seed(each.frame, round, 0), samples},
                                         {half_seed(each.frame, round, 1), samples + 1}};
-        const std::vector<Image<Rgb>> made = sequence.render_part(each.frame, each.part, pictures);
+        const std::vector<Image<Rgb>> made = sequence.render_part(each.frame, each.part, pictures, progress);
         for (std::size_t half = 0; half < 2; ++half)
             add_to_mean(each.halves[half], each.samples / 2, crop(made[half], window.area), samples);
         each.samples += 2 * samples;

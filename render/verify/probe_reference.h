@@ -58,7 +58,9 @@ ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence);
 /// Adds samples to every frame's reference. Their random numbers are those of no other frame, round or picture.
 /// @param round    number of the call for this window, from 0 on
 /// @param samples  of each half, 2 or more
-void add_reference_samples(ProbeWindow& window, int round, int samples, Sequence& sequence);
+/// @param progress  of each picture (FrameRequest)
+void add_reference_samples(ProbeWindow& window, int round, int samples, Sequence& sequence,
+                           const FrameProgress& progress);
 
 /// The error itself in the part; elsewhere means of what is near, over wider areas the farther away it is (push and
 /// pull, Gortler et al. 1996). So an error that is even in the part is even everywhere: the part's outline is no edge

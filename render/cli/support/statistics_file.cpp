@@ -27,6 +27,14 @@ std::filesystem::path rows_file(const std::filesystem::path& path) {
     return hidden_beside(path, "rows");
 }
 
+/// What is not JSON is discarded. What is nested deeper than rows are is left out: to write it takes memory by its
+/// square.
+Json parse_rows(const std::string& text) {
+    constexpr int most_depth = 32;
+    return Json::parse(
+        text, [](int depth, Json::parse_event_t, const Json&) { return depth < most_depth; }, false);
+}
+
 /// Empty where there is no such file.
 std::string read_if_there(const std::filesystem::path& path) {
     return std::filesystem::exists(path) ? read_text(path) : std::string();
@@ -44,12 +52,12 @@ std::map<std::string, std::string> read_statistics_rows(const std::filesystem::p
         if (row.is_object() && row.contains("fingerprint") && row["fingerprint"].is_string())
             to[row["fingerprint"].get<std::string>()] = indent_row(row.dump(2));
     };
-    const Json whole = Json::parse(read_if_there(path), nullptr, false);
+    const Json whole = parse_rows(read_if_there(path));
     if (whole.is_object() && whole.contains("frames") && whole["frames"].is_array()) {
         for (const Json& row : whole["frames"]) add(row, rows);
     }
     std::istringstream lines(read_if_there(rows_file(path)));
-    for (std::string line; std::getline(lines, line);) add(Json::parse(line, nullptr, false), unfinished);
+    for (std::string line; std::getline(lines, line);) add(parse_rows(line), unfinished);
     rows.merge(unfinished);
     return rows;
 }

@@ -74,6 +74,14 @@ DraftObject draft_xform(const std::vector<DraftProperty>& properties) {
     return {"x", "schema=AbcGeom_Xform_v3", {draft_compound(".xform", properties)}, {}};
 }
 
+TEST(AlembicSubdivision, ASurfaceWhoseFacesAreAllHolesDrawsNothing) {
+    const Scene scene = load({draft_subd("hidden", {draft_points}, {{3}}, {{0, 1, 2}},
+                                         {draft_array<int>(".holes", DraftProperty::i32, 1, {{0, 0}})}),
+                              draft_triangle("shown")});
+    EXPECT_TRUE(node_named(scene, "hidden").meshes.empty());
+    EXPECT_EQ(mesh_of(scene, "shown").triangles.size(), 1u);
+}
+
 TEST(AlembicTransforms, MoreThan256ChannelsComeAsAnArray) {
     std::vector<double> channels;
     for (int i = 0; i < 90; ++i) channels.insert(channels.end(), {1.0, 0.0, i == 0 ? 0.5 : 0.0});

@@ -112,6 +112,15 @@ TEST_F(StatisticsFileTest, RowsOfFinishedFramesSurvive) {
     EXPECT_TRUE(read_statistics_rows(path_).empty());
 }
 
+TEST_F(StatisticsFileTest, WhatIsNestedVeryDeepIsLeftOut) {
+    constexpr std::size_t depth = 4000;
+    const std::string deep = std::string(depth, '[') + std::string(depth, ']');
+    std::ofstream(path_) << R"({"frames": [{"fingerprint": "one", "frame": 1, "deep": )" << deep << "}]}";
+    const std::string row = read_statistics_rows(path_).at("one");
+    EXPECT_LT(row.size(), 4 * depth) << "its indentation alone would be " << depth * depth;
+    EXPECT_EQ(nlohmann::json::parse(row).at("frame"), 1);
+}
+
 TEST_F(StatisticsFileTest, LooksLikeAnyOtherJson) {
     for (const std::vector<int>& list : {{}, {1}, std::vector{1, -2}}) {
         const std::string text = whole(list, 1.0);

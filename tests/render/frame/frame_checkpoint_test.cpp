@@ -106,6 +106,35 @@ INSTANTIATE_TEST_SUITE_P(
         CheckpointCase{"shutter", "pool/scene.json", 20, {{"error", 4.0}, {"size", "24x18"}}, 0.5}),
     [](const auto& test) { return test.param.name; });
 
+/// A frame with an open shutter, and glass around which each time looks with a ray of its own. Goes on from the state
+/// after its last sample.
+TEST(FrameCheckpoint, OU07_SamplesThatWereTakenPoseNothingAgain) {
+    Scene scene = pool_scene();
+    scene.cameras.front().shutter = {0.0, 0.5};
+    scene.materials.back().glass.transmission = 1.0;
+    scene.materials.back().glass.thickness = 0.01;
+    std::vector<std::uint64_t> traced;
+    for (const int spp : {2, 16}) {
+        const ScratchFolder folder;
+        RenderSettings settings;
+        set_size(settings, 8, 6);
+        settings.light.integrator = Integrator::path;
+        settings.sampling.rule = Sampling::uniform;
+        settings.sampling.spp = spp;
+        const auto render = [&] {
+            FrameCheckpoint checkpoint(folder / "checkpoint", "frame", [] { return true; });
+            FrameRequest request;
+            request.checkpoint = &checkpoint;
+            return Sequence(scene, settings).render(20, request).statistics;
+        };
+        const FrameStatistics whole = render(), rest = render();
+        EXPECT_EQ(rest.counts.rays.total(), whole.counts.rays.total()) << spp;
+        EXPECT_LT(rest.traced.all, whole.traced.all) << spp;
+        traced.push_back(rest.traced.all);
+    }
+    EXPECT_EQ(traced[1], traced[0]);
+}
+
 TEST(PartialPicture, ShowsAllPixelsSoFar) {
     RenderSettings settings = small_settings();
     set_size(settings, 40, 30);

@@ -137,6 +137,19 @@ TEST_F(Probes, PicturesThatAreTheReferenceHaveNoErrors) {
     for (const ProbeResult& each : results) EXPECT_LE(each.noise, settled_noise);
 }
 
+TEST_F(Probes, EndWithinAPictureWhenTheyAreStopped) {
+    const RenderSettings settings = traced(16);
+    PictureKeeper pictures([&](std::int64_t frame) { return render(settings, frame); }, 1 << 24);
+    Prober prober(scene, settings, "", {20}, pictures);
+    struct StoppedHere {};
+    int reports = 0;
+    const auto stop = [&](double, const char*) {
+        if (++reports == 2) throw StoppedHere();
+    };
+    EXPECT_THROW(prober.measure(0, stop), StoppedHere);
+    EXPECT_EQ(reports, 2);
+}
+
 TEST_F(Probes, SayOfBlocksWhatWholePicturesSay) {
     const RenderSettings settings = traced(16);
     VisibleDifference difference({scene.film.viewing, scene.film.frame_rate}, 20);
