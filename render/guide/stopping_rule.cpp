@@ -12,7 +12,6 @@ namespace {
 constexpr int thesis_samples = 16;        // least number of the thesis's rules
 constexpr int outline_samples = 8;        // where few neighbours are alike, and each may miss what the others see
 constexpr int small_object_samples = 32;  // hardly all of them miss an object that fills a tenth of the pixel
-constexpr int bright_edge_samples = 16;   // hardly all of them miss the lamp: white pixels beside them do not count
 
 /// Sums over pixels around one.
 struct NoiseSum {
@@ -45,11 +44,12 @@ glm::dvec2 count_known(float value) {
 
 }  // namespace
 
-bool is_shown_white(const PixelSamples& pixel, double white) {
+bool is_shown_white(const PixelSamples& pixel, double white, double around) {
     const Rgb mean = pixel.mean();
     const double least = std::min({mean.x, mean.y, mean.z});
     if (!(least > white)) return false;
-    return least * (1.0 - 3.0 * std::sqrt(pixel.variance()) / luminance(mean)) > white;
+    const double variance = std::max(pixel.variance(), around / pixel.valid());
+    return least * (1.0 - 3.0 * std::sqrt(variance) / luminance(mean)) > white;
 }
 
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,

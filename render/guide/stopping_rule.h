@@ -21,6 +21,9 @@ inline constexpr double error_deviations = 1.585;
 /// .8: the share of the pixels in which noise is seen rises more steeply than the noise.
 double allow_noise(double error);
 
+/// Samples that tell whether a pixel is shown white: hardly all of them miss what is bright in it, or what is dark.
+inline constexpr int bright_edge_samples = 16;
+
 /// Errors that a viewer tolerates in a frame. Images have the frame's size.
 struct VisibleLimits {
     const Image<float>& threshold;  ///< cd/m2 (6.9)
@@ -42,8 +45,9 @@ struct MeanEstimate {
 };
 
 /// Returns whether a pixel is shown as white whatever its error: three standard errors less of all channels still are.
-/// @param white  radiance that the display shows as white
-bool is_shown_white(const PixelSamples& pixel, double white);
+/// @param white   radiance that the display shows as white
+/// @param around  variance of a sample's luminance, as the pixels around tell it: counts where it is the larger one
+bool is_shown_white(const PixelSamples& pixel, double white, double around = 0.0);
 
 /// Mean over the pixels around, without the pixel itself (mean_around), of the standard deviation of their samples'
 /// light (PixelSamples::Error::total): of independent samples with as much error as theirs.

@@ -168,15 +168,25 @@ TEST(ProgressiveSampling, SamplesFollowTheTolerance) {
     }
 }
 
-TEST(ProgressiveSampling, EdgesOfLampsShownWhiteStop) {
+TEST(ProgressiveSampling, PixelsShownWhiteStop) {
     SamplingPlan plan = make_plan(Sampling::threshold, 4096, 8, 8, 1e-3f);
     const Distribution brighter = [](RandomStream& random) { return 10.0 + random.next(); };
-    plan.white = 9.0;
-    EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), 4096) << "no lamp's edge";
-    plan.bright_edges = Image<std::uint8_t>(8, 8, 1);
-    EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), 16);
-    plan.white = 11.0;
-    EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), 4096);
+    for (const bool edges : {false, true}) {
+        if (edges) plan.bright_edges = Image<std::uint8_t>(8, 8, 1);
+        plan.white = 9.0;
+        EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), 16);
+        plan.white = 11.0;
+        EXPECT_EQ(sample_picture(plan, 1, brighter)(3, 3).taken(), 4096);
+    }
+}
+
+TEST(ProgressiveSampling, PixelsThatMissedWhatIsDarkDoNotCountAsWhite) {
+    // The mean is not white. A fifth of the pixels meet nothing dark in 16 samples, and the others tell them.
+    SamplingPlan plan = make_plan(Sampling::threshold, 1024, 20, 20, 1e-3f);
+    plan.white = 1.0;
+    const Image<PixelSamples> pixels =
+        sample_picture(plan, 1, [](RandomStream& random) { return random.next() < 0.1 ? 0.0 : 1.1; });
+    for (const PixelSamples& pixel : pixels.pixels) EXPECT_EQ(pixel.taken(), 1024);
 }
 
 TEST(ProgressiveSampling, EdgesOfLampsAndSmallObjectsBeginWithMoreSamples) {
