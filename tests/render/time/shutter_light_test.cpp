@@ -122,6 +122,39 @@ TEST(ShutterLight, NothingIsKnownWhereLightsMoveFar) {
     EXPECT_FALSE(find_middle(plate.scene, 0.15f).has_value()) << "a lamp, not a box";
 }
 
+TEST(ShutterLight, NothingIsKnownWhereLightsBrightenOrDim) {
+    const auto is_known = [](Track<double> Light::*value, double from, double to) {
+        Plate plate;
+        add_light(plate.scene, Light::Kind::spot, glm::dvec3(5.0), {0.0, 4.0, 0.0}, z_to_down);
+        (plate.scene.lights.back().*value).values = {from, to};
+        return find_middle(plate.scene, 0.15f).has_value();
+    };
+    EXPECT_TRUE(is_known(&Light::intensity, 1.0, 0.9));
+    EXPECT_FALSE(is_known(&Light::intensity, 1.0, 0.8));
+    EXPECT_FALSE(is_known(&Light::intensity, 0.8, 1.0));
+    EXPECT_TRUE(is_known(&Light::outer_cone, 0.5, 0.52));
+    EXPECT_FALSE(is_known(&Light::outer_cone, 0.5, 0.6));
+    EXPECT_FALSE(is_known(&Light::inner_cone, 0.3, 0.1));
+    EXPECT_TRUE(is_known(&Light::range, 10.0, 10.2));
+    EXPECT_FALSE(is_known(&Light::range, 10.0, 11.0));
+    EXPECT_FALSE(is_known(&Light::range, 10.0, 0.0)) << "0 is without end";
+
+    const auto shines = [](double to, bool around) {
+        Plate plate;
+        const Track<glm::dvec3> light = move_between(glm::dvec3(0.5), glm::dvec3(to));
+        plate.scene.meshes[2].material = add_lambert(plate.scene, glm::dvec3(0.0), glm::dvec3(0.5));
+        if (around)
+            plate.scene.environment.radiance = light;
+        else
+            plate.scene.materials.back().glow.color = light;
+        return find_middle(plate.scene, 0.15f).has_value();
+    };
+    for (const bool around : {false, true}) {
+        EXPECT_TRUE(shines(0.55, around));
+        EXPECT_FALSE(shines(0.65, around));
+    }
+}
+
 TEST(ShutterLight, TheBoundHoldsForSpheres) {
     // A sphere that lies wholly above the horizon hides cos / d^2 of the irradiance, by r^2 (closed form).
     std::mt19937 random(5);
