@@ -61,6 +61,9 @@ class ShutterLight {
           movers_(find_movers(frame, sample)),
           dimmed_(find_dimming(frame, sample)) {}
 
+    /// Returns whether nothing but the camera differs at the sample's time.
+    bool is_still() const { return movers_.empty() && dimmed_ == 0.0f; }
+
     /// Irradiance at a surface of the sample's time, where it is known to this accuracy. Any thread may call it.
     /// @param task  casts rays at the shutter's centre
     std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
