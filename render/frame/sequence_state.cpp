@@ -51,7 +51,7 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
       static_spans(shot.scene, shot.pose_plan, shot.shots, [this](std::int64_t frame) { return shot.shutter(frame); }),
       here(shot, shot.pose_plan),
       keyframe(shot, here),
-      light_breaks(shot.scene, shot.pose_plan, shot.shutter(shot.range.first)),
+      light_breaks(shot.scene, shot.pose_plan, [this](std::int64_t frame) { return shot.seconds(frame); }),
       planner(shot, light_breaks),
       estimate_light(shot, shot_light, keyframe),
       motion(shot, here),

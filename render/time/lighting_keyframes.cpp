@@ -5,7 +5,6 @@
 
 #include "engine/pose/parts.h"
 #include "engine/pose/steady.h"
-#include "render/time/shutter.h"
 
 namespace aleph {
 
@@ -91,7 +90,7 @@ std::int64_t find_base_keyframe(const LightingKeyframes& keyframes, std::int64_t
 /// Sources of light in a frame, and the objects that are there to receive it.
 struct LightBreaks::Sources {
     std::vector<int> there;     ///< instances that can come or go: shown or not; nodes of the visible lamps
-    std::vector<float> values;  ///< radiance and intensity, channel by channel
+    std::vector<float> values;  ///< radiance, intensity by channel, range and cone of lamps
 
     void add(const Rgb& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
 };
@@ -108,7 +107,10 @@ LightBreaks::Sources LightBreaks::look(double seconds) {
         for (const int node : plan_.light_nodes) {
             if (posed.visible[node] == 0) continue;
             sources.there.push_back(node);
-            sources.add(pose_light(scene_, node, posed.world[node], seconds).intensity);
+            const LightValues light = pose_light(scene_, node, posed.world[node], seconds);
+            sources.add(light.intensity);
+            sources.values.push_back(static_cast<float>(light.range));
+            if (light.kind == Light::Kind::spot) sources.values.push_back(static_cast<float>(light.outer_cone));
         }
     }
     if (plan_.environment) {
@@ -122,8 +124,7 @@ const std::vector<std::int64_t>& LightBreaks::find(std::int64_t first, std::int6
     const auto [entry, is_new] = found_.try_emplace({first, last});
     if (!is_new) return entry->second;
     std::vector<Sources> frames;
-    for (std::int64_t frame = first; frame <= last; ++frame)
-        frames.push_back(look(find_shutter_center(scene_, shutter_, frame)));
+    for (std::int64_t frame = first; frame <= last; ++frame) frames.push_back(look(seconds_(frame)));
     std::vector<float> largest(frames.front().values.size(), 0.0f);
     for (const Sources& sources : frames) raise_to(largest, sources.values);
     for (std::size_t i = 1; i < frames.size(); ++i) {

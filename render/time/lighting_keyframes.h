@@ -45,13 +45,13 @@ std::int64_t find_base_keyframe(const LightingKeyframes& keyframes, std::int64_t
 class LightBreaks {
   public:
     /// Keeps references to scene and plan.
-    /// @param shutter  of the camera, at whose centre frames are looked at (find_shutter_center)
-    LightBreaks(const Scene& scene, const PosePlan& plan, const glm::dvec2& shutter = glm::dvec2(0.0))
-        : scene_(scene), plan_(plan), shutter_(shutter) {}
+    /// @param seconds  at which a frame is looked at (find_shutter_center)
+    LightBreaks(const Scene& scene, const PosePlan& plan, std::function<double(std::int64_t frame)> seconds)
+        : scene_(scene), plan_(plan), seconds_(std::move(seconds)) {}
 
     /// Frames after `first`, up to `last`, that differ from the frame before them by a jump: a mesh or a lamp comes or
-    /// goes; or the light of a lamp, of an emissive material or of the environment changes by more than a quarter of
-    /// the largest value that it has in the span.
+    /// goes; or the light of a lamp (its range and cone, too), of an emissive material or of the environment changes by
+    /// more than a quarter of the largest value that it has in the span.
     const std::vector<std::int64_t>& find(std::int64_t first, std::int64_t last);
 
     /// Returns whether such a change lies within an interval of time, which may be slow there: it is looked at nine
@@ -65,7 +65,7 @@ class LightBreaks {
 
     const Scene& scene_;
     const PosePlan& plan_;
-    const glm::dvec2 shutter_;
+    const std::function<double(std::int64_t frame)> seconds_;
     std::optional<ScenePose> posed_;
     std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::int64_t>> found_;
 };

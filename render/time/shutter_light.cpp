@@ -39,6 +39,12 @@ float find_turn(const glm::mat3& from, const glm::mat3& to) {
     return turn;
 }
 
+/// Share of the larger of two that they differ by.
+float find_difference(const Rgb& a, const Rgb& b) {
+    const float largest = largest_channel(glm::max(a, b));
+    return largest > 0.0f ? largest_channel(glm::abs(a - b)) / largest : 0.0f;
+}
+
 const glm::vec3 far_away(infinite);
 
 /// Adds the lights without surfaces that move.
@@ -53,6 +59,10 @@ void add_lights(const ShadingScene& frame, const ShadingScene& sample, std::vect
         }
         if (before.kind != Light::Kind::point)
             mover.turned = static_cast<float>(glm::distance(after.direction, before.direction));
+        if (before.kind == Light::Kind::spot) {
+            mover.turned += static_cast<float>(std::max(std::abs(after.inner_cone - before.inner_cone),
+                                                        std::abs(after.outer_cone - before.outer_cone)));
+        }
         const bool is_dark = before.intensity == Rgb(0.0f) && after.intensity == Rgb(0.0f);
         if (!is_dark && mover.moved + mover.turned > 0.0f) movers.push_back(mover);
     }
@@ -117,6 +127,22 @@ float find_light_change(const std::vector<ShutterMover>& movers, const glm::vec3
     return change;
 }
 
+float find_dimming(const ShadingScene& frame, const ShadingScene& sample) {
+    float most = find_difference(frame.environment.radiance, sample.environment.radiance);
+    for (const int i : frame.emitting) {
+        if (!frame.instances[i].visible) continue;
+        const int m = frame.instances[i].material;
+        most = std::max(most, find_difference(frame.materials[m].values.emission, sample.materials[m].values.emission));
+    }
+    for (std::size_t i = 0; i < frame.pose->lights.size(); ++i) {
+        const LightValues &before = frame.pose->lights[i], &after = sample.pose->lights[i];
+        // 1 - (d / range)^4 of the light is left (lights.cpp).
+        const float range = find_difference(Rgb(before.range), Rgb(after.range));
+        most = std::max(most, find_difference(before.intensity, after.intensity) + 4.0f * range);
+    }
+    return most;
+}
+
 std::optional<Rgb> ShutterLight::read(const PixelSurface& still, float accuracy, RayTask& task, RecordUse& used) const {
     if (carried_ != nullptr) {
         if (const std::optional<Rgb> found = carried_->find(still, accuracy, task, &used)) return found;
@@ -135,7 +161,8 @@ std::optional<Rgb> ShutterLight::find(const PixelSurface& surface, float accurac
     if (!(turn <= accuracy)) return std::nullopt;
     const glm::vec3 moved = surface.point.position + shift_ - point->position;
     const float hidden = find_hidden_change(movers_, point->position, moved, surface.hit.instance, accuracy);
-    if (hidden + find_light_change(movers_, point->position, moved) > accuracy) return std::nullopt;
+    const float change = hidden + dimmed_ + find_light_change(movers_, point->position, moved);
+    if (!(change <= accuracy)) return std::nullopt;
     PixelSurface still = surface;
     still.point = *point;
     RecordUse of_these;

@@ -9,7 +9,8 @@
 // - What moves. A sphere of radius r at distance d hides at most F = min(1, r^2 / d^2) of the light that arrives. If it
 //   moves by s, F changes by no more than min(F, 3 F s / d). The sum over all things that move is at most alpha.
 // - Lights that move. What one brings from a distance d changes by about min(1, 3 (s / d + a)) of it, a the angle by
-//   which it turns. All of the light may be that of the one that changes most.
+//   which it turns or its cone widens. All of the light may be that of the one that changes most.
+// - Lights that brighten or dim, by a share of the brighter one. More than a quarter ends all such light (LightBreaks).
 // Elsewhere light is found at the sample's own time, by a path.
 
 #include <optional>
@@ -27,7 +28,7 @@ struct ShutterMover {
     float radius = 0.0f;     ///< m, the larger one
     float moved = 0.0f;      ///< m, of its point that moves farthest; infinite if it is seen at one of the times only
     bool shines = false;
-    float turned = 0.0f;  ///< radians, about; of what shines
+    float turned = 0.0f;  ///< radians, about, a wider cone included; of what shines
 };
 
 /// Instances and lights that differ in place or direction between two poses of a scene.
@@ -43,6 +44,9 @@ float find_hidden_change(const std::vector<ShutterMover>& movers, const glm::vec
 /// About the share of a point's light that changes because lights move; the other parameters as above.
 float find_light_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved);
 
+/// The largest share by which a light of either pose is brighter than in the other one.
+float find_dimming(const ShadingScene& frame, const ShadingScene& sample);
+
 /// Known indirect light of a frame, for surfaces seen at the time of one of its samples.
 class ShutterLight {
   public:
@@ -54,7 +58,11 @@ class ShutterLight {
           shift_(sample.anchor - frame.anchor),
           carried_(carried),
           cache_(cache),
-          movers_(find_movers(frame, sample)) {}
+          movers_(find_movers(frame, sample)),
+          dimmed_(find_dimming(frame, sample)) {}
+
+    /// Returns whether nothing but the camera differs at the sample's time.
+    bool is_still() const { return movers_.empty() && dimmed_ == 0.0f; }
 
     /// Irradiance at a surface of the sample's time, where it is known to this accuracy. Any thread may call it.
     /// @param task  casts rays at the shutter's centre
@@ -69,6 +77,7 @@ class ShutterLight {
     const CarriedLight* carried_;
     const IrradianceCache* cache_;
     std::vector<ShutterMover> movers_;
+    float dimmed_;
 };
 
 }  // namespace aleph

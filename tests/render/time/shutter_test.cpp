@@ -1,7 +1,9 @@
-// The shutter's interval, where cuts end it, and the times within it.
+// The interval of a shutter, where cuts end it, the times within it, and frames at which the light jumps.
 
 #include "render/time/shutter.h"
+#include "render/frame/sequence_state.h"
 #include "tests/support/keyed_track.h"
+#include "tests/support/scenes/shot_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -117,6 +119,37 @@ TEST(Shutter, TimesAreEvenAndWithin) {
         }
     }
     EXPECT_EQ(place_in_shutter({3.5, 3.5}, 11, 2, 0.7), 3.5);
+}
+
+/// A second camera looks from frame 10 on. The lamp is a spot light.
+std::vector<std::int64_t> find_breaks(Scene scene, const glm::dvec2& shutter) {
+    scene.lights[0].kind = Light::Kind::spot;
+    add_camera(scene, {0.5, 1.5, 4.0}, {-0.5, 1.0, -2.0});
+    scene.cameras[1].shutter = shutter;
+    return SequenceState(scene, shot_settings(10), {{0, 0}, {10, 1}}).light_breaks.find(10, 20);
+}
+
+Track<double> step_after_frame_14(double from, double to) {
+    return keyed<double>({0.0, 14.5 / 30.0}, {from, to}, Interpolation::step);
+}
+
+TEST(LightBreaks, FramesAreLookedAtAtTheShutterOfTheirOwnCamera) {
+    Scene scene = make_shot();
+    scene.lights[0].intensity = step_after_frame_14(0.0, 2.0);
+    EXPECT_EQ(find_breaks(scene, {0.0, 0.0}), std::vector<std::int64_t>{15});
+    EXPECT_EQ(find_breaks(scene, {0.9, 0.9}), std::vector<std::int64_t>{14});
+}
+
+TEST(LightBreaks, RangesAndConesJump) {
+    const auto jumps = [](Track<double> Light::*value, double to) {
+        Scene scene = make_shot();
+        scene.lights[0].*value = step_after_frame_14(0.6, to);
+        return find_breaks(scene, glm::dvec2(0.0));
+    };
+    for (Track<double> Light::*value : {&Light::range, &Light::outer_cone}) {
+        EXPECT_EQ(jumps(value, 1.0), std::vector<std::int64_t>{15});
+        EXPECT_TRUE(jumps(value, 0.7).empty());
+    }
 }
 
 }  // namespace
