@@ -54,13 +54,14 @@ def study(scene, frames="", sweep=None, *, variants=None, pictures=None, size=(3
     variants: settings by name, such as {"mine": {"vision": "mine"}}.
     pictures: frames that other programs made, such as {"other": "other.####.exr"}: judged without costs.
     reference: {"passes": 4, "spp": 32}: path tracing that judges the variants.
+    viewers: models of vision that judge, such as [{"name": "castle", "settings": {"vision": "castle"}}].
     seeds: renderings of each with random numbers of their own.
     folder: keeps the pictures and finished runs; None: they are thrown away.
     Returns a Table with one row for each variant and frame.
     """
     one = isinstance(scene, dict) or not (sweep or variants or pictures)
     if one and (frames or settings or reference or metrics or viewers or seeds != 1):
-        raise TypeError("a study says these itself; beside a scene file give sweep, variants or pictures")
+        raise TypeError("a study has these itself; a scene file needs sweep, variants or pictures beside them")
     if one:
         asked = scene if isinstance(scene, dict) else _os.fspath(scene)
     else:
