@@ -230,6 +230,7 @@ answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
 answers 2 'no file' aleph study first.json "${study[@]}" --sweep spp=1 --pictures other=none.####.exr
 is [ "$(wc -l <swept/study.csv)" = 3 ]
+answers 0 'warning: frame 99 lies outside the shot, which has the frames 0 to 59' aleph study first.json "${study[@]}" --frames 99 --sweep spp=1
 is grep -q '"command": "aleph study first.json' swept/study.json
 is grep -q '"share_beyond"' swept/study.json
 is grep -q '"file": "runs/' swept/study.json
