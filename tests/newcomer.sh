@@ -118,6 +118,12 @@ killed_after killed.json render first.json --size 64x48 --spp 4 -q -o killed/ --
 is [ "$(tail -1 killed.json)" = "}" ]
 is grep -q '"frame": 0' killed.json
 
+# A lamp that shines away from all there is.
+sed 's/"translation": \[0, 3, 0\]/"translation": [0, -3, 0]/' first.json >below.json
+answers 0 'exposure  1, since its frames show no direct light' aleph explain below.json
+answers 0 'warning: every pixel is black' aleph render below.json --frames 0 "${quick[@]}" -o below.exr
+rm below.*
+
 # Options.
 answers 2 'there is no option --frame; did you mean "--frames"?' aleph render first.json --frame 0
 answers 2 'did you mean "--spp"?' aleph render first.json --sapp 4
@@ -161,6 +167,9 @@ explains 2 '/nodes/0/position: unknown key "position"; a node'"'"'s place is "tr
 explains 2 '"operations": [{"rotate_z": 0}, {"rotate_y": 90}, {"rotate_x": 0}]' '"rotation": [0, 90, 0]'
 explains 2 'a "shape" and a "material" that has "emission"' '"light": {"type": "area"}'
 explains 2 'write "error": 1' '"camera": {}' '"settings": {"sampling": "progressive"},'
+explains 2 '/keys/0: expected a key: [time, value] or a cubic key' '"translation": {"keys": [{"frame": 0, "value": [0, 0, 1]}]}'
+explains 2 '/keys/0/1: expected a list of 3 numbers, found 0' '"translation": {"keys": [[0, 0, 0, 1], [9, 1, 0, 1]]}'
+explains 0 'keys lie outside the frames 0 to 20' '"translation": {"keys": [[100, [0, 0, 0]], [200, [1, 0, 0]]]}'
 explains 2 'write {"type": "sphere"}' '"shape": "sphere"'
 explains 2 'name the node that has the "include"' '"parent": "wheel"' '"include": "car.glb",'
 printf '{"aleph": 1,\n "fps": 30\n "frames": [0, 1]}\n' >key.json
@@ -184,7 +193,7 @@ scene shared '"camera": {}, "translation": [0, {"named": "height"}, 5]' '"named"
 silent aleph render shared.json "${quick[@]}" --frames 0 -q -o shared.exr
 explains 2 'there is no named value "hight"; did you mean "height"?' \
   '"translation": [0, {"named": "hight"}, 5]' '"named": {"height": 1.5},'
-explains 2 '/nodes/0/translation: expected 3 numbers or an object with "keys" or "values", found 1.5; this value is defined at /named/height' \
+explains 2 '/nodes/0/translation: expected a list of 3 numbers or an object with "keys" or "values", found 1.5; this value is defined at /named/height' \
   '"translation": {"named": "height"}' '"named": {"height": 1.5},'
 
 # Scenes for other programs.
@@ -221,6 +230,7 @@ answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
 answers 2 'no file' aleph study first.json "${study[@]}" --sweep spp=1 --pictures other=none.####.exr
 is [ "$(wc -l <swept/study.csv)" = 3 ]
+answers 0 'warning: frame 99 lies outside the shot, which has the frames 0 to 59' aleph study first.json "${study[@]}" --frames 99 --sweep spp=1
 is grep -q '"command": "aleph study first.json' swept/study.json
 is grep -q '"share_beyond"' swept/study.json
 is grep -q '"file": "runs/' swept/study.json
@@ -247,6 +257,8 @@ silent aleph render first.json --frames 0-1 "${quick[@]}" --seed 5 -q -o other/
 answers 1 'frames differ; the largest difference is in frame' aleph compare 'both/first.####.exr' other/
 is [ "$(grep -cE '^ *[01] ' output)" = 2 ]
 answers 0 'same' aleph compare 'both/first.####.exr' new/deep/
+answers 2 "there is no file or folder 'others/'" aleph compare 'both/first.####.exr' others/
+answers 2 "has no channel 'forward.u': give files of \`aleph maps\`" aleph compare both/first.0000.exr other/first.0000.exr --seen other/first.0000.exr
 answers 1 'frames differ' aleph compare 'both/first.####.exr' other/ --junit results.xml
 is grep -q '<failure message="' results.xml
 

@@ -175,7 +175,7 @@ class FirstMismatch : public Visitor {
             mismatch_ = deepest;
         } else if (count_of_this_type == 1) {
             mismatch_ = of_this_type;
-        } else if (value_.is_object()) {
+        } else if (value_.is_object() && !properties.empty()) {
             all_known(properties);
         }
         return false;

@@ -40,6 +40,7 @@ void complete(Scene& scene, const SceneFormats& formats) {
     add_mesh_warnings(scene);
     check_scales(scene, formats);
     add_radian_warnings(scene);
+    add_key_warnings(scene);
     add_cut_warnings(scene);
     add_missing_light(scene);
 }

@@ -57,9 +57,7 @@ const SceneFormat& require_format(const SceneFormats& formats, FormatUse use, co
     if (format != nullptr && serves(*format, use)) return *format;
     const std::string known = list_endings(formats, use);
     if (use == FormatUse::save) {
-        throw InputError(
-            file, place,
-            fmt::format("the name of a scene file must end in {}: load_scene tells files apart by it", known));
+        throw InputError(file, place, fmt::format("the name of a scene file must end in {}", known));
     }
     throw InputError(file, place,
                      fmt::format("files of the kind \"{}\" are not read; expected a {} file",

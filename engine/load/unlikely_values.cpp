@@ -11,6 +11,7 @@
 #include "engine/load/warnings.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/operations.h"
+#include "engine/scene/visit.h"
 
 namespace aleph {
 
@@ -100,11 +101,16 @@ std::set<std::int64_t> find_jumps(const Scene& scene, const Node* node, const Fr
 }  // namespace
 
 void add_radian_warnings(Scene& scene) {
-    std::vector<std::string> rotations, cameras;
+    std::vector<std::string> rotations, cameras, cones;
     double fov = 0.0;
     for (const Node& node : scene.nodes) {
         if (node.include != no_index) continue;  // other formats have no degrees
         if (look_like_radians(find_angles(node))) rotations.push_back(node.name);
+        if (node.light != no_index) {
+            std::vector<double> angles;
+            for_each_key(scene.lights[node.light].outer_cone, [&](double angle) { angles.push_back(angle); });
+            if (look_like_radians(angles)) cones.push_back(node.name);
+        }
         if (node.camera == no_index || scene.cameras[node.camera].orthographic) continue;
         double widest = 0.0;
         for_each_key(scene.cameras[node.camera].fov, [&](double v) { widest = std::max(widest, v); });
@@ -118,6 +124,25 @@ void add_radian_warnings(Scene& scene) {
                             fov, fov * degrees_per_radian));
     add_warning(scene, rotations, "node",
                 "the degrees of its rotation look like radians; 1.5708 radians are 90 degrees");
+    add_warning(scene, cones, "light of node", "its \"outer_cone\" looks like radians; 0.7854 radians are 45 degrees");
+}
+
+void add_key_warnings(Scene& scene) {
+    const FrameRange range = frame_range(scene);
+    const double first = scene.film.frame_rate.seconds_of(range.first),
+                 last = scene.film.frame_rate.seconds_of(range.last);
+    std::vector<std::string> names;
+    for (const Node& node : scene.nodes) {
+        bool outside = false;
+        visit_tracks(node, [&](const auto& property) {
+            const std::vector<double>& times = property.sampling.times;
+            if (property.sampling.kind == TimeSampling::Kind::acyclic && is_animated(property))
+                outside = outside || times.front() > last || times.back() < first;
+        });
+        if (outside && node.include == no_index) names.push_back(node.name);
+    }
+    add_warning(scene, names, "node",
+                fmt::format("keys lie outside the frames {} to {}, so they move nothing", range.first, range.last));
 }
 
 void add_cut_warnings(Scene& scene) {

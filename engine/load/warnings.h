@@ -28,8 +28,11 @@ void add_rotation_warnings(Scene& scene);
 /// Meshes that no node uses do not count.
 void add_mesh_warnings(Scene& scene);
 
-/// Warns of fields of view and rotations of the scene file that look like radians.
+/// Warns of fields of view, rotations and cones of spots of the scene file that look like radians.
 void add_radian_warnings(Scene& scene);
+
+/// Warns of nodes of the scene file with keys that all lie before the frame range, or after it.
+void add_key_warnings(Scene& scene);
 
 /// Warns of cuts outside the frame range, and of cameras that jump by step keys where there is no cut.
 void add_cut_warnings(Scene& scene);

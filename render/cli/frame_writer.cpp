@@ -37,6 +37,10 @@ void warn_of_units(const FrameStatistics& frame) {
         frame.frame, median);
 }
 
+bool is_black(const Image<Rgb>& picture) {
+    return !picture.empty() && std::ranges::all_of(picture.pixels, [](const Rgb& pixel) { return pixel == Rgb(0.0f); });
+}
+
 /// Prints the share of the pixels that is estimated to err by more than was asked for, and why.
 void print_error(const FrameStatistics& frame) {
     if (!frame.error) return;
@@ -114,6 +118,8 @@ class FrameWriter {
         keep_rows();
         statistics_.finish();
         if (options_.quiet) return;
+        if (black_ == output_.frames.size())
+            std::cerr << "aleph: warning: every pixel is black: no light reaches what the camera sees\n";
         std::cerr << describe_copies(made_);
         print_files();
     }
@@ -202,6 +208,7 @@ class FrameWriter {
         if (output.statistics.error) estimates_.push_back(output.statistics.error->beyond);
         if (!output.statistics.error || output.statistics.error->beyond > most_beyond) missed_.push_back(frame);
         made_.push_back({frame, output.statistics.copy_of});
+        if (is_black(output.shaded.color)) ++black_;
         if (!options_.quiet && job_.settings.error > 0.0) print_error(output.statistics);
     }
 
@@ -260,6 +267,7 @@ class FrameWriter {
     std::vector<FinishedFrame> made_;
     std::vector<std::size_t> kept_;  ///< places of frames that others made
     double done_ = 0.0;              ///< frames
+    std::size_t black_ = 0;          ///< frames
     std::vector<double> estimates_;  ///< of the frames that tell
     std::vector<int> missed_;        ///< frames of describe_missed
 };

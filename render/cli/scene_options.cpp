@@ -131,15 +131,6 @@ SettingMap read_settings(const CLI::App& app) {
     return settings;
 }
 
-void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range) {
-    for (const int frame : frames) {
-        const std::optional<std::string> fault = describe_frame_outside(frame, range);
-        if (!fault) continue;
-        std::cerr << "aleph: warning: " << *fault << '\n';
-        return;
-    }
-}
-
 constexpr int max_threads = 4096;
 
 /// Notes the files of a scene for --watch, also where loading fails.
@@ -152,6 +143,15 @@ struct LoadedFiles {
 };
 
 }  // namespace
+
+void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range) {
+    for (const int frame : frames) {
+        const std::optional<std::string> fault = describe_frame_outside(frame, range);
+        if (!fault) continue;
+        std::cerr << "aleph: warning: " << *fault << '\n';
+        return;
+    }
+}
 
 void add_load_limits(CLI::App& app, LoadLimits& limits) {
     app.add_option_function<std::string>(

@@ -72,6 +72,9 @@ inline constexpr const char* maps_suffix = "-maps";
 /// @throws InputError
 RenderSettings join_settings(Scene& scene, SettingMap given, bool keeps_to_error);
 
+/// Prints a warning of the first frame that lies outside of the shot.
+void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range);
+
 /// A scene with its settings.
 struct PreparedScene {
     Scene scene;

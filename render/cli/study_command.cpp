@@ -9,6 +9,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/base/parallel.h"
+#include "engine/pose/pose.h"
 #include "perception/vision/vision_model.h"
 #include "render/cli/commands.h"
 #include "render/cli/scene_options.h"
@@ -184,8 +185,11 @@ int run(const StudyCommandOptions& options) {
     std::vector<StudyJudge> judges;
     for (const std::string& judge : options.judges) judges.push_back(parse_judge(judge));
     for (const std::string& variant : options.extras.errors) check_variant_name(prepared, variant);
-    for (const PreparedStudyScene& scene : prepared.scenes)
-        if (!options.quiet) print_warnings(scene.scene.source.warnings);
+    for (const PreparedStudyScene& scene : prepared.scenes) {
+        if (options.quiet) break;
+        print_warnings(scene.scene.source.warnings);
+        warn_of_frames_outside(scene.frames, frame_range(scene.scene));
+    }
     const std::filesystem::path folder =
         options.output.empty() ? study_folder(options.file) : std::filesystem::path(options.output);
     if (options.status) return print_count(prepared, folder);

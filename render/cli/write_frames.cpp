@@ -97,8 +97,7 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
     FrameClaims claims = claim_frames(prepared, options, prints);
     if (options.resume && options.stats.empty() && options.film.empty() &&
         std::ranges::all_of(prepared.frames, [&](int frame) { return claims.is_finished(frame); })) {
-        if (!options.quiet)
-            std::cerr << fmt::format("aleph: all {} frames were finished before\n", prepared.frames.size());
+        if (!options.quiet) std::cerr << "aleph: all frames were finished before\n";
         return;
     }
     std::optional<Scene> judged;

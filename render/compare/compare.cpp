@@ -53,9 +53,11 @@ void check_sizes(const ChannelImage& a, const ChannelImage& b) {
 std::vector<ChannelPair> match_all(const ChannelImage& a, const ChannelImage& b) {
     const auto only_a = missing_in(b, a), only_b = missing_in(a, b);
     if (!only_a.empty() || !only_b.empty()) {
-        throw InputError("", "",
-                         fmt::format("the pictures differ in channels: only the first has [{}], only the second [{}]",
-                                     fmt::join(only_a, ", "), fmt::join(only_b, ", ")));
+        throw InputError(
+            "", "",
+            fmt::format("the pictures differ in channels: only the first has [{}], only the second [{}]; --channels "
+                        "names those to compare",
+                        fmt::join(only_a, ", "), fmt::join(only_b, ", ")));
     }
     std::vector<ChannelPair> pairs;
     for (const Channel& channel : b.channels) {

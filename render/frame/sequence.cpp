@@ -46,7 +46,8 @@ bool has_same_triangles(const Scene& a, const Scene& b) {
 }
 
 /// From a small quick estimate of the first frame; where that is black, of the first of some later ones that is not.
-double find_exposure(const Shot& shot, FrameScene& scene) {
+/// Nothing where all of them are.
+std::optional<double> find_exposure(const Shot& shot, FrameScene& scene) {
     const glm::ivec2 size = find_measured_size(shot.settings.picture);
     const auto [first, last] = shot.range;
     const std::int64_t between = std::max<std::int64_t>(1, (last - first) / 8);
@@ -57,9 +58,9 @@ double find_exposure(const Shot& shot, FrameScene& scene) {
         const SampleHits centers = cast_centers(scene.rays(), scene.posed().view, &counts.primary);
         const std::optional<double> exposure = compute_exposure(
             compute_estimate(scene.lighting(), scene.posed().view, centers, {.exposure = shot.exposure}, counts));
-        if (exposure) return *exposure;
+        if (exposure) return exposure;
     }
-    return 1.0;
+    return std::nullopt;
 }
 
 }  // namespace
@@ -74,7 +75,10 @@ Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::strin
     }
     state_ = std::make_unique<SequenceState>(std::move(scene), without_forbidden(settings), shots);
     Shot& shot = state_->shot;
-    shot.exposure = shot.scene.film.exposure ? *shot.scene.film.exposure : find_exposure(shot, state_->here);
+    const std::optional<double> exposure =
+        shot.scene.film.exposure ? shot.scene.film.exposure : find_exposure(shot, state_->here);
+    shot.is_dark = !exposure;
+    shot.exposure = exposure.value_or(1.0);
 }
 
 Sequence::~Sequence() = default;
@@ -96,6 +100,11 @@ const Scene& Sequence::scene() const {
 double Sequence::exposure() const {
     return state().shot.exposure;
 }
+
+bool Sequence::is_dark() const {
+    return state().shot.is_dark;
+}
+
 FrameRange Sequence::range() const {
     return state().shot.range;
 }

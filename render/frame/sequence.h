@@ -114,6 +114,8 @@ class Sequence {
     const Scene& scene() const;
     /// Factor on radiance: the scene's, or computed from its first frame that is not black.
     double exposure() const;
+    /// True where the exposure is 1 because no frame that was tried shows direct light.
+    bool is_dark() const;
     /// First and last frame: the scene's, or the span of its keys.
     FrameRange range() const;
 

@@ -19,7 +19,7 @@ namespace aleph {
 /// @throws InputError if the camera has an aperture without a focus distance
 Lens find_lens(const Scene& scene, const CameraValues& camera);
 
-/// Const but for the exposure, which Sequence sets once. Frames are integers, times are seconds.
+/// Const but for the exposure and is_dark, which Sequence sets once. Frames are integers, times are seconds.
 struct Shot {
     /// @param camera_shots  list_camera_shots(given, name)
     Shot(Scene given, const RenderSettings& chosen, const std::vector<CameraShot>& camera_shots);
@@ -78,6 +78,7 @@ struct Shot {
     const bool blended;                            ///< blended surfaces are in the scene
     const std::vector<std::int64_t> crossed_cuts;  ///< find_crossed_cuts
     double exposure = 1.0;
+    bool is_dark = false;  ///< no exposure is given or found: the frames that were tried show no direct light
 };
 
 }  // namespace aleph

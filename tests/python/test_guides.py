@@ -141,7 +141,7 @@ def test_a_study_takes_no_arguments_of_a_scene(cornell):
     assert aleph.study(study)["variant"] == ["spp=1"]
     with pytest.raises(TypeError):
         aleph.study(study, frames=[2])
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match="a scene file needs sweep, variants or pictures"):
         aleph.study(cornell, frames=[2])
 
 

@@ -48,9 +48,12 @@ int compare(CompareOptions options) {
     if (first != second) {
         const auto& [sequence, picture] =
             first ? std::pair(options.first, options.second) : std::pair(options.second, options.first);
-        throw InputError(
-            "", "",
-            fmt::format("'{}' is a sequence and '{}' one picture", printable(sequence, 400), printable(picture, 400)));
+        std::error_code error;
+        throw InputError("", "",
+                         std::filesystem::exists(picture, error)
+                             ? fmt::format("'{}' is a sequence and '{}' one picture", printable(sequence, 400),
+                                           printable(picture, 400))
+                             : fmt::format("there is no file or folder '{}'", printable(picture, 400)));
     }
     if (!first && !options.cuts.empty()) throw InputError("", "--cuts", "applies to sequences only");
     require_ending("--diff", options.difference, {".png"});

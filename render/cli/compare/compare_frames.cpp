@@ -212,6 +212,9 @@ int compare_frames(const CompareOptions& options) {
             ChannelImage a = read_image(file), b = read_image(second.at(frame));
             ChannelImage threshold = thresholds.empty() ? ChannelImage{} : read_image(thresholds.at(frame));
             ChannelImage visible = seen.empty() ? ChannelImage{} : read_image(seen.at(frame));
+            if (!seen.empty() && !visible.find("forward.u"))
+                throw InputError(printable(seen.at(frame).string(), 400), "--seen",
+                                 "has no channel 'forward.u': give files of `aleph maps`");
             std::vector<ChannelImage*> all{&a, &b};
             if (!thresholds.empty()) all.push_back(&threshold);
             if (!seen.empty()) all.push_back(&visible);

@@ -188,8 +188,9 @@ void print_summary(const SequenceSummary& summary) {
         fmt::print("  white is {:g} cd/m2\n", summary.threshold->display_white);
         print_noise(*summary.threshold);
     }
-    fmt::print("  {} of {} frames differ; the largest difference is in frame {}\n", summary.different, summary.frames,
-               summary.worst_frame);
+    fmt::print("  {} of {} frames differ", summary.different, summary.frames);
+    if (summary.max_abs != 0.0) fmt::print("; the largest difference is in frame {}", summary.worst_frame);
+    fmt::print("\n");
 }
 
 }  // namespace

@@ -231,7 +231,8 @@ void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& 
         for (std::size_t i = 1; i < shots.size(); ++i) {
             out["camera_changes"].push_back({{"frame", shots[i].first}, {"camera", name(shots[i])}});
         }
-        out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.film.exposure ? "given" : "first frame"}};
+        const char* const from = scene.film.exposure ? "given" : sequence.is_dark() ? "no frame" : "first frame";
+        out["exposure"] = {{"factor", sequence.exposure()}, {"from", from}};
         for (std::size_t i = 0; i < shots.size(); ++i) {
             find_lens(scene, posed.cameras[shots[i].camera]);
             check_views(scene, posed, shots[i],

@@ -219,9 +219,10 @@ std::string explain_text(const ordered_json& explained, std::size_t max_objects)
         }
         text += '\n';
         const ordered_json& exposure = explained["exposure"];
-        text +=
-            fmt::format("exposure  {:.6g}, {}\n", exposure["factor"].get<double>(),
-                        exposure["from"] == "given" ? "as the scene says" : "from its first frame that is not black");
+        text += fmt::format("exposure  {:.6g}, {}\n", exposure["factor"].get<double>(),
+                            exposure["from"] == "given"      ? "as the scene says"
+                            : exposure["from"] == "no frame" ? "since its frames show no direct light"
+                                                             : "from its first frame that is not black");
     }
     text += environment_text(explained["environment"]);
     text += counts_text(explained["counts"]);

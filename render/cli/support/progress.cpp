@@ -44,6 +44,7 @@ ProgressLook progress_look(bool quiet, const std::string& form) {
 }
 
 std::string format_percent(double share) {
+    if (share < 1e-9) return "0";
     return share < 0.0995 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
 }
 

@@ -107,6 +107,35 @@ TEST_F(UnlikelyValues, OperationsInRadians) {
     }
 }
 
+TEST_F(UnlikelyValues, ConesOfSpotsInRadians) {
+    const auto load = [&](const std::string& cone) {
+        return load_lit(R"("nodes": [{"name": "spot", "light": {"type": "spot", "outer_cone": )" + cone + "}}]");
+    };
+    EXPECT_TRUE(has_warning(load("0.7854"), "light of node \"spot\": its \"outer_cone\" looks like radians"));
+    EXPECT_TRUE(has_warning(load(R"({"keys": [[0, 0.5236], [9, 1.0472]]})"), "radians"));
+    for (const char* degrees : {"45", "0.8", R"({"keys": [[0, 0.7854], [9, 30]]})"})
+        EXPECT_TRUE(load(degrees).source.warnings.empty()) << degrees;
+}
+
+TEST_F(UnlikelyValues, KeysOutsideTheFrames) {
+    const auto load = [&](const std::string& node) {
+        return load_lit(R"("frames": [10, 20], "nodes": [{"name": "ball", )" + node + "}]");
+    };
+    const auto keys = [](const std::string& from, const std::string& to) {
+        return "{\"keys\": [[" + from + ", [0, 0, 0]], [" + to + ", [1, 1, 1]]]}";
+    };
+    const std::string said = "node \"ball\": keys lie outside the frames 10 to 20, so they move nothing";
+    for (const auto& [from, to] : {std::pair{"21", "40"}, {"0", "9"}}) {
+        EXPECT_TRUE(has_warning(load("\"translation\": " + keys(from, to)), said)) << from;
+        EXPECT_TRUE(has_warning(load("\"operations\": [{\"scale\": " + keys(from, to) + "}]"), said)) << from;
+    }
+    EXPECT_TRUE(has_warning(load(R"("visible": {"keys": [[30, true], [40, false]]})"), said));
+    for (const auto& [from, to] : {std::pair{"20", "40"}, {"0", "10"}, {"0", "40"}, {"12", "13"}})
+        EXPECT_TRUE(load("\"translation\": " + keys(from, to)).source.warnings.empty()) << from;
+    EXPECT_TRUE(load(R"("scale": {"values": [1, 2, 1], "start": 0, "period": 2})").source.warnings.empty());
+    EXPECT_TRUE(load(R"("scale": {"keys": [[30, 2], [40, 2]]})").source.warnings.empty()) << "nothing to move";
+}
+
 TEST_F(UnlikelyValues, CutsOutsideTheFrames) {
     const auto load = [&](const std::string& cuts) { return load_lit(R"("frames": [5, 20], "cuts": )" + cuts); };
     EXPECT_TRUE(has_warning(load("[7, 50]"), "cut at frame 50 lies outside the frames 5 to 20"));

@@ -9,7 +9,7 @@ TEST(BadSceneFile, Materials) {
     expect_all_refused({
         material("\"roughnes\": 0.5", "/roughnes", "did you mean \"roughness\""),
         material("\"texture\": \"a.png\"", "/texture", "normal_texture"),
-        material("\"base_color\": 0.5", "/base_color", "expected 3 numbers"),
+        material("\"base_color\": 0.5", "/base_color", "expected a list of 3 numbers"),
         material("\"base_color\": [0.5, 0.5, 1.5]", "/base_color/2", "between 0 and 1"),
         material("\"base_color\": [0.5, \"x\", 1]", "/base_color/1", "a number, found the text \"x\""),
         material("\"roughness\": -0.1", "/roughness", "between 0 and 1"),
@@ -34,7 +34,7 @@ TEST(BadSceneFile, Materials) {
         material("\"thickness\": {\"keys\": [[0, 1], [5, -1]]}", "/thickness/keys/1/1", "at least 0"),
         material("\"attenuation_distance\": -1", "/attenuation_distance", "at least 0"),
         material("\"attenuation_color\": [0, 2, 0]", "/attenuation_color/1", "between 0 and 1"),
-        material("\"attenuation_color\": 0.5", "/attenuation_color", "expected 3 numbers"),
+        material("\"attenuation_color\": 0.5", "/attenuation_color", "expected a list of 3 numbers"),
         material("\"clearcoat\": 1.5", "/clearcoat", "between 0 and 1"),
         material("\"clearcoat_roughness\": -0.5", "/clearcoat_roughness", "between 0 and 1"),
         material("\"clearcoat_normal_scale\": [1, 1]", "/clearcoat_normal_scale", "a number"),
@@ -104,7 +104,7 @@ TEST(BadSceneFile, CamerasAndLights) {
 TEST(BadSceneFile, Nodes) {
     expect_all_refused({
         node("\"translate\": [0, 0, 0]", "/translate", "did you mean \"translation\""),
-        node("\"translation\": [0, 0]", "/translation", "expected 3 numbers, found a list of 2"),
+        node("\"translation\": [0, 0]", "/translation", "expected a list of 3 numbers, found a list of 2"),
         node("\"translation\": \"up\"", "/translation", "found the text \"up\""),
         node("\"translation\": [0, null, 0]", "/translation/1", "found null"),
         node("\"translation\": [0, 1e19, 0]", "/translation/1", "1e+18"),
@@ -115,7 +115,7 @@ TEST(BadSceneFile, Nodes) {
         node("\"rotation\": {\"axis\": [0, 1, 0], \"degres\": 1}", "/rotation/degres", "did you mean \"degrees\""),
         node("\"rotation\": {\"axis\": [0, 1, 0], \"degrees\": {\"keys\": [[0, \"x\"]]}}", "/rotation/degrees/keys/0/1",
              "a number"),
-        node("\"scale\": \"big\"", "/scale", "a number, 3 numbers or"),
+        node("\"scale\": \"big\"", "/scale", "a number, a list of 3 numbers or"),
         node("\"scale\": [1, 1, {}]", "/scale/2", "empty object"),
         node("\"matrix\": [1, 0, 0, 0]", "/matrix", "16 numbers"),
         node("\"matrix\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0.5,1]", "/matrix/14", "last row"),
@@ -186,6 +186,7 @@ TEST(BadSceneFile, KF10_KF11_KeyTimes) {
         keys("\"keys\": [[0, 1], [1e19, 1]]", "/keys/1/0", "1e+18"),
         keys("\"keys\": [[\"0\", 1]]", "/keys/0/0", "a time"),
         keys("\"keys\": []", "/keys", "found a list of 0"),
+        keys("\"keys\": [{\"frame\": 0}]", "/keys/0", "a key: [time, value]"),
         keys("\"keys\": [[0]]", "/keys/0", "a key: [time, value]"),
         keys("\"keys\": [[0, 1, 2]]", "/keys/0", "found a list of 3"),
         keys("\"keys\": [[0, 1, 2, 3]]", "/keys/0", "cubic"),

@@ -102,7 +102,7 @@ TEST(BadSceneFile, RP21_TopLevel) {
         scene("\"nodes\": {}", "/nodes", "expected a list of nodes"),
         scene("\"nodes\": [7]", "/nodes/0", "expected a node, found 7"),
         scene("\"name\": 5", "/name", "a name"),
-        scene("\"fps\": 0", "/fps", "found 0"),
+        scene("\"fps\": 0", "/fps", "a whole number from 1 to 1000000000, found 0"),
         scene("\"fps\": \"0/1\"", "/fps", "found the text \"0/1\""),
         scene("\"fps\": -30", "/fps", "found -30"),
         scene("\"fps\": 23.976", "/fps", "30000/1001"),

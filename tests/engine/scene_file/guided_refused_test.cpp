@@ -55,7 +55,7 @@ TEST(GuidedRefused, FollowPath) {
         path(line, "", "\"at\" is missing"),
         path(R"("at": 0)", "", "\"points\" is missing"),
         path(line + R"(, "at": 0, "close": true)", "/close", "did you mean \"closed\"?"),
-        path(R"("points": [[0, 0, 0]], "at": 0)", "/points", "a list of points, found a list of 1"),
+        path(R"("points": [[0, 0, 0]], "at": 0)", "/points", "a list of 2 points or more, found a list of 1"),
         path(R"("points": [[0, 0, 0], [0, 0]], "at": 0)", "/points/1", "3 numbers"),
         path(R"("points": [[1, 2, 3], [1, 2, 3], [1, 2, 3]], "at": 0)", "/points", "no length"),
         path(R"("points": [[1, 2, 3], [2, 2, 3], [1, 2, 3]], "at": 0, "closed": true)", "/points", "three different"),

@@ -60,7 +60,7 @@ TEST(NamedValues, Refused) {
 TEST(NamedValues, FaultsNameTheUseAndTheDefinition) {
     expect_all_refused({
         scene(R"("named": {"a/b": [1, 2]}, "nodes": [{"translation": {"named": "a/b"}}])", "/nodes/0/translation",
-              "expected 3 numbers, found a list of 2; this value is defined at /named/a~1b"),
+              "expected a list of 3 numbers, found a list of 2; this value is defined at /named/a~1b"),
         scene(R"("named": {"swing": {"keys": [[0, 1], [5, 2], [4, 3]]}}, "nodes": [{"scale": {"named": "swing"}}])",
               "/nodes/0/scale/keys/2/0",
               "is not above the time before; this value is defined at /named/swing/keys/2/0"),

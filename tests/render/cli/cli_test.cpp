@@ -189,6 +189,13 @@ TEST(Progress, Durations) {
     EXPECT_EQ(format_duration(0.0 / 0.0), "?");
 }
 
+TEST(Progress, Percents) {
+    EXPECT_EQ(format_percent(7.5e-18), "0");
+    EXPECT_EQ(format_percent(1.04e-6), "0.0001");
+    EXPECT_EQ(format_percent(0.0994), "9.9");
+    EXPECT_EQ(format_percent(0.0996), "10");
+}
+
 /// Returns the text that a Progress of ten frames writes, at one frame a second.
 std::string progress_text(const ProgressLook& look) {
     const ScratchFolder folder;

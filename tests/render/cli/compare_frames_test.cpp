@@ -43,6 +43,7 @@ TEST(CompareFrames, PatternsAndFoldersArePairedByNumber) {
         EXPECT_TRUE(outcome.out.ends_with("different\n"));
     }
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "--tolerance", "0.25"}).code, 0);
+    EXPECT_THAT(run_command({"compare"}, {s.b, s.b}).out, HasSubstr("0 of 3 frames differ\n"));
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "--tolerance", "0.25", "--max-rms", "0.2"}).code, 1);
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q"}).out, "");
     const Ran limits = run_command({"compare"}, {s.a, s.b, "--share", "100", "--max-error", "0.2"});
@@ -122,6 +123,10 @@ TEST(CompareFrames, WrongKindsAreRefused) {
     std::ofstream(s.b + "/notes.txt") << "no picture";
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
         {{s.a, picture}, "is a sequence and '"},
+        {{"nowhere/", s.b}, "there is no file or folder 'nowhere/'"},
+        {{s.a, s.folder / "none.exr"}, "there is no file or folder '"},
+        {{s.a, s.b, "--seen", s.b}, "old.0001.exr: --seen: has no channel 'forward.u'"},
+        {{picture, picture, "--seen", picture}, "--seen: has no channel 'forward.u'"},
         {{s.a, s.b, "--threshold", maps}, "one file cannot serve several frames"},
         {{s.a, s.b, "--seen", maps}, "one file cannot serve several frames"},
         {{s.a, s.b, "--diff", s.folder / "diff.png"}, "diff.####.png"},

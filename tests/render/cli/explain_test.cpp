@@ -47,6 +47,17 @@ TEST(Explain, CountsFramesAndExposure) {
         "frames": {"first": 0, "last": 48, "from": "keys"}, "unused": ["material \"spare\""]})");
 }
 
+TEST(Explain, ALampInABoxGivesNoExposure) {
+    const Scene scene = read_scene_text(R"({"aleph": 1, "frames": [0, 20], "nodes": [
+        {"shape": {"type": "box"}, "light": {"type": "point", "intensity": 5}},
+        {"translation": [0, 0, 5], "camera": {}}]})",
+                                        "made.json")
+                            .scene;
+    const ordered_json explained = explain(scene);
+    expect_fields(explained, R"({"exposure": {"factor": 1, "from": "no frame"}})");
+    EXPECT_THAT(explain_text(explained, 60), HasSubstr("exposure  1, since its frames show no direct light"));
+}
+
 TEST(Explain, BoundsAreThoseOfWhatIsShown) {
     const ordered_json bounds = explain(make_scene())["bounds"];
     EXPECT_EQ(bounds["first_frame"]["max"], ordered_json::array({1.0, 2.0, 3.0}));
