@@ -14,8 +14,7 @@ namespace aleph {
 struct StudyResults {
     std::vector<VariantResult> variants;
     std::vector<JudgingFrame> frames;
-    std::vector<StudyJudge>
-        judges;  ///< for the report, beside the thresholds of the viewers; run_study leaves it empty
+    std::vector<StudyJudge> judges;   ///< beside the thresholds of the viewers; nothing of them is run
     std::size_t made = 0, found = 0;  ///< runs that were rendered, and those that were finished before
 };
 

@@ -127,6 +127,7 @@ void reverse_time(Scene& scene) {
     const auto back = [](const auto& seen) { reverse(const_cast<std::decay_t<decltype(seen)>&>(seen)); };
     for (const Node& node : scene.nodes) visit_tracks(node, back);
     for (const Camera& camera : scene.cameras) visit_tracks(camera, back);
+    visit_tracks(scene.environment, back);
     for (const Mesh& mesh : scene.meshes) visit_tracks(mesh, back);
     for (PointCache& cache : scene.point_caches) {
         reverse(cache.sampling, cache.positions.size());

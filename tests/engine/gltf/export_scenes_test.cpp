@@ -97,6 +97,7 @@ double time_allowance(const Exported& files, double seconds, double size) {
 TEST_P(ExportScenes, LooksAndMovesTheSame) {
     std::string name = GetParam();
     Scene scene = load_scene(source_folder() / "scenes" / name);
+    scene.environment = {};  // glTF has none, and so no picture that turns
     std::ranges::replace(name, '/', '-');
     const Exported files(std::move(scene), name.substr(0, name.rfind('.')));
     const FrameRange range = frame_range(files.before);

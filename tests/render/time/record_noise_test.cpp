@@ -23,8 +23,8 @@ RenderSettings make_settings(int light_step) {
 
 using BlockNoise = std::vector<Image<double>>;
 
-/// Difference of each seed from the mean of all, in two frames: luminance of blocks, over the noise of single pixels
-/// that goes unseen.
+/// Difference of each seed from the mean of all, in two frames: luminance of blocks as it is shown, white at most, over
+/// the noise of single pixels that goes unseen.
 std::array<BlockNoise, 2> find_block_noise(const Scene& scene, RenderSettings settings, std::array<int, 2> frames) {
     std::array<BlockNoise, 2> noise;
     for (settings.seed = 1; settings.seed <= seeds; ++settings.seed) {
@@ -33,7 +33,8 @@ std::array<BlockNoise, 2> find_block_noise(const Scene& scene, RenderSettings se
             const FrameOutput out = sequence.render(frames[i], {.maps = true, .progress = {}});
             Image<double>& blocks = noise[i].emplace_back(width / block, height / block);
             for (const auto [x, y] : all_pixels(width, height)) {
-                const double shown = luminance(out.shaded.color(x, y)) * scene.film.viewing.display_white;
+                const Rgb color = glm::min(out.shaded.color(x, y), Rgb(1.0f));
+                const double shown = luminance(color) * scene.film.viewing.display_white;
                 blocks(x / block, y / block) += shown / out.limits.threshold_noise(x, y) / (block * block);
             }
         }
