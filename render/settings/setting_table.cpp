@@ -247,7 +247,8 @@ std::string find_mismatch(const Setting& setting, const SettingValue& value) {
             if (std::holds_alternative<bool>(value)) return {};
             break;
     }
-    return "expected " + describe_values(setting);
+    const std::string found = text != nullptr ? fmt::format("\"{}\"", printable(*text)) : setting_text(value);
+    return fmt::format("expected {}; found {}", describe_values(setting), found);
 }
 
 }  // namespace aleph

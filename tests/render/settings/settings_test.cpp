@@ -107,8 +107,8 @@ TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     RenderSettings plain;
     apply_settings(plain, {{"error", 0.0}}, "test");
     EXPECT_EQ(plain, RenderSettings());
-    EXPECT_EQ(refusal("error", -1.0), "expected a number from 0 to 1000");
-    EXPECT_EQ(refusal("error", "much"), "expected a number from 0 to 1000");
+    EXPECT_EQ(refusal("error", -1.0), "expected a number from 0 to 1000; found -1");
+    EXPECT_EQ(refusal("error", "much"), "expected a number from 0 to 1000; found \"much\"");
 }
 
 TEST(Settings, KnowWhereTheyComeFrom) {
@@ -164,18 +164,19 @@ TEST(Settings, FieldsReceiveWhatKeysSay) {
 }
 
 TEST(Settings, ChoicesNameWhatIsAllowed) {
-    EXPECT_EQ(refusal("guide", "everything"), "expected one of none, spatial, full, saliency");
-    EXPECT_EQ(refusal("guide", 1.0), "expected one of none, spatial, full, saliency");
-    EXPECT_EQ(refusal("estimate", ""), "expected one of flat, direct");
-    EXPECT_EQ(refusal("bands", "Printed"), "expected one of printed, measured");
-    EXPECT_EQ(refusal("grid", true), "expected one of full, center");
-    EXPECT_EQ(refusal("adapter", "scale_add"), "expected one of compress, scale-add, none");
-    EXPECT_EQ(refusal("neutral_opponent", "yes"), "expected true or false");
-    EXPECT_EQ(refusal("neutral_opponent", 1.0), "expected true or false");
-    EXPECT_EQ(refusal("motion", "none"), "expected one of model, raster, flow, image, census");
-    EXPECT_EQ(refusal("sampling", "random"), "expected one of uniform, consecutive, variance, protocol, threshold");
-    EXPECT_EQ(refusal("integrator", 3.0), "expected one of cache, path");
-    EXPECT_EQ(refusal("bounces", 1001.0), "expected a whole number from 0 to 1000");
+    EXPECT_EQ(refusal("guide", "everything"), "expected one of none, spatial, full, saliency; found \"everything\"");
+    EXPECT_EQ(refusal("guide", 1.0), "expected one of none, spatial, full, saliency; found 1");
+    EXPECT_EQ(refusal("estimate", ""), "expected one of flat, direct; found \"\"");
+    EXPECT_EQ(refusal("bands", "Printed"), "expected one of printed, measured; found \"Printed\"");
+    EXPECT_EQ(refusal("grid", true), "expected one of full, center; found true");
+    EXPECT_EQ(refusal("adapter", "scale_add"), "expected one of compress, scale-add, none; found \"scale_add\"");
+    EXPECT_EQ(refusal("neutral_opponent", "yes"), "expected true or false; found \"yes\"");
+    EXPECT_EQ(refusal("neutral_opponent", 1.0), "expected true or false; found 1");
+    EXPECT_EQ(refusal("motion", "none"), "expected one of model, raster, flow, image, census; found \"none\"");
+    EXPECT_EQ(refusal("sampling", "random"),
+              "expected one of uniform, consecutive, variance, protocol, threshold; found \"random\"");
+    EXPECT_EQ(refusal("integrator", 3.0), "expected one of cache, path; found 3");
+    EXPECT_EQ(refusal("bounces", 1001.0), "expected a whole number from 0 to 1000; found 1001");
 }
 
 TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
@@ -195,7 +196,7 @@ TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
         EXPECT_NE(refusal(key, "1").find(" from "), std::string::npos) << key << " as text";
         EXPECT_NE(refusal(key, true).find(" from "), std::string::npos) << key << " as true";
     }
-    EXPECT_EQ(refusal("accuracy", 2.0), "expected a number from 0 to 1");
+    EXPECT_EQ(refusal("accuracy", 2.0), "expected a number from 0 to 1; found 2");
 }
 
 TEST(Settings, Sizes) {
@@ -236,7 +237,7 @@ TEST(Settings, ValidateChecksStructsFilledByHand) {
     settings.perception.vision = &own;
     EXPECT_NO_THROW(validate(settings));
     EXPECT_EQ(setting_map(settings).at("vision"), SettingValue("ones"));
-    EXPECT_EQ(refusal("vision", "ones"), "expected one of thesis, laird, castle");
+    EXPECT_EQ(refusal("vision", "ones"), "expected one of thesis, laird, castle; found \"ones\"");
 }
 
 TEST(Settings, ParseTellsTextNumbersAndTruth) {
