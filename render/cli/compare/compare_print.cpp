@@ -217,7 +217,7 @@ void print_comparison(const CompareOptions& options, const FrameComparison& comp
     }
     if (result.colour) print_row("R, G and B", *result.colour, "", "");
     if (result.a.any() || result.b.any()) fmt::print("  {}\n", describe_not_finite(result));
-    if (!visible) print_pixels("beyond the tolerance", result, result.beyond);
+    if (!visible && !result.threshold) print_pixels("beyond the tolerance", result, result.beyond);
     if (result.luminance) print_luminance(options, result);
     if (const auto& threshold = result.threshold) {
         print_pixels("beyond the Aleph map", result, threshold->beyond,
