@@ -186,6 +186,44 @@ void write_junit(const std::filesystem::path& path, const std::vector<JunitCase>
     write_file(path, text + "  </testsuite>\n</testsuites>\n");
 }
 
+/// Files of the frames: of two sequences and, where they are given, of maps.
+struct ComparedFiles {
+    FrameFiles first, second, thresholds, seen;
+};
+
+/// Compares one frame, and writes its picture of differences.
+/// @throws InputError, OutputError
+void add_frame(const CompareOptions& options, const ComparedFiles& files, std::int64_t frame,
+               SequenceComparison& sequence) {
+    const std::filesystem::path& file = files.first.at(frame);
+    ChannelImage a = read_image(file), b = read_image(files.second.at(frame)), threshold, visible;
+    std::vector<ChannelImage*> all{&a, &b};
+    SequenceMaps maps;
+    if (!files.thresholds.empty()) {
+        threshold = read_image(files.thresholds.at(frame));
+        all.push_back(&threshold);
+        maps.threshold = &threshold;
+    }
+    if (!files.seen.empty()) {
+        visible = read_image(files.seen.at(frame));
+        if (!visible.find("forward.u"))
+            throw InputError(printable(files.seen.at(frame).string(), 400), "--seen",
+                             "has no channel 'forward.u': give files of `aleph maps`");
+        all.push_back(&visible);
+        maps.visible = &visible;
+    }
+    try {
+        cut_to_common_window(all);
+        sequence.add(frame, a, b, maps);
+    } catch (const InputError& e) {
+        if (!names_sequence(options.first)) throw;
+        throw InputError(printable(file.string(), 400), e.place(), e.reason());
+    }
+    if (!options.difference.empty())
+        write_png(output_file(options, options.difference, "--diff", frame),
+                  difference_picture(a, b, options.settings));
+}
+
 }  // namespace
 
 bool names_sequence(const std::string& argument) {
@@ -197,50 +235,39 @@ bool names_sequence(const std::string& argument) {
 
 int compare_frames(const CompareOptions& options) {
     const bool is_sequence = names_sequence(options.first);
-    const FrameFiles first = find_frames(options.first, "first"), second = find_frames(options.second, "second");
-    const FrameFiles thresholds = find_maps(options, options.threshold, "--threshold", first);
-    const FrameFiles seen = find_maps(options, options.seen, "--seen", first);
-    check_partners(options, first, second, thresholds, seen);
-    check_outputs(options, {&first, &second, &thresholds, &seen});
+    ComparedFiles files{find_frames(options.first, "first"), find_frames(options.second, "second"), {}, {}};
+    files.thresholds = find_maps(options, options.threshold, "--threshold", files.first);
+    files.seen = find_maps(options, options.seen, "--seen", files.first);
+    check_partners(options, files.first, files.second, files.thresholds, files.seen);
+    check_outputs(options, {&files.first, &files.second, &files.thresholds, &files.seen});
     SequenceComparison sequence(options.settings, parse_cuts(options.cuts), [&](const VisibleMaps& visible) {
         if (!options.seen_out.empty())
             write_seen(output_file(options, options.seen_out, "--seen-out", visible.frame), visible);
     });
+    const auto write_results = [&](std::vector<JunitCase> refused) {
+        if (options.junit.empty()) return;
+        std::vector<JunitCase> cases;
+        for (const FrameComparison& frame : sequence.frames())
+            cases.push_back(make_junit_case(files.first.at(frame.frame).string(), frame, options.settings));
+        std::ranges::move(refused, std::back_inserter(cases));
+        write_junit(options.junit, cases);
+    };
     {
-        Progress progress("compare", static_cast<double>(first.size()), terminal_look(options.quiet || !is_sequence));
-        for (const auto& [frame, file] : first) {
-            ChannelImage a = read_image(file), b = read_image(second.at(frame));
-            ChannelImage threshold = thresholds.empty() ? ChannelImage{} : read_image(thresholds.at(frame));
-            ChannelImage visible = seen.empty() ? ChannelImage{} : read_image(seen.at(frame));
-            if (!seen.empty() && !visible.find("forward.u"))
-                throw InputError(printable(seen.at(frame).string(), 400), "--seen",
-                                 "has no channel 'forward.u': give files of `aleph maps`");
-            std::vector<ChannelImage*> all{&a, &b};
-            if (!thresholds.empty()) all.push_back(&threshold);
-            if (!seen.empty()) all.push_back(&visible);
+        Progress progress("compare", static_cast<double>(files.first.size()),
+                          terminal_look(options.quiet || !is_sequence));
+        for (const auto& [frame, file] : files.first) {
             try {
-                cut_to_common_window(all);
-                sequence.add(frame, a, b,
-                             {thresholds.empty() ? nullptr : &threshold, seen.empty() ? nullptr : &visible});
+                add_frame(options, files, frame, sequence);
             } catch (const InputError& e) {
-                if (!is_sequence) throw;
-                throw InputError(printable(file.string(), 400), e.place(), e.reason());
+                write_results({{file.string(), e.what()}});  // results of an earlier run must not stay
+                throw;
             }
-            if (!options.difference.empty())
-                write_png(output_file(options, options.difference, "--diff", frame),
-                          difference_picture(a, b, options.settings));
             progress.update(static_cast<double>(sequence.frames().size()), fmt::format("frame {}", frame));
         }
         sequence.finish();
     }
+    write_results({});
     const SequenceSummary summary = sequence.summary();
-    if (!options.junit.empty()) {
-        std::vector<JunitCase> cases;
-        for (const FrameComparison& frame : sequence.frames()) {
-            cases.push_back(make_junit_case(first.at(frame.frame).string(), frame, options.settings));
-        }
-        write_junit(options.junit, cases);
-    }
     if (options.quiet && !options.json) return summary.same() ? exit_done : exit_different;
     if (is_sequence) {
         print_sequence(options, sequence.frames(), summary);
