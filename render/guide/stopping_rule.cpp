@@ -105,7 +105,7 @@ int first_samples(Sampling rule, Outline outline, bool bright_edge, int most) {
     if (rule == Sampling::uniform || rule == Sampling::protocol) return most;
     if (rule != Sampling::threshold) return std::min(most, thesis_samples);
     if (outline == Outline::small) return std::min(most, small_object_samples);
-    if (bright_edge) return std::min(most, bright_edge_samples);
+    if (bright_edge) return std::min(most, white_samples);
     return std::min(most, outline == Outline::none ? own_samples : outline_samples);
 }
 

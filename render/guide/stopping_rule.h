@@ -22,7 +22,7 @@ inline constexpr double error_deviations = 1.585;
 double allow_noise(double error);
 
 /// Samples that tell whether a pixel is shown white: hardly all of them miss what is bright in it, or what is dark.
-inline constexpr int bright_edge_samples = 16;
+inline constexpr int white_samples = 16;
 
 /// Errors that a viewer tolerates in a frame. Images have the frame's size.
 struct VisibleLimits {

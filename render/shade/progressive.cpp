@@ -67,7 +67,7 @@ std::vector<Decision> ask_rule(const SamplingPlan& plan, const Image<PixelSample
         if (range.last >= plan.most || (!clipped.empty() && clipped(range.x, range.y) != 0)) return;
         MeanEstimate mean = tell_mean(plan, pixels, clipped, range.x, range.y);
         const PixelSamples& pixel = pixels(range.x, range.y);
-        if (range.last >= bright_edge_samples && is_shown_white(pixel, plan.white, mean.variance)) return;
+        if (range.last >= white_samples && is_shown_white(pixel, plan.white, mean.variance)) return;
         if (!around.empty()) mean.around = static_cast<double>(around(range.x, range.y));
         decisions[i] = decide(plan, pixel, mean, plan.tolerance(range.x, range.y));
     });

@@ -92,7 +92,7 @@ export async function choose(page, holder, name, value) {
   }, holder, name, value);
 }
 
-/** Clicks an element in the page itself: its handlers have run when this ends, which a click of the pointer does not promise. */
+/** Clicks an element in the page itself: its handlers have run when this ends. A click of the pointer may end before them. */
 export function click(page, selector) {
   return page.$eval(selector, node => node.click());
 }
