@@ -92,9 +92,15 @@ export async function choose(page, holder, name, value) {
   }, holder, name, value);
 }
 
-/** Clicks an element in the page itself: its handlers have run when this ends. A click of the pointer may end before them. */
+/**
+ * Clicks an element in the page itself. When this ends, its handlers have run, and so have the listeners of the page's
+ * choices, which run once in the next frame of the screen.
+ */
 export function click(page, selector) {
-  return page.$eval(selector, node => node.click());
+  return page.$eval(selector, async node => {
+    node.click();
+    await new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+  });
 }
 
 /** Clicks the middle of a pixel of a pane, at zoom 1. */
