@@ -200,6 +200,31 @@ std::string maps_footer() {
     return text + after_channels;
 }
 
+void add_picture_options(CLI::App& maps, MapsOptions& options) {
+    const std::string group = "Frames without a scene";
+    add_text(
+        maps, "--images", "PATTERN", options.images,
+        "pictures in place of a scene, such as 'frame.####.exr' or 'frame.%04d.png', in quotes: EXR and HDR (linear "
+        "Rec.709), PNG and JPEG (sRGB), numbered without gaps; motion comes from the files that hold it, or from "
+        "comparing them")
+        ->group(group);
+    const auto add_layer = [&](const char* option, std::string& layer, const char* help) {
+        add_text(maps, option, "NAME", layer, help)->group(group);
+    };
+    add_layer("--layer", options.layers.color,
+              "layer of an EXR file that holds the picture, such as ViewLayer.Combined; default: R, G and B outside of "
+              "layers, else the only layer with colour, else the only one called Combined");
+    add_layer("--motion-layer", options.layers.motion,
+              "layer that holds motion to the next frame: channels u and v (pixels, u right, v up), or X, Y, Z and W "
+              "as Blender's Vector pass (Z and W: this frame's position minus the next one's); none: compare pictures; "
+              "default: forward, else the only layer called Vector");
+    add_layer("--depth-layer", options.layers.depth,
+              "layer whose channel Z is depth, which is copied; 1e10 and beyond without motion is background; none: no "
+              "depth; default: Z outside of layers, else the only layer called Depth");
+    add_text(maps, "--cuts", "LIST", options.cuts, "frames that begin a new shot: no motion from the frame before")
+        ->group(group);
+}
+
 }  // namespace
 
 void add_maps_command(CLI::App& app, Command& command) {
@@ -211,28 +236,7 @@ void add_maps_command(CLI::App& app, Command& command) {
     maps->add_flag("--importance", options->common.importance,
                    "write one picture in place of the maps: how much each pixel needs samples, 1 over aleph.Y, for "
                    "renderers that take such a picture; EXR (channel Y) or PNG (grey)");
-    const std::string group = "Frames without a scene";
-    add_text(
-        *maps, "--images", "PATTERN", options->images,
-        "pictures in place of a scene, such as 'frame.####.exr' or 'frame.%04d.png', in quotes: EXR and HDR (linear "
-        "Rec.709), PNG and JPEG (sRGB), numbered without gaps; motion comes from the files that hold it, or from "
-        "comparing them")
-        ->group(group);
-    const auto add_layer = [&](const char* option, std::string& layer, const char* help) {
-        add_text(*maps, option, "NAME", layer, help)->group(group);
-    };
-    add_layer("--layer", options->layers.color,
-              "layer of an EXR file that holds the picture, such as ViewLayer.Combined; default: R, G and B outside of "
-              "layers, else the only layer with colour, else the only one called Combined");
-    add_layer("--motion-layer", options->layers.motion,
-              "layer that holds motion to the next frame: channels u and v (pixels, u right, v up), or X, Y, Z and W "
-              "as Blender's Vector pass (Z and W: this frame's position minus the next one's); none: compare pictures; "
-              "default: forward, else the only layer called Vector");
-    add_layer("--depth-layer", options->layers.depth,
-              "layer whose channel Z is depth, which is copied; 1e10 and beyond without motion is background; none: no "
-              "depth; default: Z outside of layers, else the only layer called Depth");
-    add_text(*maps, "--cuts", "LIST", options->cuts, "frames that begin a new shot: no motion from the frame before")
-        ->group(group);
+    add_picture_options(*maps, *options);
     add_number(
         *maps, "--exposure", options->exposure,
         "factor on the values of pictures, so that white is 1 (default: 1), or on a scene's radiance in place of "

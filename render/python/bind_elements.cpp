@@ -94,7 +94,9 @@ void bind_lights_and_cameras(py::module_& module) {
         "Open and close, frames relative to the frame.");
 }
 
-void bind_nodes_and_meshes(py::module_& module) {
+namespace {
+
+void bind_meshes(py::module_& module) {
     auto mesh = bind_elements<Mesh>(module, "Mesh", "Meshes", "Triangles of one material.");
     mesh.def_property(
             "positions", [](const Element<Mesh>& e) { return copy_triples<float>(e.get().positions); }, &set_positions,
@@ -113,31 +115,11 @@ void bind_nodes_and_meshes(py::module_& module) {
             },
             "Its material; None: white and rough.");
     add_track<&Mesh::present>(mesh, "present", "0 where it is not there; step.");
+}
 
-    auto node = bind_elements<Node>(module, "Node", "Nodes",
-                                    "A node of the scene. From its space to its parent's: `matrix` where set, else "
-                                    "translation * rotation * scale. Each may be a Track. A node of an Alembic archive "
-                                    "has transform operations instead, until one of these is assigned.");
-    node.def_property_readonly(
-            "parent", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::nodes, e.get().parent); },
-            "The node above; None at the top.")
-        .def_property_readonly(
-            "meshes",
-            [](const Element<Node>& e) {
-                py::list meshes;
-                for (const int index : e.get().meshes) meshes.append(element_or_none(e.scene, &Scene::meshes, index));
-                return meshes;
-            },
-            "The meshes that it shows.")
-        .def_property_readonly(
-            "camera", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::cameras, e.get().camera); },
-            "Its camera, or None.")
-        .def_property_readonly(
-            "light", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::lights, e.get().light); },
-            "Its light, or None.");
+void bind_transform(py::class_<Element<Node>>& node) {
     add_track<&Node::transform, &LocalTransform::translation>(node, "translation", "Metres, (3,).");
     add_track<&Node::transform, &LocalTransform::scale>(node, "scale", "Factors, (3,).");
-    add_track<&Node::visible>(node, "visible", "1: as its parent; 0: hidden, with all below; step.");
     node.def_property(
         "rotation",
         [](const Element<Node>& e) -> py::object {
@@ -177,6 +159,35 @@ void bind_nodes_and_meshes(py::module_& module) {
             e.get().transform.operations.reset();
         },
         "An affine (4, 4) matrix for column vectors in place of translation, rotation and scale; None: it has these.");
+}
+
+}  // namespace
+
+void bind_nodes_and_meshes(py::module_& module) {
+    bind_meshes(module);
+    auto node = bind_elements<Node>(module, "Node", "Nodes",
+                                    "A node of the scene. From its space to its parent's: `matrix` where set, else "
+                                    "translation * rotation * scale. Each may be a Track. A node of an Alembic archive "
+                                    "has transform operations instead, until one of these is assigned.");
+    node.def_property_readonly(
+            "parent", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::nodes, e.get().parent); },
+            "The node above; None at the top.")
+        .def_property_readonly(
+            "meshes",
+            [](const Element<Node>& e) {
+                py::list meshes;
+                for (const int index : e.get().meshes) meshes.append(element_or_none(e.scene, &Scene::meshes, index));
+                return meshes;
+            },
+            "The meshes that it shows.")
+        .def_property_readonly(
+            "camera", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::cameras, e.get().camera); },
+            "Its camera, or None.")
+        .def_property_readonly(
+            "light", [](const Element<Node>& e) { return element_or_none(e.scene, &Scene::lights, e.get().light); },
+            "Its light, or None.");
+    add_track<&Node::visible>(node, "visible", "1: as its parent; 0: hidden, with all below; step.");
+    bind_transform(node);
 }
 
 }  // namespace aleph::python

@@ -80,24 +80,10 @@ auto elements(ElementList<E> list, const char* kind) {
     return [=](const std::shared_ptr<Scene>& scene) { return Elements<E>{scene, list, kind}; };
 }
 
-}  // namespace
+using SceneClass = py::class_<Scene, std::shared_ptr<Scene>>;
 
-void bind_scene(py::module_& module) {
-    py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene", R"(An animated scene (aleph.load).
-
-Elements are read and changed in place: scene.nodes["ball"].translation = aleph.Track(scene.seconds([0, 30]),
-[[0, 0, 0], [1, 0, 0]]). What is added is written as a scene file: aleph.load of a dict. Right-handed, y up, metres,
-degrees, linear Rec.709.)")
-        .def_property_readonly("nodes", elements(&Scene::nodes, "node"), "Nodes, parents before children.")
-        .def_property_readonly("materials", elements(&Scene::materials, "material"), "Materials.")
-        .def_property_readonly("meshes", elements(&Scene::meshes, "mesh"), "Meshes.")
-        .def_property_readonly("lights", elements(&Scene::lights, "light"), "Lights, but for emissive meshes.")
-        .def_property_readonly("cameras", elements(&Scene::cameras, "camera"), "Cameras.")
-        .def_property_readonly(
-            "name", [](const Scene& s) { return s.source.name; }, "Its name.")
-        .def_property_readonly(
-            "warnings", [](const Scene& s) { return s.source.warnings; },
-            "What was read and has no effect, and other notes of loading.")
+void bind_film(SceneClass& scene) {
+    scene
         .def_property(
             "fps", [](const Scene& s) { return s.film.frame_rate.per_second(); }, &set_frame_rate,
             "Frames per second: a number, a fractions.Fraction or text such as '30000/1001'.")
@@ -126,7 +112,27 @@ degrees, linear Rec.709.)")
                     throw InputError("", "exposure", "expected a number above 0, or None");
                 s.film.exposure = value;
             },
-            "Factor on radiance; None: found from the first frame.")
+            "Factor on radiance; None: found from the first frame.");
+}
+
+}  // namespace
+
+void bind_scene(py::module_& module) {
+    SceneClass scene(module, "Scene", R"(An animated scene (aleph.load).
+
+Elements are read and changed in place: scene.nodes["ball"].translation = aleph.Track(scene.seconds([0, 30]),
+[[0, 0, 0], [1, 0, 0]]). What is added is written as a scene file: aleph.load of a dict. Right-handed, y up, metres,
+degrees, linear Rec.709.)");
+    scene.def_property_readonly("nodes", elements(&Scene::nodes, "node"), "Nodes, parents before children.")
+        .def_property_readonly("materials", elements(&Scene::materials, "material"), "Materials.")
+        .def_property_readonly("meshes", elements(&Scene::meshes, "mesh"), "Meshes.")
+        .def_property_readonly("lights", elements(&Scene::lights, "light"), "Lights, but for emissive meshes.")
+        .def_property_readonly("cameras", elements(&Scene::cameras, "camera"), "Cameras.")
+        .def_property_readonly(
+            "name", [](const Scene& s) { return s.source.name; }, "Its name.")
+        .def_property_readonly(
+            "warnings", [](const Scene& s) { return s.source.warnings; },
+            "What was read and has no effect, and other notes of loading.")
         .def_property_readonly("settings", &list_settings,
                                "Render settings of the file; arguments of render override them.")
         .def(
@@ -150,6 +156,7 @@ degrees, linear Rec.709.)")
             "The scene as the dict of a scene file, without what its includes hold.")
         .def(
             "copy", [](const Scene& s) { return std::make_shared<Scene>(s); }, "A scene of its own.");
+    bind_film(scene);
     module.def("load", &load, py::arg("source"), py::arg("folder") = ".",
                R"(Loads a scene.
 
