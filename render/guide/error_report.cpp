@@ -50,6 +50,7 @@ CauseErrors find_causes(const PixelSamples& pixel, const SquaredErrors& sampled,
         error(ErrorCause::direct) = sampled.parts[static_cast<std::size_t>(LightPart::direct)];
         error(ErrorCause::gloss) = sampled.parts[static_cast<std::size_t>(LightPart::gloss)];
     }
+    of_surfaces += pixel.seen_variance();
     const double indirect = error_per_accuracy * accuracy * static_cast<double>(luminance(pixel.mean_indirect()));
     error(ErrorCause::indirect) = indirect * indirect;
     return errors;

@@ -26,13 +26,10 @@ struct NoiseSum {
     }
 };
 
-NoiseSum sum_around(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
-                    const Image<std::uint8_t>& silent, int x, int y) {
+NoiseSum sum_around(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
     NoiseSum sum;
     visit_around(pixels, x, y, 2, [&](int nx, int ny) {
-        const bool tells =
-            (nx != x || ny != y) && are_alike(outlines, x, y, nx, ny) && (silent.empty() || silent(nx, ny) == 0);
-        if (tells) sum.add(pixels(nx, ny));
+        if ((nx != x || ny != y) && are_alike(outlines, x, y, nx, ny)) sum.add(pixels(nx, ny));
     });
     return sum;
 }
@@ -52,10 +49,9 @@ bool is_shown_white(const PixelSamples& pixel, double white, double around) {
     return least * (1.0 - 3.0 * std::sqrt(variance) / luminance(mean)) > white;
 }
 
-MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
-                           const Image<std::uint8_t>& silent, int x, int y) {
-    NoiseSum sum = sum_around(pixels, outlines, silent, x, y);
-    if (sum.count == 0) sum = sum_around(pixels, {}, silent, x, y);
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
+    NoiseSum sum = sum_around(pixels, outlines, x, y);
+    if (sum.count == 0) sum = sum_around(pixels, {}, x, y);
     if (pixels.size() == 1) sum.add(pixels(x, y));
     MeanEstimate estimate{pixels(x, y).taken()};
     if (sum.count == 0) return estimate;
@@ -64,13 +60,13 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outlin
     return estimate;
 }
 
-Image<float> deviations_around(const Image<PixelSamples>& pixels, const Image<std::uint8_t>& silent, int reach) {
+Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach) {
     constexpr float normal = 0.797884561f;  // mean size of a normal number: the halves of a pixel tell one
     Image<float> deviations(pixels.width, pixels.height);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const PixelSamples::Error& error = pixels.pixels[i].error();
-        const bool tells = error.samples > 0 && (silent.empty() || silent.pixels[i] == 0);
-        deviations.pixels[i] = !tells ? -1.0f : std::sqrt(error.total * static_cast<float>(error.samples)) / normal;
+        deviations.pixels[i] =
+            error.samples == 0 ? -1.0f : std::sqrt(error.total * static_cast<float>(error.samples)) / normal;
     }
     return mean_around(deviations, reach, false);
 }
@@ -101,11 +97,10 @@ double allow_noise(double error) {
     return std::min(error, std::pow(error, 0.8));
 }
 
-int first_samples(Sampling rule, Outline outline, bool bright_edge, int most) {
+int first_samples(Sampling rule, Outline outline, int most) {
     if (rule == Sampling::uniform || rule == Sampling::protocol) return most;
     if (rule != Sampling::threshold) return std::min(most, thesis_samples);
     if (outline == Outline::small) return std::min(most, small_object_samples);
-    if (bright_edge) return std::min(most, white_samples);
     return std::min(most, outline == Outline::none ? own_samples : outline_samples);
 }
 

@@ -51,15 +51,13 @@ bool is_shown_white(const PixelSamples& pixel, double white, double around = 0.0
 
 /// Mean over the pixels around, without the pixel itself (mean_around), of the standard deviation of their samples'
 /// light (PixelSamples::Error::total): of independent samples with as much error as theirs.
-/// @param silent  1 for pixels that do not count; empty: none
-Image<float> deviations_around(const Image<PixelSamples>& pixels, const Image<std::uint8_t>& silent, int reach);
+Image<float> deviations_around(const Image<PixelSamples>& pixels, int reach);
 
 /// Estimates a pixel's mean and noise from the 24 pixels around (x, y). Only those count that have an outline as it
 /// has, or have none as it has none: beside an outline the noise is another. Where there is no such pixel, all of them
 /// tell; where it is alone, the pixel itself.
-/// @param silent  1 for pixels that never count; it and the outlines may be empty
-MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines,
-                           const Image<std::uint8_t>& silent, int x, int y);
+/// @param outlines  may be empty
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y);
 
 /// The same from the pixel's own samples.
 MeanEstimate estimate_own_mean(const PixelSamples& pixel);
@@ -101,8 +99,7 @@ class StoppingRule {
 int protocol_samples(double aleph, int most);
 
 /// Samples before a rule is asked first.
-/// @param bright_edge  the outline of a lamp may lie in the pixel (find_bright_edges)
-int first_samples(Sampling rule, Outline outline, bool bright_edge, int most);
+int first_samples(Sampling rule, Outline outline, int most);
 
 /// Errors of pixels within so many on either side add up, as energy, to what is seen at one: about half a cycle where
 /// noise is seen best. 4 at 31 pixels per degree, at least 1.

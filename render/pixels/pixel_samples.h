@@ -76,7 +76,11 @@ class PixelSamples {
     /// Variance of a sample's luminance, as if samples were independent; from 2 valid samples or more.
     double sample_variance() const { return valid_ < 2 ? 0.0 : luminance_.squares / (valid_ - 1); }
     /// Variance of the mean luminance, as if samples were independent.
-    double variance() const { return valid_ < 2 ? 0.0 : sample_variance() / valid_; }
+    double variance() const { return seen_variance() + (valid_ < 2 ? 0.0 : sample_variance() / valid_); }
+    /// Variance of the luminance of what all samples have from rays that were cast before them (EdgeLight). It is no
+    /// part of `error`, which says whether more samples are needed.
+    double seen_variance() const { return seen_variance_; }
+    void set_seen_variance(float variance) { seen_variance_ = variance; }
     const Error& error() const { return error_; }
     /// Indirect irradiance for a sample that sees the surface of the pixel's first one: the mean of what the first four
     /// such samples looked up, at places spread over the pixel. Nothing before there are four.
@@ -123,6 +127,7 @@ class PixelSamples {
     SampledPlace first_;  ///< of the first sample
     FoundIrradiance irradiance_;
     std::optional<Rgb> kept_mean_;
+    float seen_variance_ = 0.0f;
     bool edge_ = false;
 };
 

@@ -46,11 +46,15 @@ double invert(double u) {
     return 0.5 * (low + high);
 }
 
-std::array<double, steps + 1> make_inverse() {
-    std::array<double, steps + 1> table;
-    for (int i = 0; i <= steps; ++i) table[i] = invert(static_cast<double>(i) / steps);
-    table.front() = -radius;
-    table.back() = radius;
+/// Places at even shares of the window.
+const std::array<double, steps + 1>& inverse_table() {
+    static const std::array<double, steps + 1> table = [] {
+        std::array<double, steps + 1> places;
+        for (int i = 0; i <= steps; ++i) places[i] = invert(static_cast<double>(i) / steps);
+        places.front() = -radius;
+        places.back() = radius;
+        return places;
+    }();
     return table;
 }
 
@@ -141,10 +145,18 @@ SampleHits cast_centers(const RayScene& rays, const CameraView& view, std::uint6
 
 double place_in_filter(PixelFilter filter, double u) {
     if (filter == PixelFilter::box) return u - 0.5;
-    static const std::array<double, steps + 1> inverse = make_inverse();
+    const std::array<double, steps + 1>& inverse = inverse_table();
     const double place = std::clamp(u, 0.0, 1.0) * steps;
     const int i = std::min(static_cast<int>(place), steps - 1);
     return inverse[i] + (inverse[i + 1] - inverse[i]) * (place - i);
+}
+
+double filter_density(PixelFilter filter, double place) {
+    if (filter == PixelFilter::box) return std::abs(place) <= 0.5 ? 1.0 : 0.0;
+    if (!(std::abs(place) <= radius)) return 0.0;
+    const std::array<double, steps + 1>& inverse = inverse_table();
+    const auto* const after = std::upper_bound(inverse.begin() + 1, inverse.end() - 1, place);
+    return 1.0 / (steps * (*after - *(after - 1)));
 }
 
 }  // namespace aleph

@@ -29,6 +29,8 @@ struct SamplePlace {
 /// sampling, Ernst et al. 2006), so that every sample counts the same and belongs to one pixel alone.
 /// @param u  uniform in [0,1)
 double place_in_filter(PixelFilter filter, double u);
+/// The density of these places along x or y, per pixel; 0 beyond them.
+double filter_density(PixelFilter filter, double place);
 
 /// Pixels between the samples of a pixel that is left after the stage of this one: 1 over the square root of their
 /// number. Textures are averaged over it, so later samples of a pixel see them sharper.

@@ -1,53 +1,42 @@
 #include "render/shade/bright_edges.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "engine/base/pixel_loops.h"
 #include "engine/rays/first_hits.h"
+#include "render/shade/picture_polygon.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr double bright = 0.5;  // of white
-constexpr int reach = 2;        // pixels, of filters
-constexpr int rays_of_a_sample = 16;
-constexpr double small_lamp = 1.5;  // pixels, largest radius of lamps that the pixels' centres may miss
-constexpr std::uint32_t edge_key_mask = 0x65646765u;  // apart from the samples' own places
+constexpr double bright = 0.5;      // of white
+constexpr int reach = 2;            // pixels, of filters
+constexpr double covered = 0.9999;  // share of a filter's square that lamps cover where no outline is
+
+enum Seen : std::uint8_t { seen_nothing, seen_lamp, seen_sky };
 
 /// @param direction  of the ray that met it
-bool is_bright(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction, double exposure) {
-    if (hit.instance == no_index) return luminance(environment_radiance(shading, direction)) * exposure >= bright;
+Seen find_seen(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction, double exposure) {
+    if (hit.instance == no_index)
+        return luminance(environment_radiance(shading, direction)) * exposure >= bright ? seen_sky : seen_nothing;
     const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
-    return material.emits && luminance(material.values.emission) * exposure >= bright;
+    const bool is_bright = material.emits && luminance(material.values.emission) * exposure >= bright;
+    return is_bright ? seen_lamp : seen_nothing;
 }
 
-/// Marks the pixels that small lamps lie in, whether something hides them or not.
-/// @param seen  with a margin of `reach` pixels around the picture
-void mark_small_lamps(const LightingContext& context, const CameraView& view, double exposure,
-                      Image<std::uint8_t>& seen) {
-    for (const Emitter& lamp : context.lights.emitters) {
-        if (luminance(lamp.brightest) * exposure < bright) continue;
-        const glm::dvec3 center = context.shading.anchor + glm::dvec3(lamp.center);
-        const std::optional<glm::dvec2> at = project_small_sphere(view, center, lamp.radius, small_lamp);
-        if (!at) continue;
-        const glm::dvec2 place = *at + static_cast<double>(reach);
-        if (!(place.x >= 0.0 && place.x < seen.width && place.y >= 0.0 && place.y < seen.height)) continue;
-        seen(static_cast<int>(place.x), static_cast<int>(place.y)) = 1;
-    }
-}
-
-}  // namespace
-
-Image<std::uint8_t> find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                                      double exposure, std::uint64_t& rays_cast) {
+/// Tells what the centres of all pixels show, and of those within reach around the picture.
+Image<std::uint8_t> look_at_centers(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                                    double exposure, std::uint64_t& rays_cast) {
     const int width = centers.hits.width, height = centers.hits.height;
-    Image<std::uint8_t> edges(width, height), seen(width + 2 * reach, height + 2 * reach);
+    Image<std::uint8_t> seen(width + 2 * reach, height + 2 * reach);
     const auto make_ray = [&](int x, int y) { return make_sample_ray(view, centers.place, x, y); };
     const auto mark = [&](int left, int top, const Image<Hit>& hits) {
         parallel_pixels(hits, 16, [&](int x, int y) {
             const glm::vec3 direction(make_ray(left + x, top + y).direction);
-            seen(left + x + reach, top + y + reach) = is_bright(context.shading, hits(x, y), direction, exposure);
+            seen(left + x + reach, top + y + reach) = find_seen(context.shading, hits(x, y), direction, exposure);
         });
     };
     mark(0, 0, centers.hits);
@@ -61,42 +50,97 @@ Image<std::uint8_t> find_bright_edges(const LightingContext& context, const Came
         rays_cast += hits.size();
         mark(left, top, hits);
     }
-    mark_small_lamps(context, view, exposure, seen);
-    parallel_pixels(edges, 16, [&](int x, int y) {
+    return seen;
+}
+
+enum Share : std::uint8_t { share_none, share_some, share_all };
+
+/// Share of the centres around each pixel that show something.
+Image<std::uint8_t> find_shares(const Image<std::uint8_t>& seen, Seen what) {
+    Image<std::uint8_t> shares(seen.width - 2 * reach, seen.height - 2 * reach);
+    parallel_pixels(shares, 16, [&](int x, int y) {
         bool any = false, all = true;
         visit_around(seen, x + reach, y + reach, reach, [&](int nx, int ny) {
-            any = any || seen(nx, ny) != 0;
-            all = all && seen(nx, ny) != 0;
+            any = any || seen(nx, ny) == what;
+            all = all && seen(nx, ny) == what;
         });
-        edges(x, y) = any && !all ? 1 : 0;
+        shares(x, y) = all ? share_all : any ? share_some : share_none;
     });
-    return edges;
+    return shares;
 }
 
-Rgb light_seen(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const Hit& hit,
-               const glm::vec3& direction, const glm::ivec2& pixel) {
-    const ShadingScene& shading = scene.lighting.shading;
-    if (hit.instance == no_index) return environment_radiance(shading, direction);
-    const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
-    if (!material.emits) return Rgb(0.0f);
-    const PixelSurface surface = make_pixel_surface(shading, scene.view, place, hit, direction, pixel);
-    return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
-}
-
-Rgb average_light_seen(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const glm::ivec2& pixel) {
-    SamplePlace own = place;
-    own.noise_key ^= edge_key_mask;
-    std::array<Ray, rays_of_a_sample> rays;
-    std::array<Hit, rays_of_a_sample> hits;
-    for (int i = 0; i < rays_of_a_sample; ++i) {
-        own.index = place.index * rays_of_a_sample + i;
-        rays[i] = to_scene(scene.lighting.rays, make_sample_ray(scene.view, own, pixel.x, pixel.y));
+/// Adds a triangle to the pixels in whose filters it lies, where lamps are not all that they show.
+/// @param areas  per pixel: pixels, of all its triangles
+void add_triangle(const PicturePolygon& polygon, PixelFilter filter, const Image<std::uint8_t>& lamp_shares,
+                  LampTriangle triangle, std::vector<LampTriangle>& out, Image<float>& areas) {
+    if (polygon.count < 3) return;
+    glm::dvec2 low = polygon.corners[0], high = low;
+    for (int i = 1; i < polygon.count; ++i) {
+        low = glm::min(low, polygon.corners[i]);
+        high = glm::max(high, polygon.corners[i]);
     }
-    task.tracer.intersect(rays, hits);
-    task.counts.primary += rays_of_a_sample;
-    Rgb sum(0.0f);
-    for (int i = 0; i < rays_of_a_sample; ++i) sum += light_seen(scene, task, place, hits[i], rays[i].direction, pixel);
-    return sum / static_cast<float>(rays_of_a_sample);
+    const double radius = place_in_filter(filter, 1.0);
+    const auto begin = [&](double least, int size) {
+        return static_cast<int>(std::clamp(std::floor(least - radius - 0.5), 0.0, static_cast<double>(size)));
+    };
+    const auto end = [&](double most, int size) {
+        return static_cast<int>(std::clamp(std::ceil(most + radius + 0.5), 0.0, static_cast<double>(size)));
+    };
+    for (int y = begin(low.y, areas.height); y < end(high.y, areas.height); ++y) {
+        for (int x = begin(low.x, areas.width); x < end(high.x, areas.width); ++x) {
+            if (lamp_shares(x, y) == share_all) continue;
+            const glm::dvec2 middle(x + 0.5, y + 0.5);
+            const double area = area_of(clip_to_rectangle(polygon, middle - radius, middle + radius));
+            if (!(area > 0.0)) continue;
+            triangle.x = x;
+            triangle.y = y;
+            out.push_back(triangle);
+            areas(x, y) += static_cast<float>(area);
+        }
+    }
+}
+
+/// Returns whether the camera may see the side that emits.
+bool faces_camera(const CameraView& view, const ShadingScene& shading, const Emitter::Triangle& triangle) {
+    const glm::dvec3 corner = shading.anchor + glm::dvec3(triangle.corner);
+    const glm::dvec3 towards = view.orthographic ? view.axes[2] : view.position - corner;
+    return glm::dot(towards, glm::dvec3(triangle.normal)) > 0.0;
+}
+
+}  // namespace
+
+std::array<glm::dvec3, 3> place_corners(const ShadingScene& shading, const Emitter::Triangle& triangle) {
+    const glm::dvec3 corner = shading.anchor + glm::dvec3(triangle.corner);
+    return {corner, corner + glm::dvec3(triangle.edge1), corner + glm::dvec3(triangle.edge2)};
+}
+
+BrightEdges find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                              PixelFilter filter, double exposure, std::uint64_t& rays_cast) {
+    const Image<std::uint8_t> seen = look_at_centers(context, view, centers, exposure, rays_cast);
+    BrightEdges edges;
+    edges.sky = find_shares(seen, seen_sky);
+    for (std::uint8_t& share : edges.sky.pixels) share = share == share_some ? 1 : 0;
+    const Image<std::uint8_t> shares = find_shares(seen, seen_lamp);
+    Image<float> areas(shares.width, shares.height);
+    edges.is_lamp.resize(context.shading.instances.size());
+    const std::vector<Emitter>& emitters = context.lights.emitters;
+    for (int e = 0; e < static_cast<int>(emitters.size()); ++e) {
+        if (luminance(emitters[e].brightest) * exposure < bright) continue;
+        edges.is_lamp[emitters[e].instance] = 1;
+        for (int t = 0; t < static_cast<int>(emitters[e].triangles.size()); ++t) {
+            const Emitter::Triangle& triangle = emitters[e].triangles[t];
+            if (!emitters[e].double_sided && !faces_camera(view, context.shading, triangle)) continue;
+            const PicturePolygon polygon = project_triangle(view, place_corners(context.shading, triangle));
+            add_triangle(polygon, filter, shares, {.emitter = e, .triangle = t}, edges.lamps, areas);
+        }
+    }
+    // What covers a filter and shows at no centre around is hidden.
+    const double side = 2.0 * place_in_filter(filter, 1.0);
+    std::erase_if(edges.lamps, [&](const LampTriangle& triangle) {
+        return shares(triangle.x, triangle.y) == share_none && areas(triangle.x, triangle.y) >= covered * side * side;
+    });
+    std::ranges::stable_sort(edges.lamps, {}, [](const LampTriangle& t) { return std::pair(t.y, t.x); });
+    return edges;
 }
 
 }  // namespace aleph

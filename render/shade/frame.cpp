@@ -8,7 +8,7 @@
 #include "engine/base/parallel.h"
 #include "render/guide/error_report.h"
 #include "render/settings/measure.h"
-#include "render/shade/bright_edges.h"
+#include "render/shade/edge_light.h"
 #include "render/shade/integrator.h"
 #include "render/shade/resolve.h"
 #include "render/shade/sample_packet.h"
@@ -70,8 +70,7 @@ class FrameShading {
         // A lens or an open shutter would need rays from all of it: their outlines and textures are soft.
         if (!place_.centered && !options_.at_sample && !(options_.lens.radius > 0.0)) {
             const ShadingScene& shading = context_.lighting.shading;
-            plan_.bright_edges =
-                find_bright_edges(context_.lighting, context_.view, centers, exposure_, out_.counts.rays.primary);
+            find_edges(centers);
             // Paths alone are to judge what an estimate guides.
             if (options_.estimate != nullptr && context_.settings.light.integrator == Integrator::cache)
                 textures_.emplace(shading, context_.view, centers, *options_.estimate, exposure_);
@@ -88,6 +87,24 @@ class FrameShading {
     }
 
   private:
+    void find_edges(const SampleHits& centers) {
+        std::uint64_t& rays = out_.counts.rays.primary;
+        edges_ = find_bright_edges(context_.lighting, context_.view, centers, place_.filter, exposure_, rays);
+        edge_light_ = find_edge_light({context_.lighting, context_.view, options_.lens}, place_, plan_, edges_, rays);
+        if (edge_light_.empty()) return;
+        edge_of_ = Image<int>(pixels_.width, pixels_.height, no_index);
+        for (std::size_t i = 0; i < edge_light_.size(); ++i) {
+            const EdgeLight& light = edge_light_[i];
+            edge_of_(light.x, light.y) = static_cast<int>(i);
+            pixels_(light.x, light.y).set_seen_variance(light.variance);
+        }
+    }
+
+    /// Null where no bright edge is.
+    const EdgeLight* find_edge(int x, int y) const {
+        return edge_of_.empty() || edge_of_(x, y) == no_index ? nullptr : &edge_light_[edge_of_(x, y)];
+    }
+
     SamplePlace place(int index) const {
         SamplePlace place = place_;
         place.index = index;
@@ -205,11 +222,8 @@ class FrameShading {
                 light[LightPart::direct] += correction;
                 light.control = luminance(correction);
             }
-            if (!plan_.bright_edges.empty() && plan_.bright_edges(x, y) != 0) {
-                const glm::ivec2 pixel(x, y);
-                light[LightPart::surface] +=
-                    average_light_seen(scene, task, at, pixel) - light_seen(scene, task, at, hit, direction, pixel);
-            }
+            if (const EdgeLight* edge = find_edge(x, y))
+                light[LightPart::surface] += edge->mean - light_in_edge(scene, task, at, edges_, *edge, hit, direction);
             add_sample(task, x, y, light);
         };
         for (const PixelRange& range : ranges) {
@@ -263,7 +277,10 @@ class FrameShading {
     ShadedFrame& out_;
     Image<PixelSamples> pixels_;
     std::optional<TextureControl> textures_;
-    SamplePlace place_;  ///< of the first sample
+    BrightEdges edges_;
+    std::vector<EdgeLight> edge_light_;
+    Image<int> edge_of_;  ///< place of a pixel's EdgeLight; empty: there is none
+    SamplePlace place_;   ///< of the first sample
     const double exposure_;
     SamplingPlan plan_;
     const std::unique_ptr<LightIntegrator> integrator_;

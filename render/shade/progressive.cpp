@@ -19,9 +19,8 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
         for (int x = 0; x < pixels.width; ++x) {
             if (plan.part != nullptr && (*plan.part)(x, y) == 0) continue;
             const Outline outline = plan.outlines.empty() ? Outline::none : plan.outlines(x, y);
-            const bool bright = !plan.bright_edges.empty() && plan.bright_edges(x, y) != 0;
             int count = plan.rule == Sampling::protocol ? protocol_samples(plan.aleph(x, y), plan.most)
-                                                        : first_samples(plan.rule, outline, bright, plan.most);
+                                                        : first_samples(plan.rule, outline, plan.most);
             if (!plan.least.empty()) count = std::max(count, plan.least(x, y));
             ranges.push_back({x, y, 0, count});
         }
@@ -29,18 +28,9 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
     return ranges;
 }
 
-/// Edges of lamps that are shown white: no viewer sees their errors.
-Image<std::uint8_t> find_clipped(const SamplingPlan& plan, const Image<PixelSamples>& pixels) {
-    Image<std::uint8_t> clipped = plan.bright_edges;
-    for (std::size_t i = 0; i < clipped.size(); ++i)
-        clipped.pixels[i] = clipped.pixels[i] != 0 && is_shown_white(pixels.pixels[i], plan.white) ? 1 : 0;
-    return clipped;
-}
-
-MeanEstimate tell_mean(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const Image<std::uint8_t>& clipped,
-                       int x, int y) {
+MeanEstimate tell_mean(const SamplingPlan& plan, const Image<PixelSamples>& pixels, int x, int y) {
     const bool own = plan.stopping == Stopping::pixel && plan.rule != Sampling::threshold;
-    return own ? estimate_own_mean(pixels(x, y)) : estimate_mean(pixels, plan.outlines, clipped, x, y);
+    return own ? estimate_own_mean(pixels(x, y)) : estimate_mean(pixels, plan.outlines, x, y);
 }
 
 enum class Decision : std::uint8_t {
@@ -59,13 +49,12 @@ Decision decide(const SamplingPlan& plan, const PixelSamples& pixel, const MeanE
 std::vector<Decision> ask_rule(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
                                const std::vector<PixelRange>& stage) {
     std::vector<Decision> decisions(stage.size(), Decision::stop);
-    const Image<std::uint8_t> clipped = find_clipped(plan, pixels);
     const Image<float> around =
-        plan.rule == Sampling::threshold ? deviations_around(pixels, clipped, plan.reach) : Image<float>();
+        plan.rule == Sampling::threshold ? deviations_around(pixels, plan.reach) : Image<float>();
     parallel_each(stage.size(), 4096, [&](std::size_t i) {
         const PixelRange& range = stage[i];
-        if (range.last >= plan.most || (!clipped.empty() && clipped(range.x, range.y) != 0)) return;
-        MeanEstimate mean = tell_mean(plan, pixels, clipped, range.x, range.y);
+        if (range.last >= plan.most) return;
+        MeanEstimate mean = tell_mean(plan, pixels, range.x, range.y);
         const PixelSamples& pixel = pixels(range.x, range.y);
         if (range.last >= white_samples && is_shown_white(pixel, plan.white, mean.variance)) return;
         if (!around.empty()) mean.around = static_cast<double>(around(range.x, range.y));
@@ -79,7 +68,7 @@ std::vector<Decision> ask_own_rule(const SamplingPlan& plan, const Image<PixelSa
                                    const std::vector<PixelRange>& stage) {
     StagePixels asked;
     for (const PixelRange& range : stage) {
-        const MeanEstimate mean = tell_mean(plan, pixels, {}, range.x, range.y);
+        const MeanEstimate mean = tell_mean(plan, pixels, range.x, range.y);
         asked.x.push_back(range.x);
         asked.y.push_back(range.y);
         asked.samples.push_back(range.last);

@@ -22,7 +22,6 @@ struct SamplingPlan {
     Image<Outline> outlines;  ///< for `threshold`; empty: none
     Image<int> least;         ///< for `threshold`: samples before the rule is asked first; empty: no more than usual
     int reach = 1;            ///< for `threshold`: pixels on either side that are seen together (find_seen_reach)
-    Image<std::uint8_t> bright_edges;                        ///< for `threshold` (bright_edges.h); empty: none
     double white = std::numeric_limits<double>::infinity();  ///< for `threshold`: radiance that is shown as white
     const PicturePart* part = nullptr;                       ///< pixels that take samples; null: all
 };

@@ -159,6 +159,18 @@ TEST(PixelFilterTest, PlacesAreDistributedLikeTheWindow) {
     EXPECT_EQ(place_in_filter(PixelFilter::blackman_harris, 1.0), 1.5);
 }
 
+TEST(PixelFilterTest, DensityIsThatOfThePlaces) {
+    for (const PixelFilter filter : {PixelFilter::box, PixelFilter::blackman_harris}) {
+        EXPECT_EQ(filter_density(filter, 1.0001 * place_in_filter(filter, 1.0)), 0.0);
+        constexpr int count = 4096;
+        for (int i = 0; i < count; ++i) {
+            const double u = (i + 0.5) / count, step = 1e-6;
+            const double along = place_in_filter(filter, u + step) - place_in_filter(filter, u - step);
+            EXPECT_NEAR(filter_density(filter, place_in_filter(filter, u)) * along / (2.0 * step), 1.0, 1e-6) << u;
+        }
+    }
+}
+
 /// A flat, parallel view of 16 x 12 pixels of 1 m, whose rows and columns begin at the origin.
 Scene make_flat_view(double left, double right, double bottom, double top) {
     Scene scene;

@@ -1,0 +1,241 @@
+#include "render/shade/edge_light.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "engine/base/parallel.h"
+#include "engine/base/pixel_loops.h"
+#include "render/pixels/pixel_sequence.h"
+#include "render/shade/picture_polygon.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int packet = 16;
+constexpr int rays_of_a_sample = 16;
+constexpr int first_lamp_rays = 64, first_sky_rays = 256;  // of a pixel's first set
+constexpr int parts_of_a_set = 8;                          // which tell its error
+constexpr double share_of_energy = 0.5;                    // of the error that pixels may have
+constexpr double variance_of_half = 2.0;                   // of half as many rays, over that of all
+constexpr std::uint32_t edge_key_mask = 0x65646765u;       // apart from the samples' own places
+
+/// What pixels may err by.
+struct EdgeLimits {
+    const SamplingPlan& plan;
+    Image<float> density;  ///< share of the pixels that are seen together that have a bright edge; empty: no limit
+};
+
+/// The part of a lamp's triangle that lies in a pixel's filter.
+struct LampPart {
+    int instance = no_index, primitive = no_index;
+    PicturePolygon polygon;
+    double weight = 0.0;   ///< about its share of the filter
+    double end = 0.0;      ///< share of the rays up to and including it
+    double density = 0.0;  ///< of its rays, per square pixel
+};
+
+/// Rays of one pixel.
+class EdgeRays {
+  public:
+    EdgeRays(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
+             const EdgeLight& light)
+        : scene_(scene),
+          task_(task),
+          place_(place),
+          edges_(edges),
+          light_(light),
+          middle_(light.x + 0.5, light.y + 0.5) {
+        double sum = 0.0, end = 0.0;
+        for (std::size_t i = light.first; i < light.last; ++i) {
+            const Emitter& lamp = scene.lighting.lights.emitters[edges.lamps[i].emitter];
+            const LampPart part = find_part(lamp, lamp.triangles[edges.lamps[i].triangle]);
+            if (!(part.weight > 0.0)) continue;
+            parts_.push_back(part);
+            sum += part.weight;
+        }
+        for (LampPart& part : parts_) {
+            part.end = end += part.weight / sum;
+            part.density = part.weight / sum / area_of(part.polygon);
+        }
+    }
+
+    /// The sum over the rays of one set from `first` to `last`.
+    Rgb cast(std::uint32_t set, int first, int last) {
+        place_.noise_key ^= edge_key_mask + set;
+        Rgb sum(0.0f);
+        for (int begin = first; begin < last; begin += packet) {
+            const int count = std::min(packet, last - begin);
+            if (!parts_.empty()) sum += cast_to_lamps(begin, count);
+            if (light_.sky) sum += cast_to_sky(begin, count);
+        }
+        place_.noise_key ^= edge_key_mask + set;
+        return sum;
+    }
+
+  private:
+    LampPart find_part(const Emitter& lamp, const Emitter::Triangle& triangle) const {
+        const double radius = place_in_filter(place_.filter, 1.0);
+        const PicturePolygon whole = project_triangle(scene_.view, place_corners(scene_.lighting.shading, triangle));
+        LampPart part{lamp.instance, triangle.primitive, clip_to_rectangle(whole, middle_ - radius, middle_ + radius)};
+        const PicturePolygon& polygon = part.polygon;
+        for (int i = 0; i < polygon.count; ++i)
+            part.weight += weigh(0.5 * (polygon.corners[i] + polygon.corners[(i + 2) % polygon.count]));
+        part.weight *= area_of(polygon) / std::max(1, polygon.count);
+        return part;
+    }
+
+    /// Density of the filter at a place of the picture.
+    double weigh(const glm::dvec2& place) const {
+        const glm::dvec2 away = place - middle_;
+        return filter_density(place_.filter, away.x) * filter_density(place_.filter, away.y);
+    }
+
+    void intersect(int count) {
+        task_.tracer.intersect(std::span(rays_.data(), static_cast<std::size_t>(count)),
+                               std::span(hits_.data(), static_cast<std::size_t>(count)));
+        task_.counts.primary += static_cast<std::uint64_t>(count);
+    }
+
+    Rgb cast_to_lamps(int begin, int count) {
+        const PixelSequence sequence(place_.seed, place_.noise_key, light_.x, light_.y);
+        std::array<const LampPart*, packet> chosen{};
+        std::array<float, packet> weights{};
+        for (int i = 0; i < count; ++i) {
+            const double u = sequence.at_1d(SampleUse::bright_choice, begin + i);
+            const auto part = std::ranges::find_if(parts_, [u](const LampPart& p) { return u < p.end; });
+            chosen[i] = part == parts_.end() ? &parts_.back() : &*part;
+            const glm::dvec2 at =
+                sample_polygon(chosen[i]->polygon, sequence.at_2d(SampleUse::bright_point, begin + i));
+            weights[i] = static_cast<float>(weigh(at) / chosen[i]->density);
+            CameraRay ray = make_camera_ray(scene_.view, at.x, at.y);
+            if (place_.blend == Blend::random) ray.choice = sequence.at_1d(SampleUse::passing, begin + i);
+            rays_[i] = to_scene(scene_.lighting.rays, ray);
+        }
+        intersect(count);
+        Rgb sum(0.0f);
+        for (int i = 0; i < count; ++i) {
+            if (hits_[i].instance == chosen[i]->instance && hits_[i].primitive == chosen[i]->primitive)
+                sum += weights[i] * light_in_edge(scene_, task_, place_, edges_, light_, hits_[i], rays_[i].direction);
+        }
+        return sum;
+    }
+
+    Rgb cast_to_sky(int begin, int count) {
+        SamplePlace own = place_;
+        for (int i = 0; i < count; ++i) {
+            own.index = begin + i;
+            rays_[i] = to_scene(scene_.lighting.rays, make_sample_ray(scene_.view, own, light_.x, light_.y));
+        }
+        intersect(count);
+        Rgb sum(0.0f);
+        for (int i = 0; i < count; ++i) {
+            if (hits_[i].instance == no_index) sum += environment_radiance(scene_.lighting.shading, rays_[i].direction);
+        }
+        return sum;
+    }
+
+    const SampleScene& scene_;
+    ShadingTask& task_;
+    SamplePlace place_;
+    const BrightEdges& edges_;
+    const EdgeLight& light_;
+    const glm::dvec2 middle_;
+    std::vector<LampPart> parts_;
+    std::array<Ray, packet> rays_;
+    std::array<Hit, packet> hits_;
+};
+
+/// Casts one set of rays.
+void take_set(EdgeRays& rays, std::uint32_t set, int count, EdgeLight& light) {
+    const int parts = std::clamp(count / 8, 1, parts_of_a_set);
+    glm::dvec3 sum(0.0);
+    double mean = 0.0, squares = 0.0;  // of the parts (Welford 1962)
+    for (int part = 0; part < parts; ++part) {
+        const auto begin = static_cast<int>(std::int64_t{count} * part / parts);
+        const auto end = static_cast<int>(std::int64_t{count} * (part + 1) / parts);
+        const Rgb of_part = rays.cast(set, begin, end);
+        sum += glm::dvec3(of_part);
+        const double y = luminance(of_part) / (end - begin), difference = y - mean;
+        mean += difference / (part + 1);
+        squares += difference * (y - mean);
+    }
+    light.mean = Rgb(sum / static_cast<double>(count));
+    light.variance = parts < 2 ? 0.0f : static_cast<float>(squares / (parts * (parts - 1)));
+}
+
+/// Returns whether the next set, twice as large, may be the last.
+bool tells_enough(const EdgeLight& light, const EdgeLimits& limits) {
+    const SamplingPlan& plan = limits.plan;
+    const double least = std::min({light.mean.x, light.mean.y, light.mean.z}), variance = light.variance;
+    const double deviations = 3.0 * std::sqrt(variance) / std::max(1e-30, double{luminance(light.mean)});
+    if (least * (1.0 - deviations) > plan.white) return true;
+    const double tolerance = plan.tolerance(light.x, light.y) / error_deviations;
+    return variance * limits.density(light.x, light.y) <= share_of_energy * variance_of_half * tolerance * tolerance;
+}
+
+void take_sets(EdgeRays& rays, const EdgeLimits& limits, EdgeLight& light) {
+    const int most = rays_of_a_sample * limits.plan.most, first = light.sky ? first_sky_rays : first_lamp_rays;
+    int count = limits.density.empty() ? most : std::min(first, most);
+    bool is_last = count == most;
+    for (std::uint32_t set = 0;; ++set) {
+        take_set(rays, set, count, light);
+        if (is_last) return;
+        count = std::min(2 * count, most);
+        is_last = count == most || tells_enough(light, limits);
+    }
+}
+
+std::vector<EdgeLight> list_pixels(const BrightEdges& edges, const PicturePart* part) {
+    std::vector<EdgeLight> pixels;
+    std::size_t next = 0;
+    for (int y = 0; y < edges.sky.height; ++y) {
+        for (int x = 0; x < edges.sky.width; ++x) {
+            const std::size_t first = next;
+            while (next < edges.lamps.size() && edges.lamps[next].x == x && edges.lamps[next].y == y) ++next;
+            const bool is_wanted = part == nullptr || (*part)(x, y) != 0, sky = edges.sky(x, y) != 0;
+            if (is_wanted && (sky || next > first))
+                pixels.push_back({.x = x, .y = y, .sky = sky, .first = first, .last = next});
+        }
+    }
+    return pixels;
+}
+
+}  // namespace
+
+std::vector<EdgeLight> find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
+                                       const BrightEdges& edges, std::uint64_t& rays_cast) {
+    std::vector<EdgeLight> found = list_pixels(edges, plan.part);
+    EdgeLimits limits{plan, {}};
+    if (!plan.tolerance.empty() && !found.empty()) {
+        limits.density = Image<float>(edges.sky.width, edges.sky.height);
+        for (const EdgeLight& light : found) limits.density(light.x, light.y) = 1.0f;
+        limits.density = mean_around(limits.density, plan.reach, true);
+    }
+    std::atomic<std::uint64_t> rays_of_all = 0;
+    parallel_for(found.size(), 4, [&](std::size_t first, std::size_t last) {
+        ShadingTask task(scene.lighting.rays, scene.lighting.rays);
+        for (std::size_t i = first; i < last; ++i) {
+            EdgeRays rays(scene, task, place, edges, found[i]);
+            take_sets(rays, limits, found[i]);
+        }
+        rays_of_all += task.counts.primary;
+    });
+    rays_cast += rays_of_all;
+    // Light that is no number stays with the samples that meet it.
+    std::erase_if(found, [](const EdgeLight& light) { return !is_finite(light.mean); });
+    return found;
+}
+
+Rgb light_in_edge(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
+                  const EdgeLight& edge, const Hit& hit, const glm::vec3& direction) {
+    if (hit.instance == no_index) return edge.sky ? environment_radiance(scene.lighting.shading, direction) : Rgb(0.0f);
+    if (edges.is_lamp[hit.instance] == 0) return Rgb(0.0f);
+    const PixelSurface surface =
+        make_pixel_surface(scene.lighting.shading, scene.view, place, hit, direction, {edge.x, edge.y});
+    return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
+}
+
+}  // namespace aleph

@@ -1,0 +1,77 @@
+#include "render/shade/picture_polygon.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aleph {
+
+namespace {
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// Of the triangle of corners 0, i and i + 1.
+double fan_area(const PicturePolygon& polygon, int i) {
+    const auto& corners = polygon.corners;
+    return 0.5 * std::abs(cross(corners[i] - corners[0], corners[i + 1] - corners[0]));
+}
+
+/// The corners before a plane, and where sides cross it: visit(a, b, t) for the place a + t (b - a).
+/// @param height  of a corner over the plane
+template <class Height, class Visit>
+void clip(int count, const Height& height, const Visit& visit) {
+    for (int i = 0; i < count; ++i) {
+        const int next = (i + 1) % count;
+        const double here = height(i), there = height(next);
+        if (here >= 0.0) visit(i, i, 0.0);
+        if ((here >= 0.0) != (there >= 0.0)) visit(i, next, here / (here - there));
+    }
+}
+
+}  // namespace
+
+PicturePolygon project_triangle(const CameraView& view, const std::array<glm::dvec3, 3>& corners) {
+    std::array<glm::dvec3, 3> seen;
+    std::ranges::transform(corners, seen.begin(), [&](const glm::dvec3& corner) { return to_camera(view, corner); });
+    PicturePolygon polygon;
+    clip(
+        3, [&](int i) { return -seen[i].z - 2.0 * view.near_plane; },
+        [&](int a, int b, double t) { polygon.add(project_camera_point(view, seen[a] + t * (seen[b] - seen[a]))); });
+    return polygon;
+}
+
+PicturePolygon clip_to_rectangle(const PicturePolygon& polygon, const glm::dvec2& low, const glm::dvec2& high) {
+    PicturePolygon left = polygon;
+    for (int axis = 0; axis < 2; ++axis) {
+        for (const double side : {-1.0, 1.0}) {
+            const PicturePolygon before = left;
+            const double limit = side < 0.0 ? -low[axis] : high[axis];
+            left.count = 0;
+            clip(
+                before.count, [&](int i) { return limit - side * before.corners[i][axis]; },
+                [&](int a, int b, double t) {
+                    left.add(before.corners[a] + t * (before.corners[b] - before.corners[a]));
+                });
+        }
+    }
+    return left;
+}
+
+double area_of(const PicturePolygon& polygon) {
+    double sum = 0.0;
+    for (int i = 1; i + 1 < polygon.count; ++i) sum += fan_area(polygon, i);
+    return sum;
+}
+
+glm::dvec2 sample_polygon(const PicturePolygon& polygon, const glm::dvec2& u) {
+    double left = u.x * area_of(polygon);
+    int chosen = 1;
+    for (; chosen + 2 < polygon.count && left >= fan_area(polygon, chosen); ++chosen) left -= fan_area(polygon, chosen);
+    const double area = fan_area(polygon, chosen), share = area > 0.0 ? std::clamp(left / area, 0.0, 1.0) : 0.0;
+    const auto& corners = polygon.corners;
+    return corners[0] +
+           std::sqrt(share) * (corners[chosen] - corners[0] + u.y * (corners[chosen + 1] - corners[chosen]));
+}
+
+}  // namespace aleph

@@ -1,0 +1,36 @@
+#pragma once
+// Triangles as the picture shows them.
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/pose/camera_view.h"
+
+namespace aleph {
+
+/// A convex polygon of the picture, pixels. A triangle has a corner more where the near plane cuts it, and up to four
+/// more within a rectangle.
+struct PicturePolygon {
+    std::array<glm::dvec2, 8> corners;
+    int count = 0;
+
+    /// Corners beyond eight, which rounding can make, are left out.
+    void add(const glm::dvec2& corner) {
+        if (count < static_cast<int>(corners.size())) corners[count++] = corner;
+    }
+};
+
+/// A triangle (world, m) as far as it lies before the near plane. Without corners if it does not.
+PicturePolygon project_triangle(const CameraView& view, const std::array<glm::dvec3, 3>& corners);
+
+/// The part of a polygon of up to four corners within a rectangle (Sutherland and Hodgman 1974).
+PicturePolygon clip_to_rectangle(const PicturePolygon& polygon, const glm::dvec2& low, const glm::dvec2& high);
+
+/// Square pixels.
+double area_of(const PicturePolygon& polygon);
+
+/// A place that is uniform in the polygon. u in [0,1)^2.
+glm::dvec2 sample_polygon(const PicturePolygon& polygon, const glm::dvec2& u);
+
+}  // namespace aleph
