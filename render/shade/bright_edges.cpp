@@ -6,7 +6,6 @@
 
 #include "engine/base/pixel_loops.h"
 #include "engine/rays/first_hits.h"
-#include "render/shade/picture_polygon.h"
 
 namespace aleph {
 
@@ -109,9 +108,10 @@ bool faces_camera(const CameraView& view, const ShadingScene& shading, const Emi
 
 }  // namespace
 
-std::array<glm::dvec3, 3> place_corners(const ShadingScene& shading, const Emitter::Triangle& triangle) {
-    const glm::dvec3 corner = shading.anchor + glm::dvec3(triangle.corner);
-    return {corner, corner + glm::dvec3(triangle.edge1), corner + glm::dvec3(triangle.edge2)};
+PicturePolygon project_lamp(const CameraView& view, const ShadingScene& shading, const LampTriangle& triangle) {
+    const Emitter::Triangle placed = place_triangle(shading.instances[triangle.instance], triangle.primitive);
+    const glm::dvec3 corner = shading.anchor + glm::dvec3(placed.corner);
+    return project_triangle(view, {corner, corner + glm::dvec3(placed.edge1), corner + glm::dvec3(placed.edge2)});
 }
 
 BrightEdges find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,
@@ -122,16 +122,12 @@ BrightEdges find_bright_edges(const LightingContext& context, const CameraView& 
     for (std::uint8_t& share : edges.sky.pixels) share = share == share_some ? 1 : 0;
     const Image<std::uint8_t> shares = find_shares(seen, seen_lamp);
     Image<float> areas(shares.width, shares.height);
-    edges.is_lamp.resize(context.shading.instances.size());
-    const std::vector<Emitter>& emitters = context.lights.emitters;
-    for (int e = 0; e < static_cast<int>(emitters.size()); ++e) {
-        if (luminance(emitters[e].brightest) * exposure < bright) continue;
-        edges.is_lamp[emitters[e].instance] = 1;
-        for (int t = 0; t < static_cast<int>(emitters[e].triangles.size()); ++t) {
-            const Emitter::Triangle& triangle = emitters[e].triangles[t];
-            if (!emitters[e].double_sided && !faces_camera(view, context.shading, triangle)) continue;
-            const PicturePolygon polygon = project_triangle(view, place_corners(context.shading, triangle));
-            add_triangle(polygon, filter, shares, {.emitter = e, .triangle = t}, edges.lamps, areas);
+    for (const Emitter& lamp : context.lights.emitters) {
+        if (luminance(lamp.brightest) * exposure < bright) continue;
+        for (const Emitter::Triangle& triangle : lamp.triangles) {
+            if (!lamp.double_sided && !faces_camera(view, context.shading, triangle)) continue;
+            const LampTriangle found{.instance = lamp.instance, .primitive = triangle.primitive};
+            add_triangle(project_lamp(view, context.shading, found), filter, shares, found, edges.lamps, areas);
         }
     }
     // What covers a filter and shows at no centre around is hidden.

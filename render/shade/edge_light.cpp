@@ -30,28 +30,32 @@ struct EdgeLimits {
 
 /// The part of a lamp's triangle that lies in a pixel's filter.
 struct LampPart {
-    int instance = no_index, primitive = no_index;
+    LampTriangle triangle;
     PicturePolygon polygon;
     double weight = 0.0;   ///< about its share of the filter
     double end = 0.0;      ///< share of the rays up to and including it
     double density = 0.0;  ///< of its rays, per square pixel
 };
 
+bool is_hit(const Hit& hit, const LampTriangle& triangle) {
+    return hit.instance == triangle.instance && hit.primitive == triangle.primitive;
+}
+
+Rgb find_emission(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const Hit& hit,
+                  const glm::vec3& direction, const glm::ivec2& pixel) {
+    const PixelSurface surface = make_pixel_surface(scene.lighting.shading, scene.view, place, hit, direction, pixel);
+    return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
+}
+
 /// Rays of one pixel.
 class EdgeRays {
   public:
     EdgeRays(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
              const EdgeLight& light)
-        : scene_(scene),
-          task_(task),
-          place_(place),
-          edges_(edges),
-          light_(light),
-          middle_(light.x + 0.5, light.y + 0.5) {
+        : scene_(scene), task_(task), place_(place), light_(light), middle_(light.x + 0.5, light.y + 0.5) {
         double sum = 0.0, end = 0.0;
         for (std::size_t i = light.first; i < light.last; ++i) {
-            const Emitter& lamp = scene.lighting.lights.emitters[edges.lamps[i].emitter];
-            const LampPart part = find_part(lamp, lamp.triangles[edges.lamps[i].triangle]);
+            const LampPart part = find_part(edges.lamps[i]);
             if (!(part.weight > 0.0)) continue;
             parts_.push_back(part);
             sum += part.weight;
@@ -76,10 +80,10 @@ class EdgeRays {
     }
 
   private:
-    LampPart find_part(const Emitter& lamp, const Emitter::Triangle& triangle) const {
+    LampPart find_part(const LampTriangle& triangle) const {
         const double radius = place_in_filter(place_.filter, 1.0);
-        const PicturePolygon whole = project_triangle(scene_.view, place_corners(scene_.lighting.shading, triangle));
-        LampPart part{lamp.instance, triangle.primitive, clip_to_rectangle(whole, middle_ - radius, middle_ + radius)};
+        const PicturePolygon whole = project_lamp(scene_.view, scene_.lighting.shading, triangle);
+        LampPart part{triangle, clip_to_rectangle(whole, middle_ - radius, middle_ + radius)};
         const PicturePolygon& polygon = part.polygon;
         for (int i = 0; i < polygon.count; ++i)
             part.weight += weigh(0.5 * (polygon.corners[i] + polygon.corners[(i + 2) % polygon.count]));
@@ -117,8 +121,9 @@ class EdgeRays {
         intersect(count);
         Rgb sum(0.0f);
         for (int i = 0; i < count; ++i) {
-            if (hits_[i].instance == chosen[i]->instance && hits_[i].primitive == chosen[i]->primitive)
-                sum += weights[i] * light_in_edge(scene_, task_, place_, edges_, light_, hits_[i], rays_[i].direction);
+            if (is_hit(hits_[i], chosen[i]->triangle))
+                sum += weights[i] *
+                       find_emission(scene_, task_, place_, hits_[i], rays_[i].direction, {light_.x, light_.y});
         }
         return sum;
     }
@@ -140,7 +145,6 @@ class EdgeRays {
     const SampleScene& scene_;
     ShadingTask& task_;
     SamplePlace place_;
-    const BrightEdges& edges_;
     const EdgeLight& light_;
     const glm::dvec2 middle_;
     std::vector<LampPart> parts_;
@@ -188,7 +192,9 @@ void take_sets(EdgeRays& rays, const EdgeLimits& limits, EdgeLight& light) {
     }
 }
 
-std::vector<EdgeLight> list_pixels(const BrightEdges& edges, const PicturePart* part) {
+}  // namespace
+
+std::vector<EdgeLight> list_edges(const BrightEdges& edges, const PicturePart* part) {
     std::vector<EdgeLight> pixels;
     std::size_t next = 0;
     for (int y = 0; y < edges.sky.height; ++y) {
@@ -203,11 +209,8 @@ std::vector<EdgeLight> list_pixels(const BrightEdges& edges, const PicturePart* 
     return pixels;
 }
 
-}  // namespace
-
-std::vector<EdgeLight> find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
-                                       const BrightEdges& edges, std::uint64_t& rays_cast) {
-    std::vector<EdgeLight> found = list_pixels(edges, plan.part);
+void find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
+                     const BrightEdges& edges, std::vector<EdgeLight>& found, std::uint64_t& rays_cast) {
     EdgeLimits limits{plan, {}};
     if (!plan.tolerance.empty() && !found.empty()) {
         limits.density = Image<float>(edges.sky.width, edges.sky.height);
@@ -226,16 +229,20 @@ std::vector<EdgeLight> find_edge_light(const SampleScene& scene, const SamplePla
     rays_cast += rays_of_all;
     // Light that is no number stays with the samples that meet it.
     std::erase_if(found, [](const EdgeLight& light) { return !is_finite(light.mean); });
-    return found;
+}
+
+Rgb sample_edge_light(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
+                      const EdgeLight& edge) {
+    const auto set = static_cast<std::uint32_t>(place.index);
+    return EdgeRays(scene, task, place, edges, edge).cast(set, 0, rays_of_a_sample) / float{rays_of_a_sample};
 }
 
 Rgb light_in_edge(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
                   const EdgeLight& edge, const Hit& hit, const glm::vec3& direction) {
     if (hit.instance == no_index) return edge.sky ? environment_radiance(scene.lighting.shading, direction) : Rgb(0.0f);
-    if (edges.is_lamp[hit.instance] == 0) return Rgb(0.0f);
-    const PixelSurface surface =
-        make_pixel_surface(scene.lighting.shading, scene.view, place, hit, direction, {edge.x, edge.y});
-    return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
+    const auto triangles = std::span(edges.lamps).subspan(edge.first, edge.last - edge.first);
+    const bool is_known = std::ranges::any_of(triangles, [&](const LampTriangle& t) { return is_hit(hit, t); });
+    return is_known ? find_emission(scene, task, place, hit, direction, {edge.x, edge.y}) : Rgb(0.0f);
 }
 
 }  // namespace aleph

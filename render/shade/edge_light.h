@@ -19,14 +19,21 @@ struct EdgeLight {
     float variance = 0.0f;            ///< of the mean's luminance, as parts of its rays tell it
 };
 
-/// Pixels at bright edges, row by row.
-/// Sets of rays, each twice as many as those before and with random numbers of its own, are cast until one is told to
-/// be the last by those before it: the mean of that one alone has no bias. It is where the energy of the errors around,
-/// if they are all as large, is half of what pixels may have, or where they tell white.
+/// Pixels at bright edges, row by row, without their light.
+std::vector<EdgeLight> list_edges(const BrightEdges& edges, const PicturePart* part);
+
+/// Finds the light of these pixels while the shutter is closed. Sets of rays, each twice as many as those before and
+/// with random numbers of its own, are cast until one is told to be the last by those before it: the mean of that one
+/// alone has no bias. It is where the energy of the errors around, if they are all as large, is half of what pixels may
+/// have, or where they tell white.
 /// @param place  of the first sample
-/// @param plan   for its pixels, tolerances and white. With no tolerances there is one set, of 16 rays for each sample
-std::vector<EdgeLight> find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
-                                       const BrightEdges& edges, std::uint64_t& rays_cast);
+/// @param plan   for tolerances and white. With no tolerances there is one set, of 16 rays for each sample
+void find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
+                     const BrightEdges& edges, std::vector<EdgeLight>& found, std::uint64_t& rays_cast);
+
+/// The mean of 16 rays at the time of a sample, while the shutter is open.
+Rgb sample_edge_light(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
+                      const EdgeLight& edge);
 
 /// The light that the hit of a sample's ray shows by itself, as far as it is in the pixel's EdgeLight.
 Rgb light_in_edge(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,

@@ -67,12 +67,13 @@ class FrameShading {
 
     /// @param centers  hits of the pixels' centres
     void shade(const SampleHits& centers) {
-        // A lens or an open shutter would need rays from all of it: their outlines and textures are soft.
-        if (!place_.centered && !options_.at_sample && !(options_.lens.radius > 0.0)) {
-            const ShadingScene& shading = context_.lighting.shading;
+        // A lens would need rays from all of it: outlines and textures are soft.
+        if (!place_.centered && !(options_.lens.radius > 0.0)) {
             find_edges(centers);
+            const ShadingScene& shading = context_.lighting.shading;
             // Paths alone are to judge what an estimate guides.
-            if (options_.estimate != nullptr && context_.settings.light.integrator == Integrator::cache)
+            if (!options_.at_sample && options_.estimate != nullptr &&
+                context_.settings.light.integrator == Integrator::cache)
                 textures_.emplace(shading, context_.view, centers, *options_.estimate, exposure_);
         }
         sample_by_stages(
@@ -90,7 +91,10 @@ class FrameShading {
     void find_edges(const SampleHits& centers) {
         std::uint64_t& rays = out_.counts.rays.primary;
         edges_ = find_bright_edges(context_.lighting, context_.view, centers, place_.filter, exposure_, rays);
-        edge_light_ = find_edge_light({context_.lighting, context_.view, options_.lens}, place_, plan_, edges_, rays);
+        edge_light_ = list_edges(edges_, plan_.part);
+        if (!options_.at_sample)
+            find_edge_light({context_.lighting, context_.view, options_.lens}, place_, plan_, edges_, edge_light_,
+                            rays);
         if (edge_light_.empty()) return;
         edge_of_ = Image<int>(pixels_.width, pixels_.height, no_index);
         for (std::size_t i = 0; i < edge_light_.size(); ++i) {
@@ -222,8 +226,10 @@ class FrameShading {
                 light[LightPart::direct] += correction;
                 light.control = luminance(correction);
             }
-            if (const EdgeLight* edge = find_edge(x, y))
-                light[LightPart::surface] += edge->mean - light_in_edge(scene, task, at, edges_, *edge, hit, direction);
+            if (const EdgeLight* edge = find_edge(x, y)) {
+                const Rgb mean = options_.at_sample ? sample_edge_light(scene, task, at, edges_, *edge) : edge->mean;
+                light[LightPart::surface] += mean - light_in_edge(scene, task, at, edges_, *edge, hit, direction);
+            }
             add_sample(task, x, y, light);
         };
         for (const PixelRange& range : ranges) {
