@@ -99,9 +99,11 @@ void add_layers(const LayersOf<float, Rgb>& layers, const Lookup& look_up, Surfa
             angle += std::atan2(2.0f * texel.y - 1.0f, 2.0f * texel.x - 1.0f);
             strength *= texel.z;
         }
+        // A normal map gives the tangent space (KHR_materials_anisotropy).
+        const TextureSlot space = look_up.has(TextureSlot::normal) ? TextureSlot::normal : TextureSlot::anisotropy;
         const SurfacePoint& point = look_up.point;
         const TangentFrame frame =
-            find_tangents(point, look_up.textures[TextureSlot::anisotropy], point.front ? point.normal : -point.normal);
+            find_tangents(point, look_up.textures[space], point.front ? point.normal : -point.normal);
         if (frame.tangent != glm::vec3(0.0f)) {
             surface.gloss.stretch = std::min(strength * strength, 1.0f);
             surface.gloss.tangent = frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle);

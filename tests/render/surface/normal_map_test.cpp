@@ -232,5 +232,25 @@ TEST(NormalMap, MC18_TangentsOfNarrowTriangles) {
     EXPECT_GT(narrow, 4000);
 }
 
+/// KHR_materials_anisotropy: directions are in the tangent space, which is that of the normal map.
+TEST(NormalMap, AnisotropyTakesItsTangents) {
+    const SceneImage along_x{.bytes = Image<glm::u8vec4>(1, 1, {255, 128, 255, 255})},
+        upright{.bytes = Image<glm::u8vec4>(1, 1, {128, 128, 255, 255})};
+    for (const bool mapped : {false, true}) {
+        for (const bool textured : {false, true}) {
+            Material material{.layers = {.anisotropy = 0.6}};
+            if (textured) material.textures[TextureSlot::anisotropy] = {.image = 0};
+            if (mapped) material.textures[TextureSlot::normal] = {.image = 1, .uv_set = 1};
+            MaterialStage square(material, {along_x, upright});
+            square.point.edges[0] = {1.0f, 0.0f, 0.0f};
+            square.point.edges[1] = up;
+            square.point.uv_edges[0][0] = square.point.uv_edges[1][1] = {1.0f, 0.0f};
+            square.point.uv_edges[0][1] = square.point.uv_edges[1][0] = {0.0f, -1.0f};
+            EXPECT_NEAR(square.evaluate().gloss.tangent.x, mapped ? 0.0f : 1.0f, 0.01f) << mapped << textured;
+            EXPECT_NEAR(square.evaluate().gloss.tangent.y, mapped ? 1.0f : 0.0f, 0.01f) << mapped << textured;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace aleph
