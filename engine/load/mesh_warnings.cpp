@@ -110,10 +110,9 @@ std::optional<UvNeed> find_texture_without_uv(const Material& material, const Me
 std::optional<UvNeed> find_direction_without_uv(const Material& material, const Mesh& mesh) {
     if (const auto texture = find_texture_without_uv(material, mesh, true)) return texture;
     const bool stretched = std::ranges::any_of(material.layers.anisotropy.values, [](double v) { return v > 0.0; });
-    // Without a texture of its own it is relative to the normal map's coordinates (KHR_materials_anisotropy).
-    const bool has_own = material.textures[TextureSlot::anisotropy].image != no_index;
-    const int set =
-        has_own ? material.textures[TextureSlot::anisotropy].uv_set : material.textures[TextureSlot::normal].uv_set;
+    // A normal map gives the tangent space (KHR_materials_anisotropy).
+    const TextureRef& normal = material.textures[TextureSlot::normal];
+    const int set = (normal.image != no_index ? normal : material.textures[TextureSlot::anisotropy]).uv_set;
     if (stretched && mesh.uv[set].empty()) return UvNeed{"anisotropy", set};
     return std::nullopt;
 }

@@ -145,9 +145,10 @@ void morph(const Mesh& mesh, double seconds, PosedMesh& posed) {
 }
 
 /// glTF 2.0, 3.7.3.3: the node's own transform is to be ignored, so its inverse is applied. A node without volume has
-/// no inverse: its mesh stays as it is, and no ray can hit it.
+/// no inverse: its mesh stays as it is, and no ray can hit it. A node or joints that mirror turn triangles inside out.
 void apply_skin(const Scene& scene, const Mesh& mesh, int node, std::span<const glm::dmat4> world, PosedMesh& posed) {
     const glm::dmat4& placed = world[node];
+    posed.mirrored = false;
     if (!has_full_rank(placed)) return;
     const glm::dmat4 undo = glm::inverse(placed);
     const Skin& skin = scene.skins[mesh.deformation.skin];
@@ -157,6 +158,7 @@ void apply_skin(const Scene& scene, const Mesh& mesh, int node, std::span<const 
         joints.push_back(undo * world[skin.joints[j]] * skin.inverse_binds[j]);
 
     const auto per_vertex = static_cast<std::size_t>(mesh.deformation.joints_per_vertex);
+    double upright = 0.0;  // vertices, less those that are mirrored
     for (std::size_t v = 0; v < posed.positions.size(); ++v) {
         glm::dmat4 blend(0.0);
         double sum = 0.0;
@@ -168,10 +170,14 @@ void apply_skin(const Scene& scene, const Mesh& mesh, int node, std::span<const 
         }
         if (!(sum > 0.0)) continue;
         posed.positions[v] = glm::dvec3(blend * glm::dvec4(posed.positions[v], 1.0)) / sum;
+        upright += orientation_sign(blend);
         if (posed.normals.empty()) continue;
         const glm::dvec3 normal = safe_normalize(normal_matrix(blend) * glm::dvec3(posed.normals[v]));
         if (normal != glm::dvec3(0.0)) posed.normals[v] = glm::vec3(normal);
     }
+    posed.mirrored = upright < 0.0;
+    if (!posed.mirrored) return;
+    for (glm::vec3& normal : posed.normals) normal = -normal;
 }
 
 /// Control points of the last cage: its meshes usually follow each other.

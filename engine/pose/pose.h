@@ -59,6 +59,7 @@ struct PosedMesh {
     std::vector<glm::dvec3> positions;  ///< m, object space, per vertex; empty: the mesh is rigid
     std::vector<glm::vec3> normals;     ///< per vertex; empty: flat
     std::vector<glm::dvec3> control;    ///< of a cage's mesh: control points of its LimitSurface
+    bool mirrored = false;              ///< by its skin: triangles and normals face inwards
     bool operator==(const PosedMesh&) const = default;
 };
 

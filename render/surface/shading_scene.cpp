@@ -65,11 +65,11 @@ PosedInstance make_instance(const ShadingScene& shading, const RayScene& rays, i
     posed.material = mesh.material == no_index ? static_cast<int>(shading.scene->materials.size()) : mesh.material;
     posed.linear = glm::mat3(glm::dmat3(world));
     posed.translation = glm::vec3(glm::dvec3(world[3]) - shading.anchor);
-    posed.normals = glm::mat3(normal_matrix(world));
     posed.flat = rays.is_flat(i);
     if (posed.flat) posed.flat_origin = glm::vec3(rays.flat_origin() - shading.anchor);
     const PosedMesh& deformed = pose.meshes[instance.mesh];
     if (!deformed.positions.empty()) posed.deformed = &deformed;
+    posed.normals = glm::mat3(normal_matrix(world)) * (deformed.mirrored ? -1.0f : 1.0f);
     // Rays leave out instances without volume or with bad points, so these must not emit light or count for the scene's
     // size.
     posed.visible = pose.shown[i] != 0 && is_traceable(world) && are_traceable(deformed.positions);

@@ -26,7 +26,7 @@ struct PosedInstance {
     int material = no_index;      ///< into ShadingScene::materials; the default material is its last entry
     glm::mat3 linear{1.0f};       ///< object to world
     glm::vec3 translation{0.0f};  ///< m, relative to the anchor
-    glm::mat3 normals{1.0f};      ///< object to world for normals (cofactors), not normalised
+    glm::mat3 normals{1.0f};      ///< object to world for normals (cofactors), not normalised; outwards
     glm::mat3 rounding{1.0f};  ///< |linear| |linear^-1|: growth of a rounding error on the way to object space and back
     /// m, relative to the anchor: of the coordinates in which rays meet it, where they are those of the flat tree.
     glm::vec3 flat_origin{0.0f};

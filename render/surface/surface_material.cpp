@@ -1,6 +1,7 @@
 #include "render/surface/surface_material.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
@@ -99,9 +100,11 @@ void add_layers(const LayersOf<float, Rgb>& layers, const Lookup& look_up, Surfa
             angle += std::atan2(2.0f * texel.y - 1.0f, 2.0f * texel.x - 1.0f);
             strength *= texel.z;
         }
+        // A normal map gives the tangent space (KHR_materials_anisotropy).
+        const TextureSlot space = look_up.has(TextureSlot::normal) ? TextureSlot::normal : TextureSlot::anisotropy;
         const SurfacePoint& point = look_up.point;
         const TangentFrame frame =
-            find_tangents(point, look_up.textures[TextureSlot::anisotropy], point.front ? point.normal : -point.normal);
+            find_tangents(point, look_up.textures[space], point.front ? point.normal : -point.normal);
         if (frame.tangent != glm::vec3(0.0f)) {
             surface.gloss.stretch = std::min(strength * strength, 1.0f);
             surface.gloss.tangent = frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle);
@@ -160,6 +163,23 @@ bool leaks(const SurfaceMaterial& material, float width, float cosine) {
     const float ratio = material.glass.ior_ratio;
     if (!material.has_glass() || !(ratio < 1.0f)) return false;
     return std::asin(ratio) - std::acos(std::min(cosine, 1.0f)) < 2.0f * width;
+}
+
+/// The share of a footprint where a mask does not make a hole, of the points of a lattice (Roberts 2018, "The
+/// Unreasonable Effectiveness of Quasirandom Sequences"). The mean of alpha does not tell it.
+float masked_coverage(const Lookup& look_up, float alpha, float cutoff) {
+    constexpr int most_points = 16;
+    const TextureUse& use = look_up.textures[TextureSlot::base_color];
+    const UvFootprint& part = look_up.footprints[use.uv_set];
+    const bool is_point = !look_up.has(TextureSlot::base_color) || (part.dx == glm::vec2(0.0f) && part.dy == part.dx);
+    const int points = is_point ? 1 : most_points;
+    int shown = 0;
+    for (int i = 0; i < points; ++i) {
+        const glm::vec2 shift = glm::fract(0.5f + static_cast<float>(i) * glm::vec2(0.754877666f, 0.569840296f)) - 0.5f;
+        const glm::vec2 at = look_up.point.uv[use.uv_set] + part.dx * shift.x + part.dy * shift.y;
+        if (!(alpha * sample_texture(*look_up.shading.textures, use, at, {}).w < cutoff)) ++shown;
+    }
+    return static_cast<float>(shown) / static_cast<float>(points);
 }
 
 Rgb emission_of(const ShadingMaterial& material, const Lookup& look_up) {
@@ -259,10 +279,11 @@ Rgb surface_emission(const ShadingScene& shading, const SurfacePoint& point, con
 float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint) {
     const ShadingMaterial& entry = shading.materials[point.material];
     if (entry.material == nullptr || entry.material->opacity.mode == Opacity::Mode::opaque) return 1.0f;
-    const float texel = Lookup(shading, point, footprint)(TextureSlot::base_color).w;
-    const float alpha = entry.values.alpha * point.color.w * texel;
-    if (entry.material->opacity.mode == Opacity::Mode::blend) return std::clamp(alpha, 0.0f, 1.0f);
-    return alpha < static_cast<float>(entry.material->opacity.cutoff) ? 0.0f : 1.0f;
+    const Lookup look_up(shading, point, footprint);
+    const float alpha = entry.values.alpha * point.color.w;
+    if (entry.material->opacity.mode == Opacity::Mode::mask)
+        return masked_coverage(look_up, alpha, static_cast<float>(entry.material->opacity.cutoff));
+    return std::clamp(alpha * look_up(TextureSlot::base_color).w, 0.0f, 1.0f);
 }
 
 ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& point, const glm::vec3& view,

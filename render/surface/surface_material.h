@@ -102,7 +102,8 @@ Rgb surface_emission(const ShadingScene& shading, const SurfacePoint& point, con
 /// The texture that emission is multiplied by; white without one.
 Rgb emission_texel(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint);
 
-/// Share of the rays that the surface stops: less than 1 where a mask or blending lets some pass (Blend::random).
+/// Share of the rays to the footprint that the surface stops: less than 1 where a mask or blending lets some pass
+/// (Blend::random).
 float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint);
 
 /// The surface with its material and the normals that the normal maps give. Where a lobe depends on the view,

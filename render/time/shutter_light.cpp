@@ -39,6 +39,20 @@ float find_turn(const glm::mat3& from, const glm::mat3& to) {
     return turn;
 }
 
+/// As find_turn, of a lamp that deforms: it shines by the areas of its triangles and by the directions that they face.
+float find_bend(const PosedInstance& from, const PosedInstance& to) {
+    const auto area = [](const PosedInstance& instance, const glm::uvec3& t) {
+        const glm::vec3 corner = instance.place(t.x);
+        return glm::cross(instance.place(t.y) - corner, instance.place(t.z) - corner);
+    };
+    float changed = 0.0f, whole = 0.0f;
+    for (const glm::uvec3& t : from.mesh->triangles) {
+        changed += glm::length(area(to, t) - area(from, t));
+        whole += glm::length(area(from, t));
+    }
+    return whole > 0.0f ? changed / whole : infinite;
+}
+
 /// Share of the larger of two that they differ by.
 float find_difference(const Rgb& a, const Rgb& b) {
     const float largest = largest_channel(glm::max(a, b));
@@ -82,6 +96,14 @@ float find_steps(const ShutterMover& mover, float distance, const glm::vec3& mov
     return distance > 0.0f ? 3.0f * (mover.moved + glm::length(moved)) / distance : infinite;
 }
 
+/// m: how far a point moves, or other parts of its own mesh past it.
+float find_way(const std::vector<ShutterMover>& movers, int instance, const glm::vec3& moved) {
+    const float way = glm::length(moved);
+    const auto own = std::ranges::find(movers, instance, &ShutterMover::instance);
+    if (own == movers.end() || !(own->bent > 0.0f)) return way;
+    return std::max(way, own->bent + glm::length(moved - (own->centers[1] - own->centers[0])));
+}
+
 }  // namespace
 
 std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingScene& sample) {
@@ -96,9 +118,13 @@ std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingSc
         ShutterMover mover{i, {first.center, last.center}, std::max(first.radius, last.radius), infinite};
         mover.shines = frame.materials[before.material].emits || sample.materials[after.material].emits;
         mover.turned = find_turn(before.linear, after.linear);
+        if (mover.shines && before.deformed != nullptr && after.deformed != nullptr)
+            mover.turned = std::max(mover.turned, find_bend(before, after));
         if (after.visible) mover.centers[1] += shift;
         if (!before.visible) mover.centers[0] += shift;
         if (both) mover.moved = find_longest_way(before, after, shift);
+        if (both && before.deformed != nullptr)
+            mover.bent = find_longest_way(before, after, shift - (mover.centers[1] - mover.centers[0]));
         movers.push_back(mover);
     }
     add_lights(frame, sample, movers);
@@ -167,7 +193,8 @@ std::optional<Rgb> ShutterLight::find(const PixelSurface& surface, float accurac
     still.point = *point;
     RecordUse of_these;
     const std::optional<Rgb> found = read(still, accuracy, task, of_these);
-    if (!found || glm::length(moved) * of_these.weights > of_these.reaches) return std::nullopt;
+    const float way = find_way(movers_, surface.hit.instance, moved);
+    if (!found || way * of_these.weights > of_these.reaches) return std::nullopt;
     if (used != nullptr) used->add(of_these);
     return found;
 }

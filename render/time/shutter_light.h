@@ -27,8 +27,9 @@ struct ShutterMover {
     glm::vec3 centers[2]{};  ///< m, at the frame's time and at the sample's; infinite for light from afar
     float radius = 0.0f;     ///< m, the larger one
     float moved = 0.0f;      ///< m, of its point that moves farthest; infinite if it is seen at one of the times only
+    float bent = 0.0f;       ///< m, of a mesh that deforms: the farthest way of its points beside that of its centre
     bool shines = false;
-    float turned = 0.0f;  ///< radians, about, a wider cone included; of what shines
+    float turned = 0.0f;  ///< radians, about, a wider cone and growth included; of what shines
 };
 
 /// Instances and lights that differ in place or direction between two poses of a scene.

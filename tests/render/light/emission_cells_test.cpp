@@ -116,6 +116,33 @@ TEST(EmissionCells, StrengthIsTheMeanOfCells) {
     EXPECT_NEAR(stage.lights.bounds.strength[0], spot_radiance * 4.0f, 1e-3f);
 }
 
+/// A lamp that shines through the holes that a mask leaves, which are a share of its texels.
+Scene make_masked_lamp(double share) {
+    Scene scene = make_spotted_lamp(true);
+    std::mt19937 generator(5);
+    std::bernoulli_distribution shows(share);
+    for (glm::vec4& texel : scene.images[0].floats.pixels) texel.w = shows(generator) ? 1.0f : 0.0f;
+    scene.materials[0].textures[TextureSlot::base_color] = scene.materials[0].textures[TextureSlot::emission];
+    scene.materials[0].textures[TextureSlot::emission] = {};
+    scene.materials[0].opacity = {.mode = Opacity::Mode::mask, .cutoff = 0.5};
+    return scene;
+}
+
+TEST(EmissionCells, MasksFinerThanAFootprintLeaveTheirShare) {
+    for (const double share : {0.2, 0.3, 0.7, 0.8}) {
+        const Stage stage(make_masked_lamp(share));
+        const Receiver receiver{glm::vec3(0.0f, -20.0f, 3.0f) - glm::vec3(stage.shading.anchor), up};
+        RandomStream random({24, 0, 0, 0});
+        Mean points, parts;
+        for (int i = 0; i < 20'000; ++i) {
+            const glm::vec2 u = random.next_2d();
+            points.add(sample_light(stage.shading, stage.lights, 0, receiver, u).incoming.x);
+            parts.add(sample_light(stage.shading, stage.lights, 0, receiver, u, 0.25f).incoming.x);
+        }
+        EXPECT_NEAR(parts.mean(), points.mean(), 0.05 * points.mean()) << share;
+    }
+}
+
 TEST(EmissionCells, PartsThatAMaskLeavesOutAreNotSampled) {
     Scene scene = make_spotted_lamp(true);
     scene.materials[0].textures[TextureSlot::emission] = {};

@@ -166,6 +166,35 @@ TEST(NormalMap, RC11_BadVertexNormalsFallBackToTheSurface) {
     }
 }
 
+/// glTF 2.0, 3.7.3.3: the transform of a skinned mesh's own node is ignored. Where joints mirror, the outside stays
+/// outside, as where nodes of rigid meshes do.
+TEST(SkinnedNormals, MirrorsLeaveTheOutsideOutside) {
+    const glm::dvec3 plain(1.0), mirror(-1.0, 1.0, 1.0);
+    for (const glm::dvec3& own : {plain, mirror}) {
+        for (const glm::dvec3& joint : {plain, mirror}) {
+            Scene scene;
+            add_lambert(scene, glm::dvec3(0.5), glm::dvec3(1.0));
+            Mesh ball = make_shape_mesh({.kind = Shape::Kind::sphere, .radius = 1.0, .segments = 16}, 0);
+            ball.deformation.skin = 0;
+            ball.deformation.joints_per_vertex = 1;
+            ball.deformation.joint_weights.assign(ball.positions.size(), {0, 1.0f});
+            scene.nodes[static_cast<std::size_t>(add_mesh(scene, std::move(ball)))].transform.scale = own;
+            scene.skins.push_back({"", {add_node(scene, glm::dvec3(0.0), no_turn)}, {glm::dmat4(1.0)}});
+            scene.nodes.back().transform.scale = joint;
+            const Stage stage(std::move(scene));
+            Tracer tracer(stage.rays);
+            const glm::vec3 anchor(stage.shading.anchor), view(0.0f, 0.0f, 1.0f);
+            const Hit hit = tracer.intersect({glm::vec3(0.37f, 0.21f, 3.0f) - anchor, -view});
+            ASSERT_NE(hit.instance, no_index);
+            const SurfacePoint point = make_surface_point(stage.shading, hit, -view);
+            EXPECT_TRUE(point.front);
+            EXPECT_GT(glm::dot(point.normal, glm::normalize(point.position + anchor)), 0.9999f) << "not smooth";
+            const Emitter::Triangle& lamp = stage.lights.emitters[0].triangles[0];
+            EXPECT_GT(glm::dot(lamp.normal, lamp.corner + anchor), 0.9f);
+        }
+    }
+}
+
 /// Solves edges = tangent u + bitangent v, exactly enough.
 glm::vec3 exact_tangent(const SurfacePoint& point) {
     using Long = long double;
@@ -201,6 +230,26 @@ TEST(NormalMap, MC18_TangentsOfNarrowTriangles) {
         ASSERT_NEAR(glm::distance(surface.gloss.tangent, exact_tangent(point)), 0.0f, 1e-6f) << i;
     }
     EXPECT_GT(narrow, 4000);
+}
+
+/// KHR_materials_anisotropy: directions are in the tangent space, which is that of the normal map.
+TEST(NormalMap, AnisotropyTakesItsTangents) {
+    const SceneImage along_x{.bytes = Image<glm::u8vec4>(1, 1, {255, 128, 255, 255})},
+        upright{.bytes = Image<glm::u8vec4>(1, 1, {128, 128, 255, 255})};
+    for (const bool mapped : {false, true}) {
+        for (const bool textured : {false, true}) {
+            Material material{.layers = {.anisotropy = 0.6}};
+            if (textured) material.textures[TextureSlot::anisotropy] = {.image = 0};
+            if (mapped) material.textures[TextureSlot::normal] = {.image = 1, .uv_set = 1};
+            MaterialStage square(material, {along_x, upright});
+            square.point.edges[0] = {1.0f, 0.0f, 0.0f};
+            square.point.edges[1] = up;
+            square.point.uv_edges[0][0] = square.point.uv_edges[1][1] = {1.0f, 0.0f};
+            square.point.uv_edges[0][1] = square.point.uv_edges[1][0] = {0.0f, -1.0f};
+            EXPECT_NEAR(square.evaluate().gloss.tangent.x, mapped ? 0.0f : 1.0f, 0.01f) << mapped << textured;
+            EXPECT_NEAR(square.evaluate().gloss.tangent.y, mapped ? 1.0f : 0.0f, 0.01f) << mapped << textured;
+        }
+    }
 }
 
 }  // namespace
