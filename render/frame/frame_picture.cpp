@@ -1,5 +1,6 @@
 // The picture of a prepared frame.
 
+#include <cmath>
 #include <optional>
 
 #include "engine/base/pixel_loops.h"
@@ -16,7 +17,6 @@ namespace aleph {
 
 namespace {
 
-constexpr std::uint32_t shutter_seed_mask = 0x73687574u;  // keeps the shutter apart from other uses of the same key
 constexpr float background_depth = 1e30f;
 
 void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, FrameOutput& out) {
@@ -54,9 +54,9 @@ SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const Fr
     options.blended = s.shot.blended;
     if (!open.shutter) return options;
     options.light_lasts = !plan.input.shutter.light_changes;
-    const double shift = RandomStream({plan.settings.seed ^ shutter_seed_mask, s.shot.noise_key(frame), 0, 0}).next();
-    options.at_sample = [&s, &plan, frame, shutter = *open.shutter, shift](int sample, int pixel_class) {
-        const double at = place_in_shutter(shutter, sample, pixel_class, shift);
+    options.at_sample = [&s, &plan, frame, shutter = *open.shutter](int sample, int pixel_class) {
+        const float place = time_of_sample(plan.settings.seed, s.shot.noise_key(frame), sample, pixel_class);
+        const double at = std::lerp(shutter.open, shutter.close, static_cast<double>(place));
         return open_scene({s.shot, frame, plan, s.here, s.shutter}, at);
     };
     return options;
