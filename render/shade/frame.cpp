@@ -67,11 +67,12 @@ class FrameShading {
 
     /// @param centers  hits of the pixels' centres
     void shade(const SampleHits& centers) {
-        // A lens or an open shutter would need rays from all of it: their outlines and textures are soft.
-        if (!place_.centered && !options_.at_sample && !(options_.lens.radius > 0.0)) {
-            const ShadingScene& shading = context_.lighting.shading;
+        // A lens would need rays from all of it: outlines and textures are soft.
+        if (!place_.centered && !(options_.lens.radius > 0.0))
             plan_.bright_edges =
                 find_bright_edges(context_.lighting, context_.view, centers, exposure_, out_.counts.rays.primary);
+        if (!place_.centered && !options_.at_sample && !(options_.lens.radius > 0.0)) {
+            const ShadingScene& shading = context_.lighting.shading;
             // Paths alone are to judge what an estimate guides.
             if (options_.estimate != nullptr && context_.settings.light.integrator == Integrator::cache)
                 textures_.emplace(shading, context_.view, centers, *options_.estimate, exposure_);
