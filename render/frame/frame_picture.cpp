@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/base/pixel_loops.h"
+#include "render/frame/frame_shutter.h"
 #include "render/frame/frame_window.h"
 #include "render/frame/prepared_frame.h"
 #include "render/frame/sequence_state.h"
@@ -57,7 +58,9 @@ SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const Fr
     options.at_sample = [&s, &plan, frame, shutter = *open.shutter](int sample, int pixel_class) {
         const float place = time_of_sample(plan.settings.seed, s.shot.noise_key(frame), sample, pixel_class);
         const double at = std::lerp(shutter.open, shutter.close, static_cast<double>(place));
-        return open_scene({s.shot, frame, plan, s.here, s.shutter}, at);
+        SampleScene scene = open_scene({s.shot, frame, plan, s.here, s.shutter}, at);
+        scene.at = at;
+        return scene;
     };
     return options;
 }
@@ -88,6 +91,12 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
             return scene;
         };
     }
+    StageClock clock;
+    FrameCounts of_spans;
+    double span_seconds = 0.0;
+    if (options.at_sample && carried == nullptr)
+        options.spans = find_shutter_spans(s, frame, prepared, options, of_spans);
+    clock.add_to(span_seconds);
     const IndirectContext context{.lighting = lighting,
                                   .view = out.view,
                                   .settings = prepared.plan.settings,
@@ -99,11 +108,14 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
                                   .carried = carried};
     out.shaded = shade_frame(context, prepared.centers, s.shot.exposure, options);
     FrameStatistics& stats = out.statistics;
+    out.shaded.fill_seconds += span_seconds;
     stats.seconds.fill = out.shaded.fill_seconds;
     stats.seconds.shade = out.shaded.shade_seconds;
     const RayCounts before = stats.counts.rays;
     stats.counts = out.shaded.counts;
     stats.counts.rays += before;
+    stats.counts.rays += of_spans.rays;
+    stats.counts.records += of_spans.records;
     if (!out.shaded.errors.total.empty()) stats.error = out.shaded.error_shares;
 }
 
