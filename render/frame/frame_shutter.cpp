@@ -1,5 +1,6 @@
 #include "render/frame/frame_shutter.h"
 
+#include <algorithm>
 #include <map>
 
 #include "engine/pose/steady.h"
@@ -8,7 +9,8 @@ namespace aleph {
 
 namespace {
 
-constexpr int places_across = 16;  // where light is looked at, in each direction of the picture
+constexpr int places_across = 16;                 // where light is looked at, in each direction of the picture
+constexpr int most_spans = 8, least_samples = 8;  // of a pixel in each span: records for fewer do not pay
 
 /// The scene while the shutter of a frame is open. Poses SequenceState::shutter.
 class ShutterKeyLight {
@@ -110,7 +112,8 @@ std::vector<ShutterSpan> find_shutter_spans(SequenceState& s, std::int64_t frame
     ShutterKeyLight keys(s, frame, prepared, options);
     const auto pose = [&](double at) { return keys.pose(at); };
     const ShutterPlaces places{choose_places(s, prepared), s.here.shading(), prepared.out.limits.alpha};
-    const auto chosen = choose_spans(*shutter, jumps, places, pose);
+    const int most = std::min(most_spans, settings.sampling.spp / least_samples);
+    const auto chosen = choose_spans(*shutter, jumps, places, pose, most);
     if (!chosen.empty()) keys.light(chosen[chosen.size() / 2].first, counts);
     std::vector<ShutterSpan> spans;
     for (const auto& [first, last] : chosen) {

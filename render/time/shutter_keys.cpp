@@ -11,7 +11,6 @@ namespace {
 
 using KeySpan = std::pair<KeyTime, KeyTime>;
 
-constexpr int most_spans = 8;
 constexpr double nearly_all = 0.9;            // of the light that is wanted
 constexpr double least_gain = 0.25;           // share of what is not known yet, for twice as many spans
 constexpr double least_share = 0.25;          // of it, so that light at several times pays
@@ -117,13 +116,13 @@ const ShutterSpan* find_span(const std::vector<ShutterSpan>& spans, double at) {
 }
 
 std::vector<KeySpan> choose_spans(const ShutterInterval& shutter, const std::vector<double>& jump_times,
-                                  const ShutterPlaces& places, const PoseAt& pose) {
+                                  const ShutterPlaces& places, const PoseAt& pose, int most) {
     if (places.surfaces.empty() || !(shutter.close > shutter.open)) return {};
     if (jump_times.empty() && centre_does(shutter, places, pose)) return {};
     const std::vector<KeySpan> parts = cut_at_jumps(shutter, jump_times, pose);
     std::vector<KeySpan> spans;
     double share = 0.0;
-    for (int count = 1; count <= most_spans && share < nearly_all; count *= 2) {
+    for (int count = 1; count <= most && share < nearly_all; count *= 2) {
         std::vector<KeySpan> finer = divide(parts, (shutter.close - shutter.open) / count, pose);
         const double known = find_known_share(places, finer, pose), gain = known - share;
         if (gain > least_gain * (1.0 - share)) {

@@ -52,10 +52,11 @@ struct ShutterPlaces {
 /// Chooses the spans for light at these places: as many as nearly all of it needs, while each doubling makes much more
 /// of it known.
 /// @param jumps  frames, at which light may jump, in order
+/// @param most   spans
 /// @return first and last times of spans; none: light of the shutter's centre does, or most of it changes too fast for
 ///     any number of spans
 std::vector<std::pair<KeyTime, KeyTime>> choose_spans(const ShutterInterval& shutter, const std::vector<double>& jumps,
-                                                      const ShutterPlaces& places, const PoseAt& pose);
+                                                      const ShutterPlaces& places, const PoseAt& pose, int most);
 
 /// Records that hold in another pose too, to this accuracy.
 KeyframeRecords find_lasting(const KeyframeLight& light, const KeyPose& to, float accuracy);
