@@ -1,8 +1,10 @@
 // The picture of a prepared frame.
 
+#include <cmath>
 #include <optional>
 
 #include "engine/base/pixel_loops.h"
+#include "render/frame/frame_shutter.h"
 #include "render/frame/frame_window.h"
 #include "render/frame/prepared_frame.h"
 #include "render/frame/sequence_state.h"
@@ -16,7 +18,6 @@ namespace aleph {
 
 namespace {
 
-constexpr std::uint32_t shutter_seed_mask = 0x73687574u;  // keeps the shutter apart from other uses of the same key
 constexpr float background_depth = 1e30f;
 
 void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, FrameOutput& out) {
@@ -54,10 +55,12 @@ SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const Fr
     options.blended = s.shot.blended;
     if (!open.shutter) return options;
     options.light_lasts = !plan.input.shutter.light_changes;
-    const double shift = RandomStream({plan.settings.seed ^ shutter_seed_mask, s.shot.noise_key(frame), 0, 0}).next();
-    options.at_sample = [&s, &plan, frame, shutter = *open.shutter, shift](int sample, int pixel_class) {
-        const double at = place_in_shutter(shutter, sample, pixel_class, shift);
-        return open_scene({s.shot, frame, plan, s.here, s.shutter}, at);
+    options.at_sample = [&s, &plan, frame, shutter = *open.shutter](int sample, int pixel_class) {
+        const float place = time_of_sample(plan.settings.seed, s.shot.noise_key(frame), sample, pixel_class);
+        const double at = std::lerp(shutter.open, shutter.close, static_cast<double>(place));
+        SampleScene scene = open_scene({s.shot, frame, plan, s.here, s.shutter}, at);
+        scene.at = at;
+        return scene;
     };
     return options;
 }
@@ -88,6 +91,12 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
             return scene;
         };
     }
+    StageClock clock;
+    FrameCounts of_spans;
+    double span_seconds = 0.0;
+    if (options.at_sample && carried == nullptr)
+        options.spans = find_shutter_spans(s, frame, prepared, options, of_spans);
+    clock.add_to(span_seconds);
     const IndirectContext context{.lighting = lighting,
                                   .view = out.view,
                                   .settings = prepared.plan.settings,
@@ -99,11 +108,14 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
                                   .carried = carried};
     out.shaded = shade_frame(context, prepared.centers, s.shot.exposure, options);
     FrameStatistics& stats = out.statistics;
+    out.shaded.fill_seconds += span_seconds;
     stats.seconds.fill = out.shaded.fill_seconds;
     stats.seconds.shade = out.shaded.shade_seconds;
     const RayCounts before = stats.counts.rays;
     stats.counts = out.shaded.counts;
     stats.counts.rays += before;
+    stats.counts.rays += of_spans.rays;
+    stats.counts.records += of_spans.records;
     if (!out.shaded.errors.total.empty()) stats.error = out.shaded.error_shares;
 }
 

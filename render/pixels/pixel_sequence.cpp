@@ -139,6 +139,21 @@ float number_of(std::uint32_t digits, std::uint64_t seed) {
     return unit_float(reverse_bits(scramble(digits, static_cast<std::uint32_t>(seed))));
 }
 
+/// The order of samples, in the upper half, and of pixels.
+std::uint64_t orders_of(std::uint64_t seed) {
+    return mix_bits(seed + 0xd1342543de82ef95ull);
+}
+
+/// Digits of times: the bits of a sample's number that each adds up. Found by search (tests/render/pixels): of 2^k
+/// samples, k up to 10, rectangles of time and x, and of time and y, that are twice as large as the mean have two each.
+/// No third sequence makes all of the mean size even, beside x and y.
+constexpr std::array<std::uint16_t, sample_bits> time_rows{0x2a87, 0x141a, 0xd51c, 0x3158, 0xf090, 0xbb60,
+                                                           0xa940, 0x3980, 0xc700, 0x9200, 0xd400, 0x7800,
+                                                           0x1000, 0x2000, 0xc000, 0x8000};
+
+/// Added to the digits of each class. Any two digits in a row tell all four apart.
+constexpr std::array<std::uint32_t, 4> class_digits{0u, 0x55555555u, 0xaaaaaaaau, 0xffffffffu};
+
 }  // namespace
 
 SequenceOfUse::SequenceOfUse(std::uint64_t key, std::uint32_t x, std::uint32_t y, SampleUse use)
@@ -149,7 +164,7 @@ SequenceOfUse::SequenceOfUse(std::uint64_t key, std::uint32_t x, std::uint32_t y
 void SequenceOfUse::begin(std::uint32_t part) {
     part_ = part;
     seed_ = seed_of(key_, use_, part);
-    const std::uint64_t orders = mix_bits(seed_ + 0xd1342543de82ef95ull);
+    const std::uint64_t orders = orders_of(seed_);
     order_ = static_cast<std::uint32_t>(orders >> 32);
     const Digits& digits = of_pixel[place_pixel(x_, y_, orders)];
     pixel_x_ = digits.x;
@@ -162,6 +177,17 @@ glm::vec2 SequenceOfUse::at(int index) {
     const std::uint32_t sample = scramble(reverse_bits(i), order_);
     const Digits &low = of_low_sample[sample >> 24], &high = of_high_sample[sample >> 16 & 0xff];
     return {number_of(pixel_x_ ^ low.x ^ high.x, seed_), number_of(pixel_y_ ^ low.y ^ high.y, seed_ >> 32)};
+}
+
+float time_of_sample(std::uint32_t seed, std::uint32_t noise_key, int index, int pixel_class) {
+    const std::uint64_t key = PixelSequence::key_of(seed, noise_key);
+    const auto i = static_cast<std::uint32_t>(index), part = i >> sample_bits;
+    const auto order = static_cast<std::uint32_t>(orders_of(seed_of(key, SampleUse::pixel, part)) >> 32);
+    const std::uint32_t sample = reverse_bits(scramble(reverse_bits(i), order));
+    std::uint32_t digits = class_digits[pixel_class];
+    for (std::size_t d = 0; d < time_rows.size(); ++d)
+        digits ^= static_cast<std::uint32_t>(std::popcount(time_rows[d] & sample) & 1) << (31 - d);
+    return number_of(reverse_bits(digits), seed_of(key, SampleUse::time, part));
 }
 
 }  // namespace aleph

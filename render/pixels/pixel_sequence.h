@@ -83,9 +83,7 @@ class PixelSequence {
     /// @param noise_key  so are those of different keys. It stays the same while the camera is at rest, and so does the
     ///                noise of what is at rest
     PixelSequence(std::uint32_t seed, std::uint32_t noise_key, int x, int y)
-        : key_(mix_bits((std::uint64_t{seed} << 32 | noise_key) + 0x9e3779b97f4a7c15ull)),
-          x_(static_cast<std::uint32_t>(x)),
-          y_(static_cast<std::uint32_t>(y)) {}
+        : key_(key_of(seed, noise_key)), x_(static_cast<std::uint32_t>(x)), y_(static_cast<std::uint32_t>(y)) {}
 
     SequenceOfUse of(SampleUse use) const { return {key_, x_, y_, use}; }
     /// Number of one sample, in [0,1).
@@ -94,9 +92,19 @@ class PixelSequence {
     /// Point of one sample, in [0,1)^2; its x is at_1d.
     glm::vec2 at_2d(SampleUse use, int index) const { return of(use).at(index); }
 
+    static std::uint64_t key_of(std::uint32_t seed, std::uint32_t noise_key) {
+        return mix_bits((std::uint64_t{seed} << 32 | noise_key) + 0x9e3779b97f4a7c15ull);
+    }
+
   private:
     std::uint64_t key_;
     std::uint32_t x_, y_;
 };
+
+/// Number in [0,1) that sample `index` of all pixels of a class has in common: its time. With SampleUse::pixel's points
+/// of any pixel, the numbers of the first 2^k samples, or of 2^k from a multiple of 2^k, make a net: what moves across
+/// a pixel is sampled evenly by time and place. So do those of the four classes together by themselves.
+/// @param seed, noise_key  of PixelSequence
+float time_of_sample(std::uint32_t seed, std::uint32_t noise_key, int index, int pixel_class);
 
 }  // namespace aleph

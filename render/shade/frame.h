@@ -5,6 +5,7 @@
 #include "render/shade/progressive.h"
 #include "render/shade/sample_shading.h"
 #include "render/time/keyframe_check.h"
+#include "render/time/shutter_keys.h"
 
 namespace aleph {
 
@@ -16,7 +17,8 @@ struct SampleOptions {
     /// The scene at a sample's time, valid until the next call; empty: the shutter opens for no time.
     /// @param time_class  of the pixel (shutter.h)
     std::function<SampleScene(int sample, int time_class)> at_sample;
-    bool light_lasts = true;             ///< while the shutter is open; otherwise indirect light is found by paths then
+    bool light_lasts = true;             ///< while the shutter is open; otherwise that of the frame's time is not used
+    std::vector<ShutterSpan> spans;      ///< with light at times of the shutter, in place of the frame's; none: without
     const KeyframeRisk* risk = nullptr;  ///< of carried light; null: it need not be checked
     /// Errors that the samples may have; null: not known, which Sampling::uniform alone allows.
     const VisibleLimits* limits = nullptr;

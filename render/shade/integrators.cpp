@@ -19,7 +19,8 @@ class CacheIntegrator final : public LightIntegrator {
         : input_(input),
           context_(input.context),
           indirect_(context_.settings.light.bounces > 0 && context_.settings.light.path_depth > 1),
-          cached_(indirect_ && context_.settings.cache.accuracy > 0.0 && input.options.light_lasts),
+          cached_(indirect_ && context_.settings.cache.accuracy > 0.0 && input.options.light_lasts &&
+                  input.options.spans.empty()),
           blurred_(static_cast<bool>(input.options.at_sample)),
           cache_(make_cache(context_.lighting.shading)),
           known_(make_frame_irradiance(context_, cached_ ? &cache_ : nullptr)),
@@ -61,6 +62,11 @@ class CacheIntegrator final : public LightIntegrator {
 
     void begin(const SampleScene& scene) override {
         scene_ = &scene;
+        if (const ShutterSpan* span = find_span(input_.options.spans, scene.at)) {
+            shading_.shutter = &in_span_.emplace(*span, scene.at, scene.lighting.shading).light();
+            return;
+        }
+        shading_.shutter = nullptr;
         if (!blurred_ || !cached_) return;
         shading_.shutter =
             &shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_);
@@ -120,6 +126,7 @@ class CacheIntegrator final : public LightIntegrator {
     BrightSurfaces bright_;
     Image<RecordUse> uses_;  ///< empty: not asked for
     std::optional<ShutterLight> shutter_;
+    std::optional<LightInSpan> in_span_;
     SampleShading shading_;
     const SampleScene* scene_ = nullptr;
 };

@@ -30,7 +30,8 @@ std::optional<Rgb> look_up(const SampleShading& shading, ShadingTask& task, cons
     if (shading.blurred) {
         if (shading.shutter == nullptr || !(accuracy > 0.0f)) return std::nullopt;
         ++task.lookups;
-        found = shading.shutter->find(surface, accuracy, task.at_frame, used);
+        RayTask& rays = shading.shutter->is_at_center() ? task.at_frame : task;
+        found = shading.shutter->find(surface, accuracy, rays, used);
     } else if (context.carried != nullptr) {
         ++task.lookups;
         found = context.carried->find(surface, accuracy, task, used);

@@ -14,6 +14,7 @@ struct SampleScene {
     const CameraView& view;
     Lens lens{};
     std::uint64_t rays_cast = 0;  ///< to find what surrounds the camera
+    double at = 0.0;              ///< frames, while the shutter is open
 };
 
 /// The work of one task: its rays, and what it counts.

@@ -16,10 +16,12 @@ constexpr int finest_tiles = 2;
 
 /// Returns whether linear interpolation between two keyframes may err too much: half way, if they differ by more than
 /// the accuracy, relative to their mean; nearer to one of them, if they differ by accordingly more, as the error of
-/// linear interpolation is 0 at both ends.
-bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
-    const float a = luminance(before), b = luminance(after);
-    return 4.0f * weight * (1.0f - weight) * std::abs(a - b) > 0.5f * accuracy * (a + b);
+/// linear interpolation is 0 at both ends. Smooth light is taken to change by the same share everywhere between: it
+/// then lies below the line by an eighth of the square of that share, half way.
+bool differ(BetweenKeys between, const Rgb& before, const Rgb& after, float weight, float accuracy) {
+    const float a = luminance(before), b = luminance(after), off = std::abs(a - b), mean = 0.5f * (a + b);
+    const float error = between == BetweenKeys::smooth ? 0.125f * off * off : off * mean;
+    return 4.0f * weight * (1.0f - weight) * error > accuracy * mean * mean;
 }
 
 /// Records of things at rest, in the coordinates of another pose.
@@ -126,15 +128,15 @@ std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float 
     if (!after_) return before;
     const std::optional<Rgb> after = read(*after_, surface, accuracy, task, used);
     if (!before || !after) {
-        if (still_) return before ? before : after;
+        if (between_ == BetweenKeys::still) return before ? before : after;
         return std::nullopt;
     }
-    if (!still_ && differ(*before, *after, weight_, accuracy)) return std::nullopt;
+    if (between_ != BetweenKeys::still && differ(between_, *before, *after, weight_, accuracy)) return std::nullopt;
     return *before * (1.0f - weight_) + *after * weight_;
 }
 
 std::vector<IrradianceRecord> BlendedLight::find_further(const ShadingScene& frame) const {
-    if (!still_) return {};
+    if (between_ != BetweenKeys::still) return {};
     const KeyframeLight& nearer = after_ && weight_ > 0.5f ? *after_ : *before_;
     return shift_records(nearer.further, nearer.at->shading, frame);
 }

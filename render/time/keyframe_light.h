@@ -63,15 +63,24 @@ struct KeyframeInput {
 /// The records of a base keyframe, if there is one, and those computed at surfaces that they do not cover.
 KeyframeRecords compute_records(const KeyframeInput& input, FrameCounts& counts);
 
+/// What happens between two times at which light is known.
+enum class BetweenKeys : std::uint8_t {
+    anything,
+    still,   ///< nothing but the camera changes: light that only one of them has holds at the other
+    smooth,  ///< a bound of how far light is from linear is kept by others (shutter_light.h)
+};
+
 /// Light of the keyframes before and after a frame.
 class BlendedLight : public CarriedLight {
   public:
     /// @param after   null at a keyframe itself
     /// @param weight  of `after`
-    /// @param still   nothing but the camera changes: light that only one of the keyframes has holds at the other
     BlendedLight(std::shared_ptr<const KeyframeLight> before, std::shared_ptr<const KeyframeLight> after, double weight,
-                 bool still)
-        : before_(std::move(before)), after_(std::move(after)), weight_(static_cast<float>(weight)), still_(still) {}
+                 BetweenKeys between)
+        : before_(std::move(before)),
+          after_(std::move(after)),
+          weight_(static_cast<float>(weight)),
+          between_(between) {}
 
     /// Light of keyframes nearer to the frame, for what these keyframes do not know.
     void set_finer(std::unique_ptr<const BlendedLight> finer) { finer_ = std::move(finer); }
@@ -88,7 +97,7 @@ class BlendedLight : public CarriedLight {
 
     std::shared_ptr<const KeyframeLight> before_, after_;
     float weight_;
-    bool still_;
+    BetweenKeys between_;
     std::unique_ptr<const BlendedLight> finer_;
 };
 

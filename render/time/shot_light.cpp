@@ -69,7 +69,8 @@ void ShotLight::prepare(std::int64_t keyframe, const std::vector<std::int64_t>& 
 
 std::unique_ptr<BlendedLight> ShotLight::blend(const KeyframePair& pair) const {
     const auto after = pair.after == pair.before ? nullptr : lights_.at(pair.after);
-    return std::make_unique<BlendedLight>(lights_.at(pair.before), after, pair.weight, still_);
+    return std::make_unique<BlendedLight>(lights_.at(pair.before), after, pair.weight,
+                                          still_ ? BetweenKeys::still : BetweenKeys::anything);
 }
 
 std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<KeyframeStatistics>& filled,

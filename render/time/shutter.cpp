@@ -89,12 +89,4 @@ double find_shutter_center(const Scene& scene, const glm::dvec2& shutter, std::i
     return scene.film.frame_rate.seconds_of(frame) + offset / scene.film.frame_rate.per_second();
 }
 
-double place_in_shutter(const ShutterInterval& shutter, int index, int pixel_class, double shift) {
-    // sqrt 2 - 1: even by itself and, unlike the golden ratio, together with the lattice of places in a pixel.
-    constexpr double step = 0.41421356237309505;
-    constexpr double class_step = 0.357;  // found by trial: the widest gap of all classes is 1.9 times the mean one
-    const double at = shift + step * index + class_step * pixel_class;
-    return shutter.open + (shutter.close - shutter.open) * (at - std::floor(at));
-}
-
 }  // namespace aleph

@@ -41,8 +41,4 @@ inline int time_class(int x, int y) {
     return (y & 1) * 2 + (x & 1);
 }
 
-/// Time of sample `index` of pixels of a class, in frames: additive sequences over the interval that start at `shift`
-/// of it, in [0,1). Those of one class, and those of all classes together, are evenly spread for any number of samples.
-double place_in_shutter(const ShutterInterval& shutter, int index, int pixel_class, double shift);
-
 }  // namespace aleph

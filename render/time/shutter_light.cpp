@@ -1,6 +1,7 @@
 #include "render/time/shutter_light.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "render/settings/numbers.h"
@@ -65,7 +66,7 @@ const glm::vec3 far_away(infinite);
 void add_lights(const ShadingScene& frame, const ShadingScene& sample, std::vector<ShutterMover>& movers) {
     for (std::size_t i = 0; i < frame.pose->lights.size(); ++i) {
         const LightValues &before = frame.pose->lights[i], &after = sample.pose->lights[i];
-        ShutterMover mover{.centers = {far_away, far_away}, .shines = true};
+        ShutterMover mover{.centers = {far_away, far_away}, .shines = true, .light = static_cast<int>(i)};
         if (before.kind != Light::Kind::directional) {
             mover.centers[0] = before.position - frame.anchor;
             mover.centers[1] = after.position - frame.anchor;
@@ -147,26 +148,75 @@ float find_light_change(const std::vector<ShutterMover>& movers, const glm::vec3
     float change = 0.0f;
     for (const ShutterMover& mover : movers) {
         if (!mover.shines) continue;
-        const float steps = find_steps(mover, find_distance(mover, position, moved), moved);
-        change = std::max(change, std::min(1.0f, steps + 3.0f * mover.turned));
+        const float distance = find_distance(mover, position, moved), steps = find_steps(mover, distance, moved);
+        float share = steps;
+        if (mover.bend < infinite && distance > 0.0f) {
+            const float line = steps * steps / 3.0f + 3.0f * (mover.bend + glm::length(moved)) / distance;
+            share = steps < 3.0f ? std::min(steps, line) : line;
+        }
+        change = std::max(change, share + 3.0f * mover.turned);
     }
     return change;
 }
 
-float find_dimming(const ShadingScene& frame, const ShadingScene& sample) {
-    float most = find_difference(frame.environment.radiance, sample.environment.radiance);
-    for (const int i : frame.emitting) {
-        if (!frame.instances[i].visible) continue;
-        const int m = frame.instances[i].material;
-        most = std::max(most, find_difference(frame.materials[m].values.emission, sample.materials[m].values.emission));
+void find_bends(std::vector<ShutterMover>& before, std::vector<ShutterMover>& after, float weight) {
+    const auto way = [](const ShutterMover& mover) {
+        return mover.centers[0] == mover.centers[1] ? glm::vec3(0.0f) : mover.centers[0] - mover.centers[1];
+    };
+    const auto set = [&](std::vector<ShutterMover>& movers, const std::vector<ShutterMover>& others, float share) {
+        for (ShutterMover& mover : movers) {
+            glm::vec3 apart = share * way(mover);
+            const auto is_same = [&](const ShutterMover& other) {
+                return other.instance == mover.instance && other.light == mover.light;
+            };
+            const auto other = std::ranges::find_if(others, is_same);
+            if (other != others.end()) apart += (1.0f - share) * way(*other);
+            mover.bend = mover.bent > 0.0f ? infinite : glm::length(apart);  // parts of it do not move as it does
+        }
+    };
+    set(before, after, 1.0f - weight);
+    set(after, before, weight);
+}
+
+float find_dimming(const ShadingScene& before, const ShadingScene& after, float weight, const ShadingScene& sample) {
+    const auto differ = [weight](const Rgb& a, const Rgb& b, const Rgb& at) {
+        return find_difference(a + weight * (b - a), at);
+    };
+    float most = differ(before.environment.radiance, after.environment.radiance, sample.environment.radiance);
+    for (const int i : before.emitting) {
+        if (!before.instances[i].visible) continue;
+        const int m = before.instances[i].material;
+        const auto emission = [m](const ShadingScene& at) { return at.materials[m].values.emission; };
+        most = std::max(most, differ(emission(before), emission(after), emission(sample)));
     }
-    for (std::size_t i = 0; i < frame.pose->lights.size(); ++i) {
-        const LightValues &before = frame.pose->lights[i], &after = sample.pose->lights[i];
+    for (std::size_t i = 0; i < before.pose->lights.size(); ++i) {
+        const LightValues &a = before.pose->lights[i], &b = after.pose->lights[i], &at = sample.pose->lights[i];
         // 1 - (d / range)^4 of the light is left (lights.cpp).
-        const float range = find_difference(Rgb(before.range), Rgb(after.range));
-        most = std::max(most, find_difference(before.intensity, after.intensity) + 4.0f * range);
+        const float range = std::lerp(find_difference(Rgb(a.range), Rgb(at.range)),
+                                      find_difference(Rgb(b.range), Rgb(at.range)), weight);
+        most = std::max(most, differ(a.intensity, b.intensity, at.intensity) + 4.0f * range);
     }
     return most;
+}
+
+ShutterLight::Key ShutterLight::make_key(const ShadingScene& at, float weight, const ShadingScene& sample) {
+    return {at, weight, sample.anchor - at.anchor, find_movers(at, sample)};
+}
+
+ShutterLight::ShutterLight(const ShadingScene& frame, const ShadingScene& sample, const CarriedLight* carried,
+                           const IrradianceCache* cache)
+    : ShutterLight(frame, frame, 0.0f, sample, carried) {
+    cache_ = cache;
+    at_center_ = true;
+}
+
+ShutterLight::ShutterLight(const ShadingScene& before, const ShadingScene& after, float weight,
+                           const ShadingScene& sample, const CarriedLight* between)
+    : carried_(between), dimmed_(find_dimming(before, after, weight, sample)) {
+    keys_.push_back(make_key(before, 1.0f - weight, sample));
+    if (!(weight > 0.0f)) return;
+    keys_.push_back(make_key(after, weight, sample));
+    find_bends(keys_[0].movers, keys_[1].movers, weight);
 }
 
 std::optional<Rgb> ShutterLight::read(const PixelSurface& still, float accuracy, RayTask& task, RecordUse& used) const {
@@ -179,22 +229,33 @@ std::optional<Rgb> ShutterLight::read(const PixelSurface& still, float accuracy,
     return cache_->interpolate(query);
 }
 
+std::optional<ShutterLight::Reading> ShutterLight::find_change(const PixelSurface& surface, float enough) const {
+    Reading reading{.point = surface.point, .change = dimmed_};
+    float turned = 0.0f;
+    for (const Key& key : keys_) {
+        const std::optional<SurfacePoint> point = carry_point(key.shading, surface.hit, surface.point);
+        if (!point) return std::nullopt;
+        if (&key == keys_.data()) reading.point = *point;
+        turned += key.weight * glm::length(surface.point.normal - point->normal) / std::numbers::sqrt2_v<float>;
+        const glm::vec3 moved = surface.point.position + key.shift - point->position;
+        reading.moved += key.weight * find_way(key.movers, surface.hit.instance, moved);
+        const float hidden =
+            find_hidden_change(key.movers, point->position, moved, surface.hit.instance, enough / key.weight);
+        reading.change += key.weight * (hidden + find_light_change(key.movers, point->position, moved));
+    }
+    reading.change = std::max(reading.change, turned);
+    return reading;
+}
+
 std::optional<Rgb> ShutterLight::find(const PixelSurface& surface, float accuracy, RayTask& task,
                                       RecordUse* used) const {
-    const std::optional<SurfacePoint> point = carry_point(frame_, surface.hit, surface.point);
-    if (!point) return std::nullopt;
-    const float turn = glm::length(surface.point.normal - point->normal) / std::numbers::sqrt2_v<float>;
-    if (!(turn <= accuracy)) return std::nullopt;
-    const glm::vec3 moved = surface.point.position + shift_ - point->position;
-    const float hidden = find_hidden_change(movers_, point->position, moved, surface.hit.instance, accuracy);
-    const float change = hidden + dimmed_ + find_light_change(movers_, point->position, moved);
-    if (!(change <= accuracy)) return std::nullopt;
+    const std::optional<Reading> reading = find_change(surface, accuracy);
+    if (!reading || !(reading->change <= accuracy)) return std::nullopt;
     PixelSurface still = surface;
-    still.point = *point;
+    if (at_center_) still.point = reading->point;
     RecordUse of_these;
     const std::optional<Rgb> found = read(still, accuracy, task, of_these);
-    const float way = find_way(movers_, surface.hit.instance, moved);
-    if (!found || way * of_these.weights > of_these.reaches) return std::nullopt;
+    if (!found || reading->moved * of_these.weights > of_these.reaches) return std::nullopt;
     if (used != nullptr) used->add(of_these);
     return found;
 }

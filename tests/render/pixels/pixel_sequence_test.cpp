@@ -3,7 +3,10 @@
 
 #include "render/pixels/pixel_sequence.h"
 
+#include <array>
 #include <bit>
+#include <cmath>
+#include <set>
 
 #include "tests/support/test.h"
 
@@ -206,6 +209,57 @@ TEST(PixelSequence, PointsOfOneUseDoNotDependOnThoseBefore) {
         EXPECT_EQ(sequence.at_1d(SampleUse::lens, i), alone.x);
     }
     EXPECT_NE(points.at(3), points.at(3 + PixelSequence::length));
+}
+
+TEST(PixelSequence, MC27_TimesOfEachClassAndOfAllAreEven) {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        for (int k = 0; k <= 9; ++k) {
+            for (const int block : {0, 1, 5}) {
+                const int samples = 1 << k;
+                std::array<std::set<int>, 4> cells;
+                std::set<int> finer;
+                for (int c = 0; c < 4; ++c) {
+                    for (int i = block * samples; i < (block + 1) * samples; ++i) {
+                        const float time = time_of_sample(seed, 3, i, c);
+                        ASSERT_TRUE(time >= 0.0f && time < 1.0f);
+                        cells[c].insert(static_cast<int>(time * static_cast<float>(samples)));
+                        finer.insert(static_cast<int>(time * static_cast<float>(4 * samples)));
+                    }
+                    EXPECT_EQ(std::ssize(cells[c]), samples) << seed << " " << c;
+                }
+                EXPECT_EQ(std::ssize(finer), 4 * samples) << seed;
+            }
+        }
+    }
+}
+
+TEST(PixelSequence, MC27_TimesAreEvenTogetherWithPlacesInAPixel) {
+    // A strip .7 pixels wide crosses the pixel three pixels in a shutter: the mean over time and place in closed form.
+    // Random times have a variance of mean (1 - mean) / n.
+    constexpr double mean = 0.7 / 3.0;
+    for (const bool upwards : {false, true}) {
+        const auto find_variance = [&](int samples) {
+            constexpr std::uint32_t seeds = 400;
+            double sum = 0.0;
+            for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+                const int x = static_cast<int>(seed % 5), y = static_cast<int>(seed % 3);
+                const PixelSequence sequence(seed, 9, x, y);
+                int inside = 0;
+                for (int i = 0; i < samples; ++i) {
+                    const glm::vec2 at = sequence.at_2d(SampleUse::pixel, i);
+                    const float way =
+                        (upwards ? at.y : at.x) - 3.0f * time_of_sample(seed, 9, i, (y & 1) * 2 + (x & 1)) + 1.3f;
+                    if (way > 0.0f && way < 0.7f) ++inside;
+                }
+                sum += std::pow(static_cast<double>(inside) / samples - mean, 2.0) / seeds;
+            }
+            return sum;
+        };
+        const double few = find_variance(64), many = find_variance(256);
+        EXPECT_LT(few, 0.35 * mean * (1.0 - mean) / 64);
+        EXPECT_LT(many, 0.15 * mean * (1.0 - mean) / 256);
+        EXPECT_LT(many, few / 6.0) << "steeper than 1 / n";
+    }
 }
 
 TEST(Lattice, PointsAreEven) {

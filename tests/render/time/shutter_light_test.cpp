@@ -1,8 +1,8 @@
-// Indirect light of samples at their own times: where it is read from the frame's, and the picture of the cache against
-// the one of paths.
+// Indirect light of samples at their own times: where it is read from the frame's, or between two times.
+
+#include "render/time/shutter_light.h"
 
 #include "tests/render/time/plate.h"
-#include "tests/support/frame_bytes.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 
@@ -144,115 +144,59 @@ TEST(ShutterLight, TheBoundHoldsForSpheres) {
     EXPECT_GT(near, 1000) << "and not by far too much";
 }
 
-constexpr int columns = 16, rows = 12;
-constexpr double half_second = 15.0;  // frames
-
-/// Frame 0.
-Image<Rgb> render_blurred(Scene scene, Integrator integrator, std::uint32_t seed, int spp = 16, double accuracy = 0.2) {
-    scene.film.exposure = 1.0;
-    scene.cameras[0].shutter = {0.0, half_second};
-    RenderSettings settings = shot_settings(0);
-    settings.picture = {.width = columns, .height = rows};
-    settings.sampling.spp = spp;
-    settings.cache.accuracy = accuracy;
-    settings.light.integrator = integrator;
-    settings.seed = seed;
-    return Sequence(std::move(scene), settings).render(0).shaded.color;
-}
-
-/// Compares pictures of several seeds. Those of equal seed have the same times and places of samples, so their
-/// difference has the noise of light alone.
-/// @param gain  how many times the variance of the cache's pictures is below that of the paths'
-void expect_same_light(const Scene& scene, double gain) {
-    constexpr int size = columns * rows;
-    EXPECT_TRUE(holds([&](Trial& trial) {
-        PictureMeans cached, paths, differences;
-        for (std::uint32_t seed = trial.seed; seed < trial.seed + trial.times(12u); ++seed) {
-            Image<Rgb> picture = render_blurred(scene, Integrator::cache, seed);
-            const Image<Rgb> traced = render_blurred(scene, Integrator::path, seed);
-            cached.add(picture);
-            paths.add(traced);
-            for (std::size_t i = 0; i < picture.size(); ++i) picture.pixels[i] -= traced.pixels[i];
-            differences.add(picture);
+TEST(ShutterLight, BetweenTwoTimesLampsThatMoveStraightErrByTheSecondOrder) {
+    // A lamp of irradiance 1 / d^2, interpolated between two places of it (closed form).
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> at(-1.0f, 1.0f), share(0.0f, 1.0f);
+    int near = 0, known = 0, once = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::vec3 before(at(random), 2.0f + at(random), at(random)),
+            after = before + 0.5f * glm::vec3(at(random), at(random), at(random));
+        const float weight = share(random), off = i % 4 == 0 ? 0.1f : 0.0f;
+        const glm::vec3 now = glm::mix(before, after, weight) + off * glm::vec3(at(random), at(random), at(random));
+        const auto mover = [&](const glm::vec3& key) {
+            return ShutterMover{.centers = {key, now}, .moved = glm::distance(key, now), .shines = true, .light = 0};
+        };
+        std::vector<ShutterMover> from{mover(before)}, to{mover(after)};
+        const auto bound = [&] {
+            return (1.0f - weight) * find_light_change(from, glm::vec3(0.0f), glm::vec3(0.0f)) +
+                   weight * find_light_change(to, glm::vec3(0.0f), glm::vec3(0.0f));
+        };
+        if (bound() < 0.1f) ++once;
+        find_bends(from, to, weight);
+        const auto light = [](const glm::vec3& lamp) { return 1.0f / glm::dot(lamp, lamp); };
+        const float error = std::abs((1.0f - weight) * light(before) + weight * light(after) - light(now)) / light(now);
+        if (bound() < 0.1f) {
+            ++known;
+            EXPECT_LE(error, 1.5f * bound() + 1e-5f) << i;
         }
-        double cached_variance = 0.0, path_variance = 0.0, worst = 0.0;
-        for (int i = 0; i < size; ++i) {
-            cached_variance += std::pow(cached.pixels[i].error(), 2.0);
-            path_variance += std::pow(paths.pixels[i].error(), 2.0);
-            worst = std::max(worst, std::abs(differences.pixels[i].mean()) - 3.0 * differences.pixels[i].error());
-        }
-        EXPECT_LT(cached_variance * gain, path_variance);
-        trial.near(differences.all, 0.0, 0.01 * paths.all.mean());
-        EXPECT_LT(worst, 0.5 * paths.all.mean() / size) << "the noise of paths has long tails";
-    }));
-}
-
-/// A dark box slides over the floor, farther than it is wide, seen from near above. A plate under the lamp keeps its
-/// light from the floor, so that all light there comes from the walls.
-Scene make_sliding_box() {
-    Scene scene = make_shot();
-    add_mesh(scene, make_quad(1.2, 1.2, 0), {-1.0, 2.2, -1.0}, z_to_down);
-    scene.nodes[4].transform.translation = glm::dvec3(-0.6, 2.0, 0.6);
-    scene.nodes[4].transform.rotation =
-        glm::quatLookAt(glm::normalize(glm::dvec3(0.0, -2.0, -1.4)), glm::dvec3(0.0, 1.0, 0.0));
-    scene.cameras[0].fov = 0.7;
-    const int node = add_mesh(scene, make_box({0.8, 0.8, 0.8}, add_lambert(scene, glm::dvec3(0.05))));
-    scene.nodes[node].transform.translation = move_between({-1.2, 0.4, -1.0}, {0.6, 0.4, -1.0});
-    return scene;
-}
-
-TEST(MotionBlur, MC27_IndirectLightWhereTheCameraMoves) {
-    expect_same_light(make_shot_with_moving_camera(), 4.0);
-}
-
-TEST(MotionBlur, MC27_IndirectLightUnderABoxThatSlidesAway) {
-    // The floor under the box is dark at the frame's own time.
-    expect_same_light(make_sliding_box(), 1.0);
-}
-
-TEST(MotionBlur, MC27_IndirectLightOfALampThatFadesIn) {
-    Scene scene = make_shot();
-    scene.lights[0].intensity.values = {0.0, 2.0};
-    expect_same_light(scene, 0.5);
-}
-
-TEST(MotionBlur, MC27_IndirectLightOfALampThatDims) {
-    // By less than a quarter, and most at the shutter's centre. What samples read there does not hold at other times,
-    // not for later samples of the same pixel either.
-    Scene scene = make_shot();
-    scene.lights[0].intensity = keyed<double>({0.0, 0.25, 0.5}, {2.0, 1.55, 2.0});
-    PictureMeans paths, differences;
-    for (std::uint32_t seed = 0; seed < 8; ++seed) {
-        Image<Rgb> picture = render_blurred(scene, Integrator::cache, seed, 64, 0.03);
-        const Image<Rgb> traced = render_blurred(scene, Integrator::path, seed, 64);
-        paths.add(traced);
-        for (std::size_t i = 0; i < picture.size(); ++i) picture.pixels[i] -= traced.pixels[i];
-        differences.add(picture);
+        if (error > 0.2f * bound()) ++near;
     }
-    EXPECT_NEAR(differences.all.mean(), 0.0, 0.01 * paths.all.mean());
-    EXPECT_LT(differences.all.error(), 0.003 * paths.all.mean());
+    EXPECT_GT(known, 2 * once);
+    EXPECT_GT(near, 1000) << "and not by far too much";
 }
 
-/// Light is linear: while a lamp goes from 0 to twice its power, its light is on average that of its power. Most of the
-/// picture is under a plate, so that it shows indirect light alone.
-TEST(MotionBlur, MC27_IndirectLightOfAFadeIsThatOfItsMean) {
-    Scene still = make_sliding_box();
-    still.nodes.pop_back();  // the box
-    Scene fading = still;
-    fading.lights[0].intensity.values = {0.0, 4.0};  // over a second, of which the shutter sees half
-    PictureMeans found, expected;
-    for (std::uint32_t seed = 0; seed < 48; ++seed) {
-        found.add(render_blurred(fading, Integrator::cache, seed));
-        expected.add(render_blurred(still, Integrator::path, seed + 48));
-    }
-    const auto deviation = [](const Mean& a, const Mean& b) {
-        return std::abs(a.mean() - b.mean()) / std::hypot(a.error(), b.error());
+TEST(ShutterLight, BetweenTwoTimesALampThatGoesThereAtOnceIsNotKnown) {
+    ShutterMover there{.centers = {{0.0f, 2.0f, 0.0f}, {0.0f, 2.0f, 0.0f}}, .shines = true, .light = 0};
+    ShutterMover far = there;
+    far.centers[0] = {1.0f, 2.0f, 0.0f};
+    far.moved = 1.0f;
+    std::vector<ShutterMover> from, to{far};  // at rest since the first
+    find_bends(from, to, 0.5f);
+    EXPECT_NEAR(to[0].bend, 0.5f, 1e-6f);
+    EXPECT_GT(find_light_change(to, glm::vec3(0.0f), glm::vec3(0.0f)), 0.5f);
+}
+
+TEST(ShutterLight, BetweenTwoTimesBrightnessIsComparedWithTheLine) {
+    const auto dims = [](std::vector<double> seconds, std::vector<double> values) {
+        Plate plate;
+        add_light(plate.scene, Light::Kind::point, glm::dvec3(5.0), {0.0, 4.0, 0.0}, z_to_down);
+        plate.scene.lights.back().intensity = keyed<double>(std::move(seconds), std::move(values));
+        const Stage before(plate.scene), after(plate.scene, 32, 24, 1.0), sample(plate.scene, 32, 24, 0.25);
+        return find_dimming(before.shading, after.shading, 0.25f, sample.shading);
     };
-    int beyond = 0;
-    for (int i = 0; i < columns * rows; ++i) beyond += deviation(found.pixels[i], expected.pixels[i]) > 3.0;
-    EXPECT_LE(beyond, 4);  // of 192; by chance 0.6
-    EXPECT_LT(deviation(found.all, expected.all), 3.0);
-    EXPECT_LT(std::hypot(found.all.error(), expected.all.error()), 0.02 * expected.all.mean());
+    EXPECT_NEAR(dims({0.0, 1.0}, {0.0, 2.0}), 0.0f, 1e-6f);
+    EXPECT_NEAR(dims({0.0, 0.25, 1.0}, {2.0, 1.0, 2.0}), 0.5f, 1e-6f);
 }
 
 }  // namespace

@@ -100,27 +100,6 @@ TEST(Shutter, ItsCenterStaysInTheShot) {
     EXPECT_LT(center({1.0, 1.0}, 4), 5.0);
 }
 
-TEST(Shutter, TimesAreEvenAndWithin) {
-    const ShutterInterval shutter{9.25, 9.75};
-    for (const double shift : {0.0, 0.3, 0.999}) {
-        for (const int count : {4, 16, 64, 256}) {
-            std::vector<double> times;
-            for (int i = 0; i < count; ++i) {
-                times.push_back((place_in_shutter(shutter, i, 1, shift) - shutter.open) / 0.5);
-                ASSERT_GE(times.back(), 0.0);
-                ASSERT_LT(times.back(), 1.0);
-            }
-            std::ranges::sort(times);
-            double discrepancy = 0.0;  // star discrepancy in one dimension
-            for (int i = 0; i < count; ++i) {
-                discrepancy = std::max(discrepancy, std::abs(times[i] - (i + 0.5) / count) + 0.5 / count);
-            }
-            EXPECT_LT(discrepancy, 3.0 / count) << count;
-        }
-    }
-    EXPECT_EQ(place_in_shutter({3.5, 3.5}, 11, 2, 0.7), 3.5);
-}
-
 /// A second camera looks from frame 10 on. The lamp is a spot light.
 std::vector<std::int64_t> find_breaks(Scene scene, const glm::dvec2& shutter) {
     scene.lights[0].kind = Light::Kind::spot;

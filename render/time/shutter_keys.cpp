@@ -1,0 +1,153 @@
+#include "render/time/shutter_keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/settings/numbers.h"
+
+namespace aleph {
+
+namespace {
+
+using KeySpan = std::pair<KeyTime, KeyTime>;
+
+constexpr double nearly_all = 0.9;            // of the light that is wanted
+constexpr double least_gain = 0.25;           // share of what is not known yet, for twice as many spans
+constexpr double least_share = 0.25;          // of it, so that light at several times pays
+constexpr double before_jump = 1.0 / 2048.0;  // frames
+
+double find_weight(double open, double close, double at) {
+    return close > open ? std::clamp((at - open) / (close - open), 0.0, 1.0) : 0.0;
+}
+
+bool is_same(const KeyPose& a, const KeyPose& b) {
+    return find_movers(a.shading, b.shading).empty() && find_dimming(a.shading, a.shading, 0.0f, b.shading) == 0.0f;
+}
+
+/// Returns whether light is not to be interpolated from one pose to another that follows at once.
+bool jumps(const KeyPose& before, const KeyPose& after) {
+    constexpr float least_dimming = 0.02f;
+    const std::vector<ShutterMover> movers = find_movers(before.shading, after.shading);
+    return find_dimming(before.shading, before.shading, 0.0f, after.shading) > least_dimming ||
+           std::ranges::any_of(movers, [](const ShutterMover& mover) { return !(mover.moved < infinite); });
+}
+
+/// Share of the places at whose surfaces light is known.
+double find_known_share(const ShutterPlaces& places, const ShutterLight& light, const ShadingScene& sample) {
+    std::size_t known = 0;
+    for (const PixelSurface& seen : places.surfaces) {
+        const std::optional<SurfacePoint> point = carry_point(sample, seen.hit, seen.point);
+        if (!point) continue;
+        PixelSurface surface = seen;
+        surface.point = *point;
+        const float accuracy = places.accuracy(surface.x, surface.y);
+        const auto reading = light.find_change(surface, accuracy);
+        if (reading && reading->change <= accuracy) ++known;
+    }
+    return static_cast<double>(known) / static_cast<double>(places.surfaces.size());
+}
+
+double find_known_share(const ShutterPlaces& places, const std::vector<KeySpan>& spans, const PoseAt& pose) {
+    double known = 0.0, length = 0.0;
+    for (const auto& [first, last] : spans) {
+        const double time = last.at - first.at;
+        const auto middle = pose(0.5 * (first.at + last.at));
+        const ShutterLight light(first.pose->shading, last.pose->shading, 0.5f, middle->shading, nullptr);
+        known += time * find_known_share(places, light, middle->shading);
+        length += time;
+    }
+    return length > 0.0 ? known / length : 0.0;
+}
+
+bool centre_does(const ShutterInterval& shutter, const ShutterPlaces& places, const PoseAt& pose) {
+    double known = 0.0;
+    constexpr int looks = 4;
+    for (int i = 0; i < looks; ++i) {
+        const auto at = pose(std::lerp(shutter.open, shutter.close, (i + 0.5) / looks));
+        known += find_known_share(places, {places.shading, at->shading, nullptr, nullptr}, at->shading) / looks;
+    }
+    return known >= nearly_all;
+}
+
+/// Parts of the shutter between jumps.
+std::vector<KeySpan> cut_at_jumps(const ShutterInterval& shutter, const std::vector<double>& at, const PoseAt& pose) {
+    const auto key = [&](double time) { return KeyTime{time, pose(time)}; };
+    std::vector<KeySpan> parts;
+    KeyTime begin = key(shutter.open);
+    for (const double time : at) {
+        if (!(time - before_jump > begin.at && time < shutter.close)) continue;
+        const KeyTime before = key(time - before_jump), after = key(time);
+        if (!jumps(*before.pose, *after.pose)) continue;
+        parts.emplace_back(begin, before);
+        begin = after;
+    }
+    parts.emplace_back(begin, key(shutter.close));
+    return parts;
+}
+
+std::vector<KeySpan> divide(const std::vector<KeySpan>& parts, double length, const PoseAt& pose) {
+    std::vector<KeySpan> spans;
+    for (const auto& [first, last] : parts) {
+        const double time = last.at - first.at;
+        const bool still = is_same(*first.pose, *last.pose) && is_same(*first.pose, *pose(0.5 * (first.at + last.at)));
+        const int count = still ? 1 : std::max(1, static_cast<int>(std::lround(time / length)));
+        KeyTime begin = first;
+        for (int i = 1; i <= count; ++i) {
+            const double at = first.at + time * i / count;
+            const KeyTime end = i == count ? last : KeyTime{at, pose(at)};
+            spans.emplace_back(begin, end);
+            begin = end;
+        }
+    }
+    return spans;
+}
+
+}  // namespace
+
+LightInSpan::LightInSpan(const ShutterSpan& span, double at, const ShadingScene& sample)
+    : between_(span.before, span.after, find_weight(span.open, span.close, at), BetweenKeys::smooth),
+      light_(span.before->at->shading, span.after ? span.after->at->shading : span.before->at->shading,
+             span.after ? static_cast<float>(find_weight(span.open, span.close, at)) : 0.0f, sample, &between_) {}
+
+const ShutterSpan* find_span(const std::vector<ShutterSpan>& spans, double at) {
+    const auto holds = [at](const ShutterSpan& span) { return span.open <= at && at <= span.close; };
+    const auto found = std::ranges::find_if(spans, holds);
+    return found == spans.end() ? nullptr : &*found;
+}
+
+std::vector<KeySpan> choose_spans(const ShutterInterval& shutter, const std::vector<double>& jump_times,
+                                  const ShutterPlaces& places, const PoseAt& pose, int most) {
+    if (places.surfaces.empty() || !(shutter.close > shutter.open)) return {};
+    if (jump_times.empty() && centre_does(shutter, places, pose)) return {};
+    const std::vector<KeySpan> parts = cut_at_jumps(shutter, jump_times, pose);
+    std::vector<KeySpan> spans;
+    double share = 0.0;
+    for (int count = 1; count <= most && share < nearly_all; count *= 2) {
+        std::vector<KeySpan> finer = divide(parts, (shutter.close - shutter.open) / count, pose);
+        const double known = find_known_share(places, finer, pose), gain = known - share;
+        if (gain > least_gain * (1.0 - share)) {
+            spans = std::move(finer);
+            share = known;
+        }
+    }
+    if (share < least_share) return {};
+    for (auto& [first, last] : spans)
+        if (is_same(*first.pose, *last.pose)) last.pose = nullptr;
+    return spans;
+}
+
+KeyframeRecords find_lasting(const KeyframeLight& light, const KeyPose& to, float accuracy) {
+    const ShadingScene& from = light.at->shading;
+    const std::vector<ShutterMover> movers = find_movers(from, to.shading);
+    const float dimmed = find_dimming(from, from, 0.0f, to.shading);
+    KeyframeRecords lasting;
+    for (const IrradianceRecord& record : light.cache.records()) {
+        const glm::vec3 at_rest(0.0f);
+        const float change = dimmed + find_light_change(movers, record.position, at_rest) +
+                             find_hidden_change(movers, record.position, at_rest, no_index, accuracy);
+        if (change <= accuracy) lasting.seen.push_back(record);
+    }
+    return lasting;
+}
+
+}  // namespace aleph
