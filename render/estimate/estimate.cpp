@@ -149,7 +149,8 @@ void find_node_surfaces(const LightingContext& context, const CameraView& view, 
     const auto find_row = [&](int row, RayTask& task) {
         const int y = row * spacing;
         for (int x = 0; x < nodes.width(); x += spacing) {
-            const auto shown = find_shown_surface({context, view, task.tracer, centers, {x, y}}, task.counts);
+            const SightStart start = start_at_center(view, centers, {x, y});
+            const auto shown = find_shown_surface({context, task.tracer, start}, task.counts);
             if (shown) nodes.node(x, y).surface = make_diffuse_surface(*shown);
         }
     };
@@ -187,7 +188,8 @@ EstimateNodes gather_estimate(const LightingContext& context, const CameraView& 
             thread_local GatherScratch scratch;
             const glm::ivec2& p = pixels[i];
             Tracer whole(context.rays, Blend::whole);
-            const PixelSurface surface = *find_shown_surface({context, view, whole, centers, p}, task.counts);
+            const PixelSurface surface =
+                *find_shown_surface({context, whole, start_at_center(view, centers, p)}, task.counts);
             EstimateNodes::Node& node = nodes.node(p.x, p.y);
             const std::optional<Rgb> found = carried != nullptr ? carried->find(surface) : std::nullopt;
             node.irradiance =
@@ -212,47 +214,28 @@ Rgb estimate_radiance(const LightingContext& context, RayTask& task, const Pixel
     return material.emission + estimate_direct_light(context, task, surface, points_per_light(context.lights));
 }
 
+Rgb estimate_surroundings(const ShadingScene& shading, const glm::vec3& direction, EstimateKind kind) {
+    return kind == EstimateKind::direct ? environment_radiance(shading, direction) : Rgb(1.0f);
+}
+
 namespace {
 
 /// The light that a line of sight meets.
 struct EstimatedLight {
+    RayTask& task;
     const ShadingScene& shading;
     EstimateKind kind;
     const NodeIrradiance* indirect;  ///< null: none
-    float exposure;
 
-    Rgb beyond(const glm::vec3& direction) const {
-        return (kind == EstimateKind::direct ? environment_radiance(shading, direction) : Rgb(1.0f)) * exposure;
-    }
+    Rgb beyond(const glm::vec3& direction) const { return estimate_surroundings(shading, direction, kind); }
 
-    Rgb of(RayTask& task, const LightingContext& context, const PixelSurface& surface) const {
-        const Rgb radiance = estimate_radiance(context, task, surface, kind) * exposure;
+    Rgb of(const SightLine& line) const {
+        const PixelSurface& surface = line.surface();
+        const Rgb radiance = estimate_radiance(line.lighting(), task, surface, kind);
         if (indirect == nullptr) return radiance;
         const DiffuseSurface diffuse = make_diffuse_surface(surface);
         if (!(diffuse.footprint > 0.0f)) return radiance;
-        return radiance + diffuse.reflected * indirect->at(diffuse, {surface.x, surface.y}) * exposure;
-    }
-
-    Rgb along(RayTask& task, SightLine& line) const {
-        Rgb sum(0.0f);
-        do {
-            while (line.advance(task.counts)) sum += line.share() * of(task, line.lighting(), line.surface());
-            if (line.left() != Rgb(0.0f)) sum += line.left() * beyond(line.direction());
-        } while (line.reflect());
-        return sum;
-    }
-
-    /// @param make_line  gives the pixel's line of this number
-    template <class MakeLine>
-    Rgb at(RayTask& task, const MakeLine& make_line) const {
-        SightLine line = make_line(0);
-        Rgb sum = along(task, line);
-        if (!line.is_spread()) return sum;
-        for (int i = 1; i < SightLine::spread_lines; ++i) {
-            SightLine other = make_line(i);
-            sum += along(task, other);
-        }
-        return sum / static_cast<float>(SightLine::spread_lines);
+        return radiance + diffuse.reflected * indirect->at(diffuse, {surface.x, surface.y});
     }
 };
 
@@ -269,13 +252,13 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     Image<Rgb> estimate(view.width, view.height);
     std::optional<NodeIrradiance> indirect;
     if (options.indirect != nullptr && kind == EstimateKind::direct) indirect.emplace(*options.indirect);
-    const EstimatedLight light{context.shading, kind, indirect ? &*indirect : nullptr,
-                               static_cast<float>(options.exposure)};
+    const auto exposure = static_cast<float>(options.exposure);
     const auto estimate_row = [&](int y, RayTask& task) {
         Tracer whole(context.rays, Blend::whole);
+        const EstimatedLight light{task, context.shading, kind, indirect ? &*indirect : nullptr};
         for (int x = 0; x < view.width; ++x) {
-            const auto make_line = [&](int i) { return SightLine(lighting, view, whole, centers, {x, y}, i); };
-            estimate(x, y) = light.at(task, make_line);
+            const SightStart start = start_at_center(view, centers, {x, y});
+            estimate(x, y) = add_along_lines(light, lighting, whole, start, task.counts) * exposure;
         }
     };
     cast_parallel(view.height, 4, context.rays, counts, estimate_row, Blend::cutout);  // without noise

@@ -111,6 +111,9 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
 /// @param task  its rays are those of Blend::cutout
 Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind);
 
+/// Returns the radiance that an estimate shows for what surrounds the scene, without exposure.
+Rgb estimate_surroundings(const ShadingScene& shading, const glm::vec3& direction, EstimateKind kind);
+
 /// 0.18 / exp(mean log Y) over the pixels of an estimate with Y > 0; nothing if there are none.
 std::optional<double> compute_exposure(const Image<Rgb>& estimate);
 

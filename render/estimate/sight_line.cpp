@@ -37,15 +37,20 @@ bool shows_others(const ShadingMaterial& m) {
 
 }  // namespace
 
-SightLine::SightLine(const LightingContext& context, const CameraView& view, Tracer& tracer, const SampleHits& centers,
-                     const glm::ivec2& pixel, int number)
+SightStart start_at_center(const CameraView& view, const SampleHits& centers, const glm::ivec2& pixel) {
+    return {.view = view,
+            .pixel = pixel,
+            .ray = make_camera_ray(view, pixel.x + 0.5, pixel.y + 0.5),
+            .hit = centers.hits(pixel.x, pixel.y),
+            .beside = view.orthographic};
+}
+
+SightLine::SightLine(const LightingContext& context, Tracer& tracer, const SightStart& start, int number)
     : lighting_(context),
-      view_(view),
       tracer_(tracer),
-      centers_(centers),
-      pixel_(pixel),
+      start_(start),
       number_(number),
-      way_{to_scene(context.rays, make_camera_ray(view, pixel.x + 0.5, pixel.y + 0.5)), context.around} {}
+      way_{to_scene(context.rays, start.ray), context.around} {}
 
 bool SightLine::advance(RayCounts& counts) {
     if (surfaces_ == most_surfaces || largest_channel(way_.left) <= least_left) {
@@ -58,8 +63,8 @@ bool SightLine::advance(RayCounts& counts) {
     if (last_.hit.instance == no_index) return false;
     Hit hit = last_.hit;
     hit.distance += way_.travelled;
-    surface_ = make_pixel_surface(lighting_.shading, view_, centers_.place, hit, way_.ray.direction, pixel_);
-    if (surfaces_ == 1 && view_.orthographic && !way_.media.is_empty()) {
+    surface_ = make_pixel_surface(lighting_.shading, start_.view, SamplePlace{}, hit, way_.ray.direction, start_.pixel);
+    if (surfaces_ == 1 && start_.beside && !way_.media.is_empty()) {
         const SurfacePoint& point = surface_.point;
         way_.media = find_media(lighting_.shading, tracer_, {point.ray_origin(), point.geometric}, counts.primary);
     }
@@ -88,7 +93,7 @@ bool SightLine::reflect() {
 /// First hits do not tell what they passed.
 Met SightLine::meet(RayCounts& counts) {
     known_ = surfaces_ == 0 && !tracer_.has_blended();
-    if (known_) return {centers_.hits(pixel_.x, pixel_.y)};
+    if (known_) return {start_.hit};
     ++counts.primary;
     return tracer_.meet(way_.ray, last_.hit.instance == no_index ? nullptr : &last_);
 }
@@ -148,7 +153,7 @@ std::vector<Image<Hit>> find_layers(const LightingContext& context, const Camera
             const auto add = [&](const Rgb& share, const Hit& hit) {
                 if (found < most_layers && largest_channel(share) >= good_part) layers[found++](x, y) = hit;
             };
-            SightLine line(context, view, task.tracer, centers, {x, y});
+            SightLine line(context, task.tracer, start_at_center(view, centers, {x, y}));
             while (line.advance(task.counts)) add(line.share(), line.surface().hit);
             // A mirror's picture may rest whatever the mirror does: it counts as that of the surroundings.
             add(glm::max(line.left(), line.reflected()), {});

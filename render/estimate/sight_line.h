@@ -7,17 +7,26 @@
 
 namespace aleph {
 
+/// The ray that a line of sight begins with.
+struct SightStart {
+    const CameraView& view;
+    glm::ivec2 pixel;
+    CameraRay ray;
+    Hit hit{};            ///< of the ray, where blended surfaces are cut out
+    bool beside = false;  ///< it begins beside the camera, perhaps in other media
+};
+/// Through a pixel's centre. @param centers  first hits
+SightStart start_at_center(const CameraView& view, const SampleHits& centers, const glm::ivec2& pixel);
+
 /// The ray from surface to surface. Blended surfaces and smooth sheets of glass let it pass straight on, smooth walls
 /// of volumes refract it. Rough glass spreads it over several lines, of which this is one. What mirrors reflect
 /// is another way on; the reflections of glass are left out.
 class SightLine {
   public:
     /// Keeps references.
-    /// @param tracer   of Blend::whole
-    /// @param centers  first hits
-    /// @param number   which of spread_lines rough glass turns it to
-    SightLine(const LightingContext& context, const CameraView& view, Tracer& tracer, const SampleHits& centers,
-              const glm::ivec2& pixel, int number = 0);
+    /// @param tracer  of Blend::whole
+    /// @param number  which of spread_lines rough glass turns it to
+    SightLine(const LightingContext& context, Tracer& tracer, const SightStart& start, int number = 0);
     static constexpr int spread_lines = 8;
 
     /// Goes to the next surface. @return false: there is none, or next to no light would reach the camera from it
@@ -55,10 +64,8 @@ class SightLine {
     void turn_at_glass(const LitSurface& lit);
 
     LightingContext lighting_;
-    const CameraView& view_;
     Tracer& tracer_;
-    const SampleHits& centers_;
-    glm::ivec2 pixel_;
+    SightStart start_;
     int number_;
     Way way_;
     std::optional<Way> reflected_;  ///< not followed yet
@@ -69,6 +76,23 @@ class SightLine {
     PixelSurface surface_;
     Rgb share_{0.0f};
 };
+
+/// Sums the light along a pixel's line of sight, or where rough glass spreads it the mean of its lines.
+/// @param light  has of(line), the radiance of the line's surface, and beyond(direction), that of the surroundings
+template <class Light>
+Rgb add_along_lines(const Light& light, const LightingContext& context, Tracer& tracer, const SightStart& start,
+                    RayCounts& counts) {
+    Rgb sum(0.0f);
+    for (int i = 0;; ++i) {
+        SightLine line(context, tracer, start, i);
+        do {
+            while (line.advance(counts)) sum += line.share() * light.of(line);
+            if (line.left() != Rgb(0.0f)) sum += line.left() * light.beyond(line.direction());
+        } while (line.reflect());
+        if (i == 0 && !line.is_spread()) return sum;
+        if (i == SightLine::spread_lines - 1) return sum / static_cast<float>(SightLine::spread_lines);
+    }
+}
 
 /// The surfaces of each pixel's line of sight that a good part of its light comes from, from near to far, and nothing
 /// where the surroundings or a reflection are seen: one image for each, as many as there are before some pixel, and

@@ -5,6 +5,7 @@
 
 #include "engine/base/pixel_loops.h"
 #include "perception/sanitize.h"
+#include "render/estimate/sight_line.h"
 
 namespace aleph {
 
@@ -198,44 +199,57 @@ class SharpReader {
     Image<glm::vec3> positions_;
 };
 
-/// One look through shutter and lens.
+/// The scene at one look through shutter and lens.
 struct Look {
     const SharpEstimate& sharp;
     const SharpReader& reader;
     const NodeIrradiance* irradiance;
     const SampleScene& keyframe;
 
-    /// Radiance without exposure of a surface that the sharp estimate does not show.
-    Rgb shade(RayTask& task, const PixelSurface& surface, const std::optional<SurfacePoint>& still,
-              const glm::dvec2& pixel) const {
-        Rgb radiance = estimate_radiance(keyframe.lighting, task, surface, sharp.kind);
-        if (irradiance == nullptr) return radiance;
-        DiffuseSurface diffuse = make_diffuse_surface(surface);
-        if (!(diffuse.footprint > 0.0f)) return radiance;
-        if (still) {
-            diffuse.position = still->position;
-            diffuse.normal = still->normal;
-        }
-        return radiance + diffuse.reflected * irradiance->at(diffuse, pixel);
+    /// Where a surface is in the frame, and in its picture.
+    struct Still {
+        std::optional<SurfacePoint> point;
+        std::optional<glm::dvec2> at;
+    };
+    Still find_still(const Hit& hit, const SurfacePoint& point) const {
+        Still still{carry_point(sharp.shading, hit, point), {}};
+        if (still.point) still.at = reader.project(*still.point);
+        return still;
     }
 
-    Rgb find(RayTask& task, const Hit& hit, const glm::vec3& direction, int x, int y) const {
-        const auto exposure = static_cast<float>(sharp.exposure);
-        if (hit.instance == no_index) {
-            if (sharp.kind == EstimateKind::flat) return Rgb(exposure);
-            return environment_radiance(keyframe.lighting.shading, direction) * exposure;
+    /// What the sharp estimate shows of a surface, with exposure.
+    std::optional<Rgb> read(const Hit& hit, const glm::vec3& direction) const {
+        if (hit.instance == no_index) return std::nullopt;
+        const Still still = find_still(hit, make_surface_point(keyframe.lighting.shading, hit, direction));
+        if (!still.at) return std::nullopt;
+        const float distance = sharp.view.orthographic ? 1.0f : hit.distance;
+        const float footprint = distance / static_cast<float>(sharp.view.pixels_per_unit);
+        return reader.read(*still.point, hit.instance, *still.at, footprint);
+    }
+};
+
+/// The light of a line of sight of a look.
+struct LookLight {
+    const Look& look;
+    RayTask& task;
+
+    Rgb beyond(const glm::vec3& direction) const {
+        return estimate_surroundings(look.keyframe.lighting.shading, direction, look.sharp.kind);
+    }
+
+    Rgb of(const SightLine& line) const {
+        const PixelSurface& surface = line.surface();
+        const Rgb radiance = estimate_radiance(line.lighting(), task, surface, look.sharp.kind);
+        if (look.irradiance == nullptr) return radiance;
+        DiffuseSurface diffuse = make_diffuse_surface(surface);
+        if (!(diffuse.footprint > 0.0f)) return radiance;
+        const Look::Still still = look.find_still(surface.hit, surface.point);
+        if (still.point) {
+            diffuse.position = still.point->position;
+            diffuse.normal = still.point->normal;
         }
-        const SurfacePoint point = make_surface_point(keyframe.lighting.shading, hit, direction);
-        const std::optional<SurfacePoint> still = carry_point(sharp.shading, hit, point);
-        const std::optional<glm::dvec2> at = still ? reader.project(*still) : std::nullopt;
-        if (at) {
-            const float distance = sharp.view.orthographic ? 1.0f : hit.distance;
-            const float footprint = distance / static_cast<float>(sharp.view.pixels_per_unit);
-            if (const auto known = reader.read(*still, hit.instance, *at, footprint)) return *known;
-        }
-        const PixelSurface surface =
-            make_pixel_surface(keyframe.lighting.shading, keyframe.view, SamplePlace{}, hit, direction, {x, y});
-        return shade(task, surface, still, at.value_or(glm::dvec2(x, y))) * exposure;
+        const glm::dvec2 at = still.at.value_or(glm::dvec2(surface.x, surface.y));
+        return radiance + diffuse.reflected * look.irradiance->at(diffuse, at);
     }
 };
 
@@ -262,10 +276,16 @@ BlurredEstimate blur_estimate(const SharpEstimate& sharp, const std::function<Sa
         cast_rays(keyframe.lighting.rays, make_ray, Blend::cutout, hits);
         counts.primary += hits.size() + keyframe.rays_cast;
         const Look look{sharp, reader, irradiance ? &*irradiance : nullptr, keyframe};
+        const auto exposure = static_cast<float>(sharp.exposure);
+        const bool beside = keyframe.view.orthographic || keyframe.lens.radius > 0.0;
         const auto look_at_row = [&](int y, RayTask& task) {
+            Tracer whole(keyframe.lighting.rays, Blend::whole);
+            const LookLight light{look, task};
             for (int x = 0; x < width; ++x) {
-                const glm::vec3 direction(make_ray(x, y).direction);
-                const Rgb seen = look.find(task, hits(x, y), direction, x, y);
+                const SightStart start{keyframe.view, {x, y}, make_ray(x, y), hits(x, y), beside};
+                std::optional<Rgb> found = look.read(start.hit, glm::vec3(start.ray.direction));
+                if (!found) found = add_along_lines(light, keyframe.lighting, whole, start, task.counts) * exposure;
+                const Rgb& seen = *found;
                 blurred.picture(x, y) += seen * (1.0f / blur_looks);
                 // `swing` holds the brightest until the last look. NaN counts as black.
                 const float shown = std::min(1.0f, std::max(0.0f, luminance(seen)));
