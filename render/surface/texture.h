@@ -6,6 +6,7 @@
 #include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <vector>
 
 #include "engine/pose/camera_view.h"
@@ -22,12 +23,13 @@ enum class TextureSpace {
 /// One image with its pyramid, in linear values. Level 0 is the scene's image, decoded at each look-up. Each coarser
 /// level is half as large, rounded down, to 1 x 1. All cover uv in [0,1]^2 and have the same mean.
 struct Texture {
-    const SceneImage* image = nullptr;  ///< must outlive the texture
+    const SceneImage* image = nullptr;  ///< must outlive the texture, unless it is `masked`
     TextureSpace space = TextureSpace::linear;
     bool by_alpha = false;                    ///< colours count by their alpha; coarse levels hold colour times alpha
     int width = 0, height = 0;                ///< texels of level 0
     std::vector<Image<glm::vec4>> coarse{};   ///< level 1 and up
     glm::vec3 smallest{0.0f}, largest{0.0f};  ///< of each colour channel, over all texels
+    std::shared_ptr<const SceneImage> masked{};  ///< an image with the alpha of another, which makes holes in it
 };
 
 /// A material's reference to a texture, ready for look-ups.
@@ -48,7 +50,8 @@ struct MaterialTextures : TextureSlots<TextureUse> {
 
 /// All textures of a scene. Made once (make_texture_set); look-ups only read it.
 struct TextureSet {
-    /// One for each image and space of materials that are ever shown, and one more where its alpha makes holes.
+    /// One for each image and space of materials that are ever shown, and one more for each image whose alpha makes
+    /// holes in it.
     std::vector<Texture> textures;
     /// As Scene::materials, and one without textures at the end. A material that is hidden at all times has none.
     std::vector<MaterialTextures> materials;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <map>
 
 #include "engine/base/parallel.h"
 #include "engine/pose/pose.h"
@@ -82,6 +83,46 @@ bool shows_by_alpha(const Opacity& opacity) {
     return opacity.mode == Opacity::Mode::blend || (opacity.mode == Opacity::Mode::mask && opacity.cutoff > 0.0);
 }
 
+/// An image in a space, and the one whose alpha makes holes where it is seen: itself, a base colour, or none.
+struct TextureKey {
+    int image = no_index;
+    TextureSpace space = TextureSpace::linear;
+    int alpha = no_index;
+    auto operator<=>(const TextureKey&) const = default;
+};
+
+/// Returns the image whose alpha makes holes in a material's texture. Where the alpha of a texture is itself a value,
+/// no other replaces it.
+int find_alpha(const Material& material, TextureSlot slot) {
+    const TextureRef& base = material.textures[TextureSlot::base_color];
+    if (base.image == no_index || !shows_by_alpha(material.opacity)) return no_index;
+    if (slot == TextureSlot::specular || slot == TextureSlot::sheen_roughness || is_normal_map(slot)) return no_index;
+    TextureRef same = material.textures[slot];
+    same.image = base.image;
+    same.nearest = base.nearest;
+    return same == base ? base.image : no_index;
+}
+
+/// An image with the mean alpha of another over each of its texels.
+SceneImage mask_image(const SceneImage& image, const TextureSet& set, int alpha) {
+    SceneImage masked = image;
+    const int width = std::max(image.bytes.width, image.floats.width);
+    const int height = std::max(image.bytes.height, image.floats.height);
+    const TextureUse use{.texture = alpha, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp};
+    const glm::vec2 texel(1.0f / static_cast<float>(width), 1.0f / static_cast<float>(height));
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const glm::vec2 uv = (glm::vec2(x, y) + 0.5f) * texel;
+            const float left = sample_texture(set, use, uv, {{texel.x, 0.0f}, {0.0f, texel.y}}).w;
+            if (image.bytes.empty())
+                masked.floats(x, y).w = left;
+            else
+                masked.bytes(x, y).w = static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(left, 0.0f, 1.0f)));
+        }
+    }
+    return masked;
+}
+
 /// Finds the range of all texels, without values that are not numbers.
 void find_range(Texture& texture) {
     glm::vec3 &smallest = texture.smallest, &largest = texture.largest;
@@ -151,21 +192,36 @@ TextureUse make_texture_use(const TextureRef& reference, int texture) {
     return use;
 }
 
+namespace {
+
+/// Gives textures the holes of base colours, which have been made.
+void mask_textures(const Scene& scene, const std::map<TextureKey, int>& known, TextureSet& set) {
+    for (const auto& [key, index] : known) {
+        if (key.alpha == no_index || key.alpha == key.image) continue;
+        const SceneImage& alpha = scene.images[key.alpha];
+        const auto holes =
+            known.find({key.alpha, alpha.bytes.empty() ? TextureSpace::linear : TextureSpace::srgb, key.alpha});
+        if (holes == known.end() || !set.textures[holes->second].by_alpha) continue;
+        auto masked = std::make_shared<const SceneImage>(mask_image(scene.images[key.image], set, holes->second));
+        set.textures[index] = make_texture(*masked, key.space, true);
+        set.textures[index].masked = std::move(masked);
+    }
+}
+
+}  // namespace
+
 TextureSet make_texture_set(const Scene& scene) {
     TextureSet set;
-    std::vector<std::array<int, 3>> known(scene.images.size(), {no_index, no_index, no_index});
-    const auto use = [&](const TextureRef& reference, TextureSpace space, bool by_alpha) {
+    std::map<TextureKey, int> known;
+    const auto use = [&](const TextureRef& reference, TextureSpace space, int alpha) {
         if (reference.image == no_index) return TextureUse{};
         const SceneImage& image = scene.images[reference.image];
         if (image.bytes.empty() && image.floats.empty()) return TextureUse{};
-        // A float image reads the same in both spaces.
-        const std::size_t slot = by_alpha ? 2 : space == TextureSpace::srgb && !image.bytes.empty() ? 1 : 0;
-        int& index = known[reference.image][slot];
-        if (index == no_index) {
-            index = static_cast<int>(set.textures.size());
-            set.textures.push_back({.image = &image, .space = space, .by_alpha = by_alpha});
-        }
-        return make_texture_use(reference, index);
+        if (image.bytes.empty()) space = TextureSpace::linear;  // a float image reads the same in both
+        const auto next = static_cast<int>(set.textures.size());
+        const auto [at, is_new] = known.try_emplace({reference.image, space, alpha}, next);
+        if (is_new) set.textures.push_back({.image = &image, .space = space, .by_alpha = alpha == reference.image});
+        return make_texture_use(reference, at->second);
     };
     const std::vector<std::uint8_t> shown = list_shown_materials(scene);
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
@@ -174,7 +230,7 @@ TextureSet make_texture_set(const Scene& scene) {
         const Material& material = scene.materials[m];
         for (const auto& [key, slot] : material_textures) {
             textures[slot] = use(material.textures[slot], is_color(slot) ? TextureSpace::srgb : TextureSpace::linear,
-                                 slot == TextureSlot::base_color && shows_by_alpha(material.opacity));
+                                 find_alpha(material, slot));
             if (textures[slot].texture == no_index) continue;
             textures.any = true;
             textures.maps_normals = textures.maps_normals || is_normal_map(slot);
@@ -188,6 +244,7 @@ TextureSet make_texture_set(const Scene& scene) {
         const Texture& wanted = set.textures[i];
         set.textures[i] = make_texture(*wanted.image, wanted.space, wanted.by_alpha);
     });
+    mask_textures(scene, known, set);
     return set;
 }
 

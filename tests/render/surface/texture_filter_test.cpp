@@ -142,6 +142,32 @@ TEST(TextureFilter, ColorsOfHolesDoNotCount) {
     }
 }
 
+/// Light and gloss of holes do not count either, also in pictures of fewer texels; a value in alpha stays itself.
+TEST(TextureFilter, OtherTexturesHaveTheHolesOfTheBaseColor) {
+    constexpr UvFootprint whole{{1.0f, 0.0f}, {0.0f, 1.0f}};
+    for (const int side : {4, 8}) {
+        Scene scene = make_card({.mode = Opacity::Mode::mask});
+        SceneImage& image = scene.images.emplace_back(make_constant(side, side, {255, 255, 255, 255}));
+        for (const auto [x, y] : all_pixels(image.bytes))
+            if ((4 * x / side + 4 * y / side) % 2 == 1) image.bytes(x, y) = glm::u8vec4(0);
+        for (const TextureSlot slot : {TextureSlot::emission, TextureSlot::metallic_roughness, TextureSlot::specular})
+            scene.materials[0].textures[slot].image = 1;
+        const auto find = [&](TextureSlot slot) {
+            const TextureSet set = make_texture_set(scene);
+            return sample_texture(set, set.materials[0][slot], {0.5f, 0.5f}, whole);
+        };
+        const auto expect_value = [&](TextureSlot slot, double value) {
+            expect_near({glm::vec3(find(slot)), 1.0f}, {glm::dvec3(value), 1.0}, 1e-5);
+        };
+        for (const TextureSlot slot : {TextureSlot::emission, TextureSlot::metallic_roughness}) expect_value(slot, 1.0);
+        EXPECT_NEAR(find(TextureSlot::specular).w, 0.5f, 1e-5f);
+        scene.materials[0].textures[TextureSlot::emission].uv_offset.x = 0.5;
+        expect_value(TextureSlot::emission, 0.5);
+        scene.materials[0].opacity.mode = Opacity::Mode::opaque;
+        expect_value(TextureSlot::metallic_roughness, 0.5);
+    }
+}
+
 TEST(TextureFilter, MagnificationIsBilinearWhateverTheFootprint) {
     const SceneImage image = make_noise(16, 8, 1);
     const TextureSet set = make_set(image);
