@@ -9,8 +9,7 @@ namespace aleph {
 
 namespace {
 
-constexpr int rows_per_chunk = 32;
-constexpr float max_component = 1e15f;
+constexpr float max_linear = 1e15f;
 
 /// glm takes columns; the papers print rows.
 glm::dmat3 from_rows(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -39,7 +38,7 @@ glm::dmat3 opponent_from_rgb(bool neutral) {
 }
 
 float clamp_component(float c) {
-    return c > 0.0f ? (c < max_component ? c : max_component) : 0.0f;
+    return c > 0.0f ? (c < max_linear ? c : max_linear) : 0.0f;
 }
 
 }  // namespace
@@ -49,7 +48,7 @@ Image<float> compute_opponent(const Image<Rgb>& rgb, OpponentChannel channel, bo
     const int row = static_cast<int>(channel);
     const auto r = static_cast<float>(m[0][row]), g = static_cast<float>(m[1][row]), b = static_cast<float>(m[2][row]);
     Image<float> out(rgb.width, rgb.height);
-    parallel_pixels(rgb, rows_per_chunk, [&](int x, int y) {
+    parallel_pixels(rgb, rows_per_band, [&](int x, int y) {
         const Rgb& c = rgb(x, y);
         out(x, y) = r * clamp_component(c.x) + g * clamp_component(c.y) + b * clamp_component(c.z);
     });

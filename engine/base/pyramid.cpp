@@ -12,7 +12,6 @@ constexpr float kernel_center = 0.4f;
 constexpr float kernel_near = 0.25f;
 constexpr float kernel_far = 0.05f;
 constexpr int padding = 2;  // the kernel's reach
-constexpr int rows_per_chunk = 32;
 
 int half_size(int n) {
     return (n + 1) / 2;
@@ -47,7 +46,7 @@ float filter_at(const float* row, int x) {
 template <int step>
 Image<float> filter(const Image<float>& image) {
     Image<float> out((image.width + step - 1) / step, (image.height + step - 1) / step);
-    parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
+    parallel_rows(out.height, rows_per_band, [&](int begin, int end) {
         std::vector<float> columns(image.width + 2 * padding);
         float* const filtered = columns.data() + padding;
         for (int y = begin; y < end; ++y) {
@@ -153,7 +152,7 @@ Image<float> difference(const Image<float>& a, Image<float> b) {
 Image<float> expand(const Image<float>& image, LevelSize fine) {
     Image<float> out(fine.width, fine.height);
     const RowWindow coarse{image.pixels.data(), 0, {image.width, image.height}};
-    parallel_rows(fine.height, rows_per_chunk, [&](int begin, int end) {
+    parallel_rows(fine.height, rows_per_band, [&](int begin, int end) {
         std::vector<float> sums(image.width + 2);
         expand_window(coarse, fine, begin, end, out.row(begin), sums.data());
     });

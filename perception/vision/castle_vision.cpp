@@ -14,10 +14,8 @@ namespace aleph {
 
 namespace {
 
-constexpr float log10_2 = 0.30102999566398120f;
-constexpr float max_model_velocity = 1e6f;  // deg/s
-constexpr double max_frequency = 1e6;       // cycles per degree; nothing is seen there
-constexpr double max_display_blur = 1e7;    // of the lanes: squares of it, times pursuit_limit, stay finite
+constexpr double max_frequency = 1e6;     // cycles per degree; nothing is seen there
+constexpr double max_display_blur = 1e7;  // of the lanes: squares of it, times pursuit_limit, stay finite
 
 /// One pixel; CastleRow has the same by rows.
 struct CastlePixel {

@@ -7,6 +7,8 @@
 
 namespace aleph {
 
+inline constexpr float log10_2 = 0.30102999566398120f;
+
 /// 2^x for x in [-126, 126]; outside, the value at the nearer end.
 inline float fast_exp2(float x) {
     x = x > -126.0f ? x : -126.0f;

@@ -10,9 +10,7 @@ namespace aleph {
 
 namespace {
 
-constexpr float max_model_velocity = 1e6f;  // deg/s; above 1.8e5 no contrast is visible and every f is 1
 constexpr float log2_e = static_cast<float>(std::numbers::log2e);
-constexpr float log10_2 = 0.30102999566398120f;
 
 }  // namespace
 

@@ -25,7 +25,7 @@ float fast_power(float base, float power) {
 
 /// Without branches.
 float fast_tvi(float luminance) {
-    constexpr float log10_2 = 0.30102999566398120f, log2_10 = 3.3219280948873623f;
+    constexpr float log2_10 = 3.3219280948873623f;
     constexpr float min_base = 1e-3f;  // the base of a piece that is not in use may be negative
     const float clamped =
         luminance > min_luminance ? (luminance < max_luminance ? luminance : max_luminance) : min_luminance;

@@ -16,6 +16,8 @@
 namespace aleph {
 
 inline constexpr double highest_aleph = 250.76;  ///< of every model: the supremum of Kelly's CSF_max is 250.751
+/// deg/s; above 1.8e5 no contrast is visible, and the factor f of every band is 1.
+inline constexpr float max_model_velocity = 1e6f;
 
 /// How pictures are shown.
 struct Presentation {

@@ -9,6 +9,7 @@
 #include "engine/pose/frame_keys.h"
 #include "render/cli/commands.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/support/options.h"
 #include "render/cli/support/output_path.h"
 
 namespace aleph {

@@ -1,4 +1,4 @@
-// The program `aleph`. Each subcommand has a file of its own.
+// The program `aleph`.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -26,21 +26,5 @@ int main(int argc, char** argv) {
     // this one. Programs that this one starts have the signals as always.
     std::signal(SIGXFSZ, [](int) {});
     std::signal(SIGPIPE, [](int) {});
-    CLI::App app{
-        "aleph renders animations with global illumination. It computes less where a viewer would not see the "
-        "difference."};
-    aleph::Command command;
-    app.set_version_flag("--version", "aleph " ALEPH_VERSION);
-    app.require_subcommand(0, 1);
-    aleph::add_new_command(app, command);
-    aleph::add_render_command(app, command);
-    aleph::add_preview_command(app, command);
-    aleph::add_maps_command(app, command);
-    aleph::add_explain_command(app, command);
-    aleph::add_export_command(app, command);
-    aleph::add_study_command(app, command);
-    aleph::add_compare_command(app, command);
-    aleph::add_farm_command(app, command);
-    app.footer("`aleph COMMAND --help` lists the options of a command, with examples.");
-    return aleph::run_program(app, command, argc, argv, std::cerr);
+    return aleph::run_aleph(argc, argv, std::cerr);
 }

@@ -16,6 +16,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/film.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/support/options.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/support/render_signals.h"
 #include "render/cli/write_frames.h"

@@ -6,6 +6,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "render/cli/commands.h"
+#include "render/cli/support/options.h"
 
 namespace aleph {
 

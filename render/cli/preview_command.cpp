@@ -12,6 +12,7 @@
 #include "engine/base/parallel.h"
 #include "render/cli/commands.h"
 #include "render/cli/film.h"
+#include "render/cli/support/options.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
 #include "render/cli/support/render_signals.h"

@@ -7,6 +7,7 @@
 #include "render/cli/budget.h"
 #include "render/cli/commands.h"
 #include "render/cli/film.h"
+#include "render/cli/support/options.h"
 #include "render/cli/watch.h"
 #include "render/cli/write_frames.h"
 

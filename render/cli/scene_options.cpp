@@ -14,6 +14,7 @@
 #include "engine/base/files.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
+#include "render/cli/support/options.h"
 #include "render/cli/watch.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/setting_table.h"

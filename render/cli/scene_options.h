@@ -8,7 +8,7 @@
 
 #include "engine/base/picture_area.h"
 #include "engine/json/load_limits.h"
-#include "render/cli/support/options.h"
+#include "render/cli/support/command.h"
 #include "render/settings/settings.h"
 
 namespace aleph {

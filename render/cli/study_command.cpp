@@ -14,6 +14,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/study_output.h"
+#include "render/cli/support/options.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
 #include "render/cli/support/render_signals.h"

@@ -14,7 +14,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "render/cli/support/options.h"
+#include "render/cli/support/command.h"
 #include "render/study/pages/pages.h"
 #include "render/study/search_study.h"
 

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "engine/base/errors.h"
+#include "render/cli/support/options.h"
 #include "render/cli/support/render_signals.h"
 
 namespace aleph {

@@ -94,7 +94,7 @@ const std::array<glm::dvec3, 8> solid_colors = {{{240, 190, 36},
                                                  {22, 112, 66},
                                                  {128, 28, 38},
                                                  {26, 26, 29}}};
-const glm::dvec3 ivory(240, 233, 216);
+const glm::dvec3 ball_white(240, 233, 216);
 const glm::dvec3 ink(20, 20, 22);
 
 /// The cue ball has six spots, so that its spin is visible.
@@ -102,7 +102,7 @@ glm::dvec3 color_cue_ball(const glm::dvec2& uv) {
     const double polar = pi * uv.y, turn = 2.0 * pi * uv.x;
     const glm::dvec3 p(std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn));
     const glm::dvec3 size = glm::abs(p);
-    return std::max({size.x, size.y, size.z}) > std::cos(0.17) ? glm::dvec3(190, 44, 36) : ivory;
+    return std::max({size.x, size.y, size.z}) > std::cos(0.17) ? glm::dvec3(190, 44, 36) : ball_white;
 }
 
 glm::dvec3 color_numbered_ball(int number, const glm::dvec2& uv) {
@@ -113,10 +113,10 @@ glm::dvec3 color_numbered_ball(int number, const glm::dvec2& uv) {
     const double spot = 0.5;
     if (glm::length(at) < spot) {
         const double digit_height = number < 10 ? 0.64 : 0.54;
-        return is_number_ink(number, at / digit_height) ? ink : ivory;
+        return is_number_ink(number, at / digit_height) ? ink : ball_white;
     }
     const bool striped = number > 8;
-    return striped && std::abs(down) > 0.62 ? ivory : color;
+    return striped && std::abs(down) > 0.62 ? ball_white : color;
 }
 
 }  // namespace

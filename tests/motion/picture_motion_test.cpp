@@ -9,7 +9,7 @@
 namespace aleph {
 namespace {
 
-constexpr int width = 160, height = 120;
+constexpr int film_width = 160, film_height = 120;
 
 /// A textured square before a textured wall, both moved.
 struct MovedSquare {
@@ -18,7 +18,7 @@ struct MovedSquare {
 
     static bool shows_square(double x, double y) { return std::abs(x - 80.0) < 25.0 && std::abs(y - 60.0) < 25.0; }
     Image<Rgb> draw() const {
-        return make_pattern(width, height, [&](int x, int y) {
+        return make_pattern(film_width, film_height, [&](int x, int y) {
             const glm::dvec2 on = glm::dvec2(x, y) - square, behind = glm::dvec2(x, y) - wall;
             return brightness * (shows_square(on.x, on.y) ? smooth_texture(on.x + 1000.0, on.y, 7.0)
                                                           : smooth_texture(behind.x, behind.y, 9.0));
@@ -116,7 +116,7 @@ TEST(PictureMotion, TheCheckKeepsWhatTheSearchFound) {
 
 TEST(PictureMotion, UnrelatedPicturesHaveHardlyAnyValidMotion) {
     const auto noise = [](std::uint32_t seed) {
-        return make_pattern(width, height, [=](int x, int y) { return white_noise(x, y, seed); });
+        return make_pattern(film_width, film_height, [=](int x, int y) { return white_noise(x, y, seed); });
     };
     for (const PictureSearch search : checked_searches()) {
         const Share share = find_share(find_motion(noise(1), noise(2), search).there,
@@ -131,8 +131,8 @@ TEST(PictureMotion, FlowFindsFractionsOfAPixel) {
     const MotionField field = find_motion(before.draw(), after.draw(), PictureSearch::flow).there;
     double sum = 0.0;
     int count = 0;
-    for (int y = 10; y < height - 10; ++y) {
-        for (int x = 10; x < width - 10; ++x, ++count)
+    for (int y = 10; y < film_height - 10; ++y) {
+        for (int x = 10; x < film_width - 10; ++x, ++count)
             sum += glm::length(field.displacement(x, y) - glm::dvec2(1.5, -0.25));
     }
     EXPECT_LT(sum / count, 0.15);

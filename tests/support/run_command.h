@@ -15,18 +15,12 @@ struct Ran {
 
 /// @param words  what follows `aleph`
 inline Ran run_command(std::vector<std::string> words) {
-    CLI::App app{"aleph"};
-    Command command;
-    app.require_subcommand(0, 1);
-    for (const auto add :
-         {add_render_command, add_maps_command, add_compare_command, add_study_command, add_explain_command})
-        add(app, command);
     words.insert(words.begin(), "aleph");
     std::vector<const char*> argv;
     for (const std::string& word : words) argv.push_back(word.c_str());
     std::ostringstream errors;
     testing::internal::CaptureStdout();
-    const int code = run_program(app, command, static_cast<int>(argv.size()), argv.data(), errors);
+    const int code = run_aleph(static_cast<int>(argv.size()), argv.data(), errors);
     return {code, testing::internal::GetCapturedStdout(), errors.str()};
 }
 

@@ -10,6 +10,7 @@
 #include "engine/base/files.h"
 #include "render/cli/commands.h"
 #include "render/cli/compare/compare_command.h"
+#include "render/cli/support/options.h"
 
 namespace aleph {
 

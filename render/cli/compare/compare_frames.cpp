@@ -9,7 +9,7 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
-#include "render/cli/support/options.h"
+#include "render/cli/support/command.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
 #include "render/settings/frame_list.h"

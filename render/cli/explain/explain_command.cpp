@@ -14,6 +14,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/explain/explain.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/support/options.h"
 #include "render/settings/fingerprint.h"
 #include "render/settings/frame_list.h"
 

@@ -8,6 +8,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "render/cli/support/options.h"
 #include "render/settings/frame_list.h"
 
 namespace aleph {

@@ -1,25 +1,14 @@
 #pragma once
-// Shared by the subcommands: options that read numbers the same way in every locale; messages and exit codes of errors.
+// Options that read numbers the same way in every locale. Only files that add options include CLI11, which takes long
+// to compile.
 
 #include <CLI/CLI.hpp>
-#include <functional>
-#include <iosfwd>
 #include <string>
 #include <string_view>
 
+#include "render/cli/support/command.h"
+
 namespace aleph {
-
-/// The work of a subcommand, to be done after its options have been read; returns the exit code.
-using Command = std::function<int()>;
-
-enum ExitCode : int {
-    exit_done = 0,
-    exit_different = 1,  ///< of `aleph compare`
-    exit_failed = 1,
-    exit_bad_input = 2,  ///< wrong usage, or a scene or picture that cannot be read
-    exit_beyond = 3,     ///< `aleph render --strict`: all is written, but errs by more than was asked for
-    exit_again = 75,     ///< a signal stopped it; the same command goes on from there (EX_TEMPFAIL of sysexits)
-};
 
 /// An option as users type it: "--error"; the name of a positional one. CLI11's own get_name() has none for options
 /// that only --help-all shows.
@@ -55,18 +44,5 @@ CLI::Option* add_number(CLI::App& app, const std::string& option, T& value, cons
     const auto read = [&value, option](const std::string& text) { value = parse_value<double>(text, option); };
     return app.add_option_function<std::string>(option, read, help)->type_name("NUMBER");
 }
-
-/// "1 frame", "12 frames".
-std::string count_text(std::size_t count, const std::string& what);
-
-/// Prints each as a line on standard error.
-void print_warnings(const std::vector<std::string>& warnings);
-
-/// Reads the command line, which sets `command`, and runs the command. An error is reported in one line on `errors`.
-/// @return the command's exit code, 2 for wrong usage and InputError, 1 for any other error
-int run_program(CLI::App& app, const Command& command, int argc, const char* const* argv, std::ostream& errors);
-
-/// Runs a command; errors as in run_program.
-int run_command(const Command& command, std::ostream& errors);
 
 }  // namespace aleph

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "render/cli/support/options.h"
+#include "render/cli/support/command.h"
 
 namespace aleph {
 

@@ -26,7 +26,7 @@ Scene make_blended(double alpha, std::size_t layers) {
 }
 
 /// Rays downwards through random points of the sheets.
-std::vector<Ray> make_rays(std::size_t count = ray_count, std::uint32_t seed = 0) {
+std::vector<Ray> make_layer_rays(std::size_t count = ray_count, std::uint32_t seed = 0) {
     std::mt19937 random(7 + seed);
     std::uniform_real_distribution<float> place(-0.95f, 0.95f);
     std::vector<Ray> rays(count);
@@ -50,16 +50,16 @@ double share_on(const std::vector<Hit>& hits, int instance) {
     return count_on(hits, instance) / static_cast<double>(hits.size());
 }
 
-std::vector<Ray> make_rays(const Trial& trial) {
-    return make_rays(trial.times(ray_count), trial.seed);
+std::vector<Ray> make_layer_rays(const Trial& trial) {
+    return make_layer_rays(trial.times(ray_count), trial.seed);
 }
 
 TEST(AlphaBlend, StopsItsShareOfTheRays) {
-    const std::vector<Ray> rays = make_rays();
+    const std::vector<Ray> rays = make_layer_rays();
     for (const double alpha : {0.02, 0.3, 0.5, 0.97}) {
         const RayScene one = place(make_blended(alpha, 1));
         EXPECT_TRUE(holds([&](Trial& trial) {
-            const std::vector<Hit> hits = cast(one, make_rays(trial));
+            const std::vector<Hit> hits = cast(one, make_layer_rays(trial));
             trial.counts(count_on(hits, 0), static_cast<double>(hits.size()), alpha);
         }));
     }
@@ -73,7 +73,7 @@ TEST(AlphaBlend, LayersAreIndependent) {
     constexpr double alpha = 0.3;
     const RayScene three = place(make_blended(alpha, 3));
     EXPECT_TRUE(holds([&](Trial& trial) {
-        const std::vector<Hit> hits = cast(three, make_rays(trial));
+        const std::vector<Hit> hits = cast(three, make_layer_rays(trial));
         const double all = static_cast<double>(hits.size());
         double passed = 1.0;
         for (int layer = 0; layer < 3; ++layer) {
@@ -94,7 +94,7 @@ TEST(AlphaBlend, CoincidentSurfacesAreIndependentToo) {
     const RayScene placed = place(scene);
     const double open = std::pow(0.7, 4);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        const std::vector<Hit> hits = cast(placed, make_rays(trial));
+        const std::vector<Hit> hits = cast(placed, make_layer_rays(trial));
         trial.counts(count_on(hits, no_index), static_cast<double>(hits.size()), open);
     }));
 }
@@ -141,7 +141,7 @@ TEST(AlphaBlend, RaysGoOnFromSurfaceToSurface) {
 TEST(AlphaBlend, ShadowsArePartial) {
     const RayScene two = place(make_blended(0.4, 2));
     EXPECT_TRUE(holds([&](Trial& trial) {
-        const std::vector<Ray> rays = make_rays(trial);
+        const std::vector<Ray> rays = make_layer_rays(trial);
         const std::vector<std::uint8_t> blocked = find_blocked(two, rays, Blend::random);
         trial.counts(static_cast<double>(std::ranges::count(blocked, 0)), static_cast<double>(rays.size()), 0.36);
     }));
@@ -158,7 +158,7 @@ TEST(AlphaBlend, SharesOfLightHaveNoChance) {
     scene.nodes[3].meshes = {1};
     scene.nodes[3].transform.translation = glm::dvec3(-1.0, 0.0, -3.0);  // behind the left half
     const double left = std::pow(1.0 - alpha, 4);
-    std::vector<Ray> rays = make_rays(1000);
+    std::vector<Ray> rays = make_layer_rays(1000);
     for (Ray& ray : rays) ray.origin.y *= 0.5f;  // through the turned one, too
     for (const float edge : {-0.5f, -0.25f, 0.3f})
         rays.insert(rays.end(), {ray_down(edge, edge), ray_down(0.5f, 0.0f), ray_down(edge, 0.0f)});  // of triangles
@@ -210,7 +210,7 @@ TEST(AlphaBlend, TextureVertexColourAndFactorMultiply) {
     mesh.colors.assign(mesh.positions.size(), glm::vec4(1.0f, 1.0f, 1.0f, 0.5f));
     const RayScene placed = place(scene);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        const std::vector<Ray> rays = make_rays(trial);
+        const std::vector<Ray> rays = make_layer_rays(trial);
         const std::vector<Hit> hits = cast(placed, rays);
         for (const bool right : {false, true}) {
             std::size_t count = 0, met = 0;
@@ -230,7 +230,7 @@ TEST(AlphaBlend, OneRayHasOneAnswer) {
     scene.nodes[1].transform.rotation = glm::dquat(std::cos(0.2), std::sin(0.2), 0.0, 0.0);
     scene.nodes[1].transform.scale = glm::dvec3(1.3, 0.7, 2.0);
     const RayScene placed = place(scene);
-    const std::vector<Ray> rays = make_rays(4001);
+    const std::vector<Ray> rays = make_layer_rays(4001);
     const std::vector<Hit> hits = cast(placed, rays);
     EXPECT_EQ(cast(placed, rays), hits);
     const std::vector<Ray> rest(rays.begin() + 3, rays.end());
@@ -259,7 +259,7 @@ TEST(AlphaBlend, OneRayHasOneAnswer) {
 }
 
 TEST(AlphaBlend, CutoutsAndMasksAreNotRandom) {
-    const std::vector<Ray> rays = make_rays(1000);
+    const std::vector<Ray> rays = make_layer_rays(1000);
     for (const auto& [alpha, met] : {std::pair(0.49, 0.0), std::pair(0.51, 1.0)}) {
         Scene scene = make_blended(alpha, 2);
         EXPECT_EQ(share_on(cast(place(scene), rays, Blend::cutout), 0), met);

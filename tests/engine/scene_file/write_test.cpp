@@ -74,7 +74,7 @@ Scene make_good_scene() {
         .scene;
 }
 
-void expect_refused(const Scene& scene, const std::string& place, const std::string& word) {
+void expect_write_refused(const Scene& scene, const std::string& place, const std::string& word) {
     const Refusal found = find_refusal([&] { write_scene_text(scene, "out.json"); });
     EXPECT_EQ(found.file, "out.json");
     EXPECT_NE(found.place.find(place), std::string::npos) << place << ": " << found.message;
@@ -85,7 +85,7 @@ template <class Spoil>
 void expect_spoiled(const Spoil& spoil, const std::string& place, const std::string& word) {
     Scene scene = make_good_scene();
     spoil(scene);
-    expect_refused(scene, place, word);
+    expect_write_refused(scene, place, word);
 }
 
 TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {

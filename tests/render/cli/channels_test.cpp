@@ -7,6 +7,7 @@
 
 #include "engine/pose/pose.h"
 #include "render/cli/commands.h"
+#include "render/cli/support/options.h"
 #include "render/output/channel_table.h"
 #include "render/output/frame_files.h"
 #include "render/surface/node_paths.h"

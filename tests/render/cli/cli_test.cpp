@@ -6,6 +6,7 @@
 
 #include "render/cli/commands.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/support/options.h"
 #include "render/cli/support/progress.h"
 #include "render/settings/setting_table.h"
 #include "tests/support/scratch_folder.h"

@@ -188,6 +188,7 @@ TEST_F(FarmTest, WhatCannotBeDividedIsRefused) {
         refused(joined(to_slurm, {"--time", time}), "--time: '");
     for (const char* memory : {"4GB", "4.5G", "-1", "G"})
         refused(joined(to_slurm, {"--memory", memory}), "--memory: '");
+    refused(joined(to_slurm, {"--time", std::string(100000, '1') + "h"}), "--time: '");
     refused(joined(to_slurm, {"--cpus", "-1"}), "--cpus: '-1': expected 0");
     refused(joined(to_parallel, {"--jobs", "0"}), "--jobs: '0': expected 1 or more");
     for (const char* hosts : {"", ",", "one,,two", "one,"})
