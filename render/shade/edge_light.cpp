@@ -17,6 +17,7 @@ namespace {
 constexpr int packet = 16;
 constexpr int rays_of_a_sample = 16;
 constexpr int first_lamp_rays = 64, first_sky_rays = 256;  // of a pixel's first set
+constexpr double covered_square = 0.9999;                  // share of a filter's square that is as good as all of it
 constexpr int parts_of_a_set = 8;                          // which tell its error
 constexpr double share_of_energy = 0.5;                    // of the error that pixels may have
 constexpr double variance_of_half = 2.0;                   // of half as many rays, over that of all
@@ -41,7 +42,7 @@ bool is_hit(const Hit& hit, const LampTriangle& triangle) {
     return hit.instance == triangle.instance && hit.primitive == triangle.primitive;
 }
 
-Rgb find_emission(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const Hit& hit,
+Rgb find_emission(const SampleScene& scene, RayTask& task, const SamplePlace& place, const Hit& hit,
                   const glm::vec3& direction, const glm::ivec2& pixel) {
     const PixelSurface surface = make_pixel_surface(scene.lighting.shading, scene.view, place, hit, direction, pixel);
     return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
@@ -50,9 +51,14 @@ Rgb find_emission(const SampleScene& scene, ShadingTask& task, const SamplePlace
 /// Rays of one pixel.
 class EdgeRays {
   public:
-    EdgeRays(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
+    EdgeRays(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
              const EdgeLight& light)
-        : scene_(scene), task_(task), place_(place), light_(light), middle_(light.x + 0.5, light.y + 0.5) {
+        : scene_(scene),
+          task_(task),
+          place_(place),
+          edges_(edges),
+          light_(light),
+          middle_(light.x + 0.5, light.y + 0.5) {
         double sum = 0.0, end = 0.0;
         for (std::size_t i = light.first; i < light.last; ++i) {
             const LampPart part = find_part(edges.lamps[i]);
@@ -60,6 +66,10 @@ class EdgeRays {
             parts_.push_back(part);
             sum += part.weight;
         }
+        const double side = 2.0 * place_in_filter(place_.filter, 1.0);
+        double area = 0.0;
+        for (const LampPart& part : parts_) area += area_of(part.polygon);
+        whole_ = area >= covered_square * side * side;
         for (LampPart& part : parts_) {
             part.end = end += part.weight / sum;
             part.density = part.weight / sum / area_of(part.polygon);
@@ -72,8 +82,8 @@ class EdgeRays {
         Rgb sum(0.0f);
         for (int begin = first; begin < last; begin += packet) {
             const int count = std::min(packet, last - begin);
-            if (!parts_.empty()) sum += cast_to_lamps(begin, count);
-            if (light_.sky) sum += cast_to_sky(begin, count);
+            if (!parts_.empty() && !whole_) sum += cast_to_lamps(begin, count);
+            if (light_.sky || whole_) sum += cast_through_filter(begin, count);
         }
         place_.noise_key ^= edge_key_mask + set;
         return sum;
@@ -128,7 +138,8 @@ class EdgeRays {
         return sum;
     }
 
-    Rgb cast_to_sky(int begin, int count) {
+    /// Finds the sky, and lamps that fill the filter: there these rays are best.
+    Rgb cast_through_filter(int begin, int count) {
         SamplePlace own = place_;
         for (int i = 0; i < count; ++i) {
             own.index = begin + i;
@@ -137,17 +148,20 @@ class EdgeRays {
         intersect(count);
         Rgb sum(0.0f);
         for (int i = 0; i < count; ++i) {
-            if (hits_[i].instance == no_index) sum += environment_radiance(scene_.lighting.shading, rays_[i].direction);
+            if (whole_ || hits_[i].instance == no_index)
+                sum += light_in_edge(scene_, task_, place_, edges_, light_, hits_[i], rays_[i].direction);
         }
         return sum;
     }
 
     const SampleScene& scene_;
-    ShadingTask& task_;
+    RayTask& task_;
     SamplePlace place_;
+    const BrightEdges& edges_;
     const EdgeLight& light_;
     const glm::dvec2 middle_;
     std::vector<LampPart> parts_;
+    bool whole_ = false;  ///< they fill the filter
     std::array<Ray, packet> rays_;
     std::array<Hit, packet> hits_;
 };
@@ -219,7 +233,7 @@ void find_edge_light(const SampleScene& scene, const SamplePlace& place, const S
     }
     std::atomic<std::uint64_t> rays_of_all = 0;
     parallel_for(found.size(), 4, [&](std::size_t first, std::size_t last) {
-        ShadingTask task(scene.lighting.rays, scene.lighting.rays);
+        RayTask task(scene.lighting.rays);
         for (std::size_t i = first; i < last; ++i) {
             EdgeRays rays(scene, task, place, edges, found[i]);
             take_sets(rays, limits, found[i]);
@@ -231,13 +245,13 @@ void find_edge_light(const SampleScene& scene, const SamplePlace& place, const S
     std::erase_if(found, [](const EdgeLight& light) { return !is_finite(light.mean); });
 }
 
-Rgb sample_edge_light(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
+Rgb sample_edge_light(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
                       const EdgeLight& edge) {
     const auto set = static_cast<std::uint32_t>(place.index);
     return EdgeRays(scene, task, place, edges, edge).cast(set, 0, rays_of_a_sample) / float{rays_of_a_sample};
 }
 
-Rgb light_in_edge(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
+Rgb light_in_edge(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
                   const EdgeLight& edge, const Hit& hit, const glm::vec3& direction) {
     if (hit.instance == no_index) return edge.sky ? environment_radiance(scene.lighting.shading, direction) : Rgb(0.0f);
     const auto triangles = std::span(edges.lamps).subspan(edge.first, edge.last - edge.first);

@@ -31,12 +31,14 @@ std::vector<EdgeLight> list_edges(const BrightEdges& edges, const PicturePart* p
 void find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
                      const BrightEdges& edges, std::vector<EdgeLight>& found, std::uint64_t& rays_cast);
 
-/// The mean of 16 rays at the time of a sample, while the shutter is open.
-Rgb sample_edge_light(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
+/// The mean of 16 rays, those of the sample's number. While the shutter is open, what it is more at the sample's time
+/// than at the shutter's centre is added to the centre's light: nothing where all that they meet is at rest.
+/// @param scene, task  of one time
+Rgb sample_edge_light(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
                       const EdgeLight& edge);
 
 /// The light that the hit of a sample's ray shows by itself, as far as it is in the pixel's EdgeLight.
-Rgb light_in_edge(const SampleScene& scene, ShadingTask& task, const SamplePlace& place, const BrightEdges& edges,
+Rgb light_in_edge(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
                   const EdgeLight& edge, const Hit& hit, const glm::vec3& direction);
 
 }  // namespace aleph

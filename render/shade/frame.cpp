@@ -88,13 +88,14 @@ class FrameShading {
     }
 
   private:
+    /// The scene of the frame, at the shutter's centre.
+    SampleScene center() const { return {context_.lighting, context_.view, options_.lens}; }
+
     void find_edges(const SampleHits& centers) {
         std::uint64_t& rays = out_.counts.rays.primary;
         edges_ = find_bright_edges(context_.lighting, context_.view, centers, place_.filter, exposure_, rays);
         edge_light_ = list_edges(edges_, plan_.part);
-        if (!options_.at_sample)
-            find_edge_light({context_.lighting, context_.view, options_.lens}, place_, plan_, edges_, edge_light_,
-                            rays);
+        find_edge_light(center(), place_, plan_, edges_, edge_light_, rays);
         if (edge_light_.empty()) return;
         edge_of_ = Image<int>(pixels_.width, pixels_.height, no_index);
         for (std::size_t i = 0; i < edge_light_.size(); ++i) {
@@ -167,7 +168,7 @@ class FrameShading {
         expected_ = taken_ + sum_samples(ranges);
         if (!plan_.tolerance.empty()) expected_ += predict_samples(ranges, before, plan_.most);
         if (!options_.at_sample) {
-            take_at(ranges, [this] { return SampleScene{context_.lighting, context_.view, options_.lens}; });
+            take_at(ranges, [this] { return center(); });
         } else {
             take_in_turn(ranges,
                          [this](int i, int c, auto now) { take_at(now, [&] { return options_.at_sample(i, c); }); });
@@ -227,8 +228,11 @@ class FrameShading {
                 light.control = luminance(correction);
             }
             if (const EdgeLight* edge = find_edge(x, y)) {
-                const Rgb mean = options_.at_sample ? sample_edge_light(scene, task, at, edges_, *edge) : edge->mean;
-                light[LightPart::surface] += mean - light_in_edge(scene, task, at, edges_, *edge, hit, direction);
+                Rgb& seen = light[LightPart::surface];
+                seen += edge->mean - light_in_edge(scene, task, at, edges_, *edge, hit, direction);
+                if (options_.at_sample)
+                    seen += sample_edge_light(scene, task, at, edges_, *edge) -
+                            sample_edge_light(center(), task.at_frame, at, edges_, *edge);
             }
             add_sample(task, x, y, light);
         };

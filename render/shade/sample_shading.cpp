@@ -131,7 +131,7 @@ PathState start_path(const RenderSettings& settings, const Media& around) {
     return {.left = {settings.light.bounces, settings.light.path_depth}, .media = around};
 }
 
-SampleScene scene_before(const SampleScene& scene, ShadingTask& task, const PixelSurface& surface) {
+SampleScene scene_before(const SampleScene& scene, RayTask& task, const PixelSurface& surface) {
     SampleScene before = scene;
     Media& media = before.lighting.around;
     if (!media.is_empty() && (scene.view.orthographic || scene.lens.radius > 0.0))

@@ -54,7 +54,7 @@ PathState start_path(const RenderSettings& settings, const Media& around);
 
 /// The scene with the media that a sample's ray passes before its surface in place of those around the camera. They
 /// differ where rays do not begin at the camera itself: on a lens, and in an orthographic view.
-SampleScene scene_before(const SampleScene& scene, ShadingTask& task, const PixelSurface& surface);
+SampleScene scene_before(const SampleScene& scene, RayTask& task, const PixelSurface& surface);
 
 /// Share of light that reaches the camera through the media before a surface.
 Rgb share_left(const Media& before, const PixelSurface& surface);

@@ -62,11 +62,22 @@ float find_difference(const Rgb& a, const Rgb& b) {
 
 const glm::vec3 far_away(infinite);
 
+/// Light `i` of one pose in another. Poses have the lights of visible nodes alone: where it is hidden, it is dark.
+LightValues find_light(const std::vector<LightValues>& lights, std::size_t i, const LightValues& light) {
+    if (i < lights.size() && lights[i].node == light.node) return lights[i];
+    const auto found = std::ranges::find(lights, light.node, &LightValues::node);
+    if (found != lights.end()) return *found;
+    LightValues dark = light;
+    dark.intensity = Rgb(0.0f);
+    return dark;
+}
+
 /// Adds the lights without surfaces that move.
 void add_lights(const ShadingScene& frame, const ShadingScene& sample, std::vector<ShutterMover>& movers) {
     for (std::size_t i = 0; i < frame.pose->lights.size(); ++i) {
-        const LightValues &before = frame.pose->lights[i], &after = sample.pose->lights[i];
-        ShutterMover mover{.centers = {far_away, far_away}, .shines = true, .light = static_cast<int>(i)};
+        const LightValues& before = frame.pose->lights[i];
+        const LightValues after = find_light(sample.pose->lights, i, before);
+        ShutterMover mover{.centers = {far_away, far_away}, .shines = true, .light = before.node};
         if (before.kind != Light::Kind::directional) {
             mover.centers[0] = before.position - frame.anchor;
             mover.centers[1] = after.position - frame.anchor;
@@ -189,12 +200,17 @@ float find_dimming(const ShadingScene& before, const ShadingScene& after, float 
         const auto emission = [m](const ShadingScene& at) { return at.materials[m].values.emission; };
         most = std::max(most, differ(emission(before), emission(after), emission(sample)));
     }
-    for (std::size_t i = 0; i < before.pose->lights.size(); ++i) {
-        const LightValues &a = before.pose->lights[i], &b = after.pose->lights[i], &at = sample.pose->lights[i];
-        // 1 - (d / range)^4 of the light is left (lights.cpp).
-        const float range = std::lerp(find_difference(Rgb(a.range), Rgb(at.range)),
-                                      find_difference(Rgb(b.range), Rgb(at.range)), weight);
-        most = std::max(most, differ(a.intensity, b.intensity, at.intensity) + 4.0f * range);
+    for (const ShadingScene* listed : {&before, &after, &sample}) {
+        for (std::size_t i = 0; i < listed->pose->lights.size(); ++i) {
+            const LightValues& light = listed->pose->lights[i];
+            const LightValues a = find_light(before.pose->lights, i, light),
+                              b = find_light(after.pose->lights, i, light),
+                              at = find_light(sample.pose->lights, i, light);
+            // 1 - (d / range)^4 of the light is left (lights.cpp).
+            const float range = std::lerp(find_difference(Rgb(a.range), Rgb(at.range)),
+                                          find_difference(Rgb(b.range), Rgb(at.range)), weight);
+            most = std::max(most, differ(a.intensity, b.intensity, at.intensity) + 4.0f * range);
+        }
     }
     return most;
 }

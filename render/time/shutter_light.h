@@ -37,7 +37,7 @@ struct ShutterMover {
     float bent = 0.0f;       ///< m, of a mesh that deforms: the farthest way of its points beside that of its centre
     bool shines = false;
     float turned = 0.0f;   ///< radians, about, a wider cone and growth included; of what shines
-    int light = no_index;  ///< of the pose; no_index: an instance or the environment
+    int light = no_index;  ///< its node; no_index: an instance or the environment
     float bend = std::numeric_limits<float>::infinity();  ///< m, from where interpolation between two times puts it;
                                                           ///< infinite: there is one time
 };

@@ -3,6 +3,7 @@
 
 #include "render/surface/texture.h"
 #include "engine/base/color.h"
+#include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
 namespace aleph {
