@@ -220,22 +220,23 @@ Rgb estimate_surroundings(const ShadingScene& shading, const glm::vec3& directio
 
 namespace {
 
-/// The light that a line of sight meets.
+/// The light that a line of sight meets, times exposure.
 struct EstimatedLight {
     RayTask& task;
     const ShadingScene& shading;
     EstimateKind kind;
     const NodeIrradiance* indirect;  ///< null: none
+    float exposure;
 
-    Rgb beyond(const glm::vec3& direction) const { return estimate_surroundings(shading, direction, kind); }
+    Rgb beyond(const glm::vec3& direction) const { return estimate_surroundings(shading, direction, kind) * exposure; }
 
     Rgb of(const SightLine& line) const {
         const PixelSurface& surface = line.surface();
-        const Rgb radiance = estimate_radiance(line.lighting(), task, surface, kind);
+        const Rgb radiance = estimate_radiance(line.lighting(), task, surface, kind) * exposure;
         if (indirect == nullptr) return radiance;
         const DiffuseSurface diffuse = make_diffuse_surface(surface);
         if (!(diffuse.footprint > 0.0f)) return radiance;
-        return radiance + diffuse.reflected * indirect->at(diffuse, {surface.x, surface.y});
+        return radiance + diffuse.reflected * indirect->at(diffuse, {surface.x, surface.y}) * exposure;
     }
 };
 
@@ -255,10 +256,10 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     const auto exposure = static_cast<float>(options.exposure);
     const auto estimate_row = [&](int y, RayTask& task) {
         Tracer whole(context.rays, Blend::whole);
-        const EstimatedLight light{task, context.shading, kind, indirect ? &*indirect : nullptr};
+        const EstimatedLight light{task, context.shading, kind, indirect ? &*indirect : nullptr, exposure};
         for (int x = 0; x < view.width; ++x) {
             const SightStart start = start_at_center(view, centers, {x, y});
-            estimate(x, y) = add_along_lines(light, lighting, whole, start, task.counts) * exposure;
+            estimate(x, y) = add_along_lines(light, lighting, whole, start, task.counts);
         }
     };
     cast_parallel(view.height, 4, context.rays, counts, estimate_row, Blend::cutout);  // without noise
