@@ -206,8 +206,6 @@ void take_sets(EdgeRays& rays, const EdgeLimits& limits, EdgeLight& light) {
     }
 }
 
-}  // namespace
-
 std::vector<EdgeLight> list_edges(const BrightEdges& edges, const PicturePart* part) {
     std::vector<EdgeLight> pixels;
     std::size_t next = 0;
@@ -223,8 +221,11 @@ std::vector<EdgeLight> list_edges(const BrightEdges& edges, const PicturePart* p
     return pixels;
 }
 
-void find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
-                     const BrightEdges& edges, std::vector<EdgeLight>& found, std::uint64_t& rays_cast) {
+}  // namespace
+
+EdgeLights find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
+                           BrightEdges edges, std::uint64_t& rays_cast) {
+    std::vector<EdgeLight> found = list_edges(edges, plan.part);
     EdgeLimits limits{plan, {}};
     if (!plan.tolerance.empty() && !found.empty()) {
         limits.density = Image<float>(edges.sky.width, edges.sky.height);
@@ -243,6 +244,10 @@ void find_edge_light(const SampleScene& scene, const SamplePlace& place, const S
     rays_cast += rays_of_all;
     // Light that is no number stays with the samples that meet it.
     std::erase_if(found, [](const EdgeLight& light) { return !is_finite(light.mean); });
+    Image<int> places;
+    if (!found.empty()) places = Image<int>(edges.sky.width, edges.sky.height, no_index);
+    for (std::size_t i = 0; i < found.size(); ++i) places(found[i].x, found[i].y) = static_cast<int>(i);
+    return {std::move(edges), std::move(found), std::move(places)};
 }
 
 Rgb sample_edge_light(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,

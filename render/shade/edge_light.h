@@ -19,17 +19,26 @@ struct EdgeLight {
     float variance = 0.0f;            ///< of the mean's luminance, as parts of its rays tell it
 };
 
-/// Pixels at bright edges, row by row, without their light.
-std::vector<EdgeLight> list_edges(const BrightEdges& edges, const PicturePart* part);
+/// Pixels at bright edges, row by row.
+struct EdgeLights {
+    BrightEdges edges;
+    std::vector<EdgeLight> pixels;
+    Image<int> places;  ///< in `pixels`; empty: there are none
 
-/// Finds the light of these pixels while the shutter is closed. Sets of rays, each twice as many as those before and
-/// with random numbers of its own, are cast until one is told to be the last by those before it: the mean of that one
-/// alone has no bias. It is where the energy of the errors around, if they are all as large, is half of what pixels may
-/// have, or where they tell white.
+    /// Null where no bright edge is.
+    const EdgeLight* find(int x, int y) const {
+        return places.empty() || places(x, y) == no_index ? nullptr : &pixels[places(x, y)];
+    }
+};
+
+/// Finds what pixels at bright edges show, at the shutter's centre. Sets of rays, each twice as many as those before
+/// and with random numbers of its own, are cast until one is told to be the last by those before it: the mean of that
+/// one alone has no bias. It is where the energy of the errors around, if they are all as large, is half of what pixels
+/// may have, or where they tell white.
 /// @param place  of the first sample
 /// @param plan   for tolerances and white. With no tolerances there is one set, of 16 rays for each sample
-void find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
-                     const BrightEdges& edges, std::vector<EdgeLight>& found, std::uint64_t& rays_cast);
+EdgeLights find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
+                           BrightEdges edges, std::uint64_t& rays_cast);
 
 /// The mean of 16 rays, those of the sample's number. While the shutter is open, what it is more at the sample's time
 /// than at the shutter's centre is added to the centre's light: nothing where all that they meet is at rest.

@@ -93,21 +93,10 @@ class FrameShading {
 
     void find_edges(const SampleHits& centers) {
         std::uint64_t& rays = out_.counts.rays.primary;
-        edges_ = find_bright_edges(context_.lighting, context_.view, centers, place_.filter, exposure_, rays);
-        edge_light_ = list_edges(edges_, plan_.part);
-        find_edge_light(center(), place_, plan_, edges_, edge_light_, rays);
-        if (edge_light_.empty()) return;
-        edge_of_ = Image<int>(pixels_.width, pixels_.height, no_index);
-        for (std::size_t i = 0; i < edge_light_.size(); ++i) {
-            const EdgeLight& light = edge_light_[i];
-            edge_of_(light.x, light.y) = static_cast<int>(i);
-            pixels_(light.x, light.y).set_seen_variance(light.variance);
-        }
-    }
-
-    /// Null where no bright edge is.
-    const EdgeLight* find_edge(int x, int y) const {
-        return edge_of_.empty() || edge_of_(x, y) == no_index ? nullptr : &edge_light_[edge_of_(x, y)];
+        BrightEdges edges =
+            find_bright_edges(context_.lighting, context_.view, centers, place_.filter, exposure_, rays);
+        edges_ = find_edge_light(center(), place_, plan_, std::move(edges), rays);
+        for (const EdgeLight& light : edges_.pixels) pixels_(light.x, light.y).set_seen_variance(light.variance);
     }
 
     SamplePlace place(int index) const {
@@ -227,12 +216,12 @@ class FrameShading {
                 light[LightPart::direct] += correction;
                 light.control = luminance(correction);
             }
-            if (const EdgeLight* edge = find_edge(x, y)) {
+            if (const EdgeLight* edge = edges_.find(x, y)) {
                 Rgb& seen = light[LightPart::surface];
-                seen += edge->mean - light_in_edge(scene, task, at, edges_, *edge, hit, direction);
+                seen += edge->mean - light_in_edge(scene, task, at, edges_.edges, *edge, hit, direction);
                 if (options_.at_sample)
-                    seen += sample_edge_light(scene, task, at, edges_, *edge) -
-                            sample_edge_light(center(), task.at_frame, at, edges_, *edge);
+                    seen += sample_edge_light(scene, task, at, edges_.edges, *edge) -
+                            sample_edge_light(center(), task.at_frame, at, edges_.edges, *edge);
             }
             add_sample(task, x, y, light);
         };
@@ -287,10 +276,8 @@ class FrameShading {
     ShadedFrame& out_;
     Image<PixelSamples> pixels_;
     std::optional<TextureControl> textures_;
-    BrightEdges edges_;
-    std::vector<EdgeLight> edge_light_;
-    Image<int> edge_of_;  ///< place of a pixel's EdgeLight; empty: there is none
-    SamplePlace place_;   ///< of the first sample
+    EdgeLights edges_;
+    SamplePlace place_;  ///< of the first sample
     const double exposure_;
     SamplingPlan plan_;
     const std::unique_ptr<LightIntegrator> integrator_;

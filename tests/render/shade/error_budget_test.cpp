@@ -185,10 +185,7 @@ std::vector<EdgeLight> find_light(const Stage& stage, float tolerance, int most,
     plan.white = 1.0;
     if (tolerance > 0.0f) plan.tolerance = Image<float>(edges_width, edges_height, tolerance);
     const SamplePlace place{.centered = false, .filter = PixelFilter::blackman_harris, .seed = seed};
-    const BrightEdges edges = find_edges(stage);
-    std::vector<EdgeLight> found = list_edges(edges, nullptr);
-    find_edge_light({stage.lighting(), stage.view}, place, plan, edges, found, rays);
-    return found;
+    return find_edge_light({stage.lighting(), stage.view}, place, plan, find_edges(stage), rays).pixels;
 }
 
 TEST(BrightEdges, TakeAsManyRaysAsTheirErrorAsksFor) {
