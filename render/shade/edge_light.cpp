@@ -223,6 +223,13 @@ std::vector<EdgeLight> list_edges(const BrightEdges& edges, const PicturePart* p
 
 }  // namespace
 
+EdgeLights::EdgeLights(BrightEdges found, std::vector<EdgeLight> light)
+    : edges(std::move(found)), pixels(std::move(light)) {
+    if (pixels.empty()) return;
+    places = Image<int>(edges.sky.width, edges.sky.height, no_index);
+    for (std::size_t i = 0; i < pixels.size(); ++i) places(pixels[i].x, pixels[i].y) = static_cast<int>(i);
+}
+
 EdgeLights find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
                            BrightEdges edges, std::uint64_t& rays_cast) {
     std::vector<EdgeLight> found = list_edges(edges, plan.part);
@@ -244,10 +251,7 @@ EdgeLights find_edge_light(const SampleScene& scene, const SamplePlace& place, c
     rays_cast += rays_of_all;
     // Light that is no number stays with the samples that meet it.
     std::erase_if(found, [](const EdgeLight& light) { return !is_finite(light.mean); });
-    Image<int> places;
-    if (!found.empty()) places = Image<int>(edges.sky.width, edges.sky.height, no_index);
-    for (std::size_t i = 0; i < found.size(); ++i) places(found[i].x, found[i].y) = static_cast<int>(i);
-    return {std::move(edges), std::move(found), std::move(places)};
+    return {std::move(edges), std::move(found)};
 }
 
 Rgb sample_edge_light(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,

@@ -21,6 +21,9 @@ struct EdgeLight {
 
 /// Pixels at bright edges, row by row.
 struct EdgeLights {
+    EdgeLights() = default;
+    EdgeLights(BrightEdges found, std::vector<EdgeLight> light);
+
     BrightEdges edges;
     std::vector<EdgeLight> pixels;
     Image<int> places;  ///< in `pixels`; empty: there are none

@@ -68,16 +68,16 @@ class FrameShading {
     /// @param centers  hits of the pixels' centres
     void shade(const SampleHits& centers) {
         // A lens would need rays from all of it: outlines and textures are soft.
-        if (!place_.centered && !(options_.lens.radius > 0.0)) {
-            find_edges(centers);
-            const ShadingScene& shading = context_.lighting.shading;
-            // Paths alone are to judge what an estimate guides.
-            if (!options_.at_sample && options_.estimate != nullptr &&
-                context_.settings.light.integrator == Integrator::cache)
-                textures_.emplace(shading, context_.view, centers, *options_.estimate, exposure_);
-        }
+        const bool is_sharp = !place_.centered && !(options_.lens.radius > 0.0);
+        // Paths alone are to judge what an estimate guides.
+        const bool by_estimate =
+            options_.estimate != nullptr && context_.settings.light.integrator == Integrator::cache;
+        if (is_sharp && !options_.at_sample && by_estimate)
+            textures_.emplace(context_.lighting.shading, context_.view, centers, *options_.estimate, exposure_);
+        std::vector<PixelRange> begin = restore();
+        if (is_sharp) find_edges(centers, !begin.empty());
         sample_by_stages(
-            plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); }, restore());
+            plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); }, std::move(begin));
     }
 
     void resolve() {
@@ -91,11 +91,17 @@ class FrameShading {
     /// The scene of the frame, at the shutter's centre.
     SampleScene center() const { return {context_.lighting, context_.view, options_.lens}; }
 
-    void find_edges(const SampleHits& centers) {
-        std::uint64_t& rays = out_.counts.rays.primary;
+    /// @param is_known  their light is restored
+    void find_edges(const SampleHits& centers, bool is_known) {
+        std::uint64_t rays = 0;
         BrightEdges edges =
             find_bright_edges(context_.lighting, context_.view, centers, place_.filter, exposure_, rays);
+        if (is_known) {
+            edges_ = {std::move(edges), std::move(edges_.pixels)};
+            return;
+        }
         edges_ = find_edge_light(center(), place_, plan_, std::move(edges), rays);
+        out_.counts.rays.primary += rays;
         for (const EdgeLight& light : edges_.pixels) pixels_(light.x, light.y).set_seen_variance(light.variance);
     }
 
@@ -115,6 +121,7 @@ class FrameShading {
         std::vector<PixelRange> stage = in.read_all<PixelRange>();
         skip_ = in.read<std::size_t>();
         pixels_.pixels = in.read_all<PixelSamples>();
+        edges_.pixels = in.read_all<EdgeLight>();
         out_.counts = in.read<FrameCounts>();
         out_.invalid_samples.pixels = in.read_all<float>();
         integrator_->restore(in);
@@ -128,6 +135,7 @@ class FrameShading {
         out.add(std::vector(stage.begin(), stage.end()));
         out.add(slices_);
         out.add(pixels_.pixels);
+        out.add(edges_.pixels);
         out.add(out_.counts);
         out.add(out_.invalid_samples.pixels);
         integrator_->save(out);
