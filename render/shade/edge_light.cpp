@@ -119,7 +119,7 @@ class EdgeRays {
         std::array<float, packet> weights{};
         for (int i = 0; i < count; ++i) {
             const double u = sequence.at_1d(SampleUse::bright_choice, begin + i);
-            const auto part = std::ranges::find_if(parts_, [u](const LampPart& p) { return u < p.end; });
+            const auto part = std::ranges::upper_bound(parts_, u, {}, &LampPart::end);
             chosen[i] = part == parts_.end() ? &parts_.back() : &*part;
             const glm::dvec2 at =
                 sample_polygon(chosen[i]->polygon, sequence.at_2d(SampleUse::bright_point, begin + i));

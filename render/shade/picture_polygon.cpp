@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace aleph {
 
 namespace {
+
+constexpr double nearest = 1e-6;  // depth that counts, of the distance to a triangle's farthest corner
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
@@ -34,9 +37,11 @@ void clip(int count, const Height& height, const Visit& visit) {
 PicturePolygon project_triangle(const CameraView& view, const std::array<glm::dvec3, 3>& corners) {
     std::array<glm::dvec3, 3> seen;
     std::ranges::transform(corners, seen.begin(), [&](const glm::dvec3& corner) { return to_camera(view, corner); });
+    double reach = 0.0;
+    for (const glm::dvec3& corner : seen) reach = std::max(reach, glm::length(corner));
     PicturePolygon polygon;
     clip(
-        3, [&](int i) { return -seen[i].z - 2.0 * view.near_plane; },
+        3, [&](int i) { return -seen[i].z - nearest * reach; },
         [&](int a, int b, double t) { polygon.add(project_camera_point(view, seen[a] + t * (seen[b] - seen[a]))); });
     return polygon;
 }

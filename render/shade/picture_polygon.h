@@ -9,8 +9,8 @@
 
 namespace aleph {
 
-/// A convex polygon of the picture, pixels. A triangle has a corner more where the near plane cuts it, and up to four
-/// more within a rectangle.
+/// A convex polygon of the picture, pixels. A triangle has a corner more where the camera's plane cuts it, and up to
+/// four more within a rectangle.
 struct PicturePolygon {
     std::array<glm::dvec2, 8> corners;
     int count = 0;
@@ -21,7 +21,8 @@ struct PicturePolygon {
     }
 };
 
-/// A triangle (world, m) as far as it lies before the near plane. Without corners if it does not.
+/// A triangle (world, m) as far as it lies before the camera, where rays start: its near plane hides nothing. Without
+/// corners if it lies behind.
 PicturePolygon project_triangle(const CameraView& view, const std::array<glm::dvec3, 3>& corners);
 
 /// The part of a polygon of up to four corners within a rectangle (Sutherland and Hodgman 1974).

@@ -1,4 +1,4 @@
-// Triangles in the picture: what the near plane and a square leave of them, and places on them.
+// Triangles in the picture: what the camera's plane and a square leave of them, and places on them.
 
 #include "render/shade/picture_polygon.h"
 
@@ -53,7 +53,7 @@ TEST(PicturePolygon, PlacesAreEvenOverIt) {
     EXPECT_NEAR(beyond / static_cast<double>(steps * steps), (0.5 * 1.5 * 1.5 - 0.5) / 3.5, 2e-3);
 }
 
-TEST(PicturePolygon, TheNearPlaneCutsTriangles) {
+TEST(PicturePolygon, TheCamerasPlaneCutsTriangles) {
     const CameraView view = look_down_z();
     const auto count = [&](double a, double b, double c) {
         return project_triangle(view, {glm::dvec3(-1.0, 0.0, a), glm::dvec3(1.0, 0.0, b), glm::dvec3(0.0, 1.0, c)})
@@ -66,6 +66,23 @@ TEST(PicturePolygon, TheNearPlaneCutsTriangles) {
     const PicturePolygon whole =
         project_triangle(view, {glm::dvec3(-1.0, 0.0, -2.0), glm::dvec3(1.0, 0.0, -2.0), glm::dvec3(0.0, 1.0, -2.0)});
     EXPECT_NEAR(area_of(whole), std::pow(view.pixels_per_unit / 2.0, 2.0), 1e-9);
+}
+
+TEST(PicturePolygon, TrianglesNearerThanTheNearPlaneAreWhole) {
+    // Rays start at the camera: they meet what is nearer, too.
+    for (const bool orthographic : {false, true}) {
+        CameraView view = look_down_z();
+        view.orthographic = orthographic;
+        const std::array corners{glm::dvec3(-0.1, 0.0, -0.3), glm::dvec3(0.1, 0.0, -0.3), glm::dvec3(0.0, 1.0, -2.0)};
+        const auto measure = [&](double near_plane) {
+            view.near_plane = near_plane;
+            return area_of(project_triangle(view, corners));
+        };
+        const double height = view.pixels_per_unit * (orthographic ? 1.0 : 0.5);
+        const double base = view.pixels_per_unit * 0.2 / (orthographic ? 1.0 : 0.3);
+        for (const double near_plane : {1e-4, 0.25, 0.5, 5.0})
+            EXPECT_NEAR(measure(near_plane), 0.5 * base * height, 1e-9) << near_plane << orthographic;
+    }
 }
 
 }  // namespace
