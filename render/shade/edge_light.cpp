@@ -18,7 +18,6 @@ constexpr int packet = 16;
 constexpr int rays_of_a_sample = 16;
 constexpr int first_lamp_rays = 64, first_sky_rays = 256;  // of a pixel's first set
 constexpr double covered_square = 0.9999;                  // share of a filter's square that is as good as all of it
-constexpr std::size_t most_open_triangles = 64;            // of a pixel, while the shutter is open
 constexpr int parts_of_a_set = 8;                          // which tell its error
 constexpr double share_of_energy = 0.5;                    // of the error that pixels may have
 constexpr double variance_of_half = 2.0;                   // of half as many rays, over that of all
@@ -232,10 +231,8 @@ EdgeLights::EdgeLights(BrightEdges found, std::vector<EdgeLight> light)
 }
 
 EdgeLights find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
-                           BrightEdges edges, bool is_open, std::uint64_t& rays_cast) {
+                           BrightEdges edges, std::uint64_t& rays_cast) {
     std::vector<EdgeLight> found = list_edges(edges, plan.part);
-    if (is_open)
-        std::erase_if(found, [](const EdgeLight& light) { return light.last - light.first > most_open_triangles; });
     EdgeLimits limits{plan, {}};
     if (!plan.tolerance.empty() && !found.empty()) {
         limits.density = Image<float>(edges.sky.width, edges.sky.height);

@@ -40,9 +40,8 @@ struct EdgeLights {
 /// may have, or where they tell white.
 /// @param place  of the first sample
 /// @param plan   for tolerances and white. With no tolerances there is one set, of 16 rays for each sample
-/// @param is_open  the shutter is: pixels with many triangles, which each sample would place, are left to their samples
 EdgeLights find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,
-                           BrightEdges edges, bool is_open, std::uint64_t& rays_cast);
+                           BrightEdges edges, std::uint64_t& rays_cast);
 
 /// The mean of 16 rays, those of the sample's number. While the shutter is open, what it is more at the sample's time
 /// than at the shutter's centre is added to the centre's light: nothing where all that they meet is at rest.

@@ -100,7 +100,7 @@ class FrameShading {
             edges_ = {std::move(edges), std::move(edges_.pixels)};
             return;
         }
-        edges_ = find_edge_light(center(), place_, plan_, std::move(edges), options_.at_sample != nullptr, rays);
+        edges_ = find_edge_light(center(), place_, plan_, std::move(edges), rays);
         out_.counts.rays.primary += rays;
         for (const EdgeLight& light : edges_.pixels) pixels_(light.x, light.y).set_seen_variance(light.variance);
     }

@@ -178,15 +178,14 @@ Image<std::uint8_t> mark_edges(const BrightEdges& edges) {
 }
 
 /// What the pixels at the outline of a lamp show by themselves.
-std::vector<EdgeLight> find_light(const Stage& stage, float tolerance, int most, std::uint32_t seed,
-                                  bool is_open = false) {
+std::vector<EdgeLight> find_light(const Stage& stage, float tolerance, int most, std::uint32_t seed) {
     std::uint64_t rays = 0;
     SamplingPlan plan;
     plan.most = most;
     plan.white = 1.0;
     if (tolerance > 0.0f) plan.tolerance = Image<float>(edges_width, edges_height, tolerance);
     const SamplePlace place{.centered = false, .filter = PixelFilter::blackman_harris, .seed = seed};
-    return find_edge_light({stage.lighting(), stage.view}, place, plan, find_edges(stage), is_open, rays).pixels;
+    return find_edge_light({stage.lighting(), stage.view}, place, plan, find_edges(stage), rays).pixels;
 }
 
 TEST(BrightEdges, TakeAsManyRaysAsTheirErrorAsksFor) {
@@ -234,20 +233,6 @@ TEST(BrightEdges, AreNotDarkerWhereFewRaysMeetALamp) {
     for (std::uint32_t seed = 0; seed < seeds; ++seed)
         for (const EdgeLight& light : find_light(stage, 0.1f, 64, seed)) sum += double{light.mean.x} / seeds;
     EXPECT_NEAR(sum / expected, 1.0, 0.005);
-}
-
-TEST(BrightEdges, ManyTrianglesAreNotPlacedForEachSampleOfAnOpenShutter) {
-    Scene scene;
-    scene.environment.radiance.reset();
-    Shape ball{.kind = Shape::Kind::sphere, .radius = 0.3 / pixels_per_meter()};
-    ball.segments = 32;
-    add_mesh(scene, make_shape_mesh(ball, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(300.0))));
-    add_camera(scene, {0.0, 0.0, quad_distance}, glm::dvec3(0.0), quad_fov);
-    const Stage stage(scene, edges_width, edges_height);
-    EXPECT_FALSE(find_light(stage, 1.0f, 64, 0).empty());
-    EXPECT_TRUE(find_light(stage, 1.0f, 64, 0, true).empty());
-    const Stage quad(make_quad_before(glm::dvec3(300.0), glm::dvec3(0.0)), edges_width, edges_height);
-    EXPECT_FALSE(find_light(quad, 1.0f, 64, 0, true).empty());
 }
 
 TEST(BrightEdges, LeaveTheSamplesOfPixelsAroundAsFewAsWithoutALamp) {
