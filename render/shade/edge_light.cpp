@@ -19,7 +19,7 @@ constexpr int rays_of_a_sample = 16;
 constexpr int first_lamp_rays = 64, first_sky_rays = 256;  // of a pixel's first set
 constexpr double covered_square = 0.9999;                  // share of a filter's square that is as good as all of it
 constexpr int parts_of_a_set = 8;                          // which tell its error
-constexpr double share_of_energy = 0.5;                    // of the error that pixels may have
+constexpr double share_of_energy = 0.25;                   // of the error that pixels may have
 constexpr double variance_of_half = 2.0;                   // of half as many rays, over that of all
 constexpr std::uint32_t edge_key_mask = 0x65646765u;       // apart from the samples' own places
 

@@ -207,7 +207,7 @@ TEST(BrightEdges, TakeAsManyRaysAsTheirErrorAsksFor) {
         EXPECT_LT(squares, 1.2 * told) << tolerance;
         EXPECT_GT(squares, 0.1 * told) << tolerance;
         const double pixels = 4.0 * edges_width * edges_height;
-        EXPECT_LT(told, 0.5 * pixels * std::pow(double{tolerance} / error_deviations, 2.0)) << "energy";
+        EXPECT_LT(told, 0.25 * pixels * std::pow(double{tolerance} / error_deviations, 2.0)) << "energy";
     }
 }
 
