@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <random>
 #include <system_error>
@@ -70,13 +69,7 @@ void create_folder_of(const fs::path& path) {
 void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& named) {
     FileDescriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (fd.get() < 0) fail(named, "cannot create a file in this folder", errno);
-    for (std::size_t done = 0; done < bytes.size();) {
-        const std::size_t piece = std::min<std::size_t>(bytes.size() - done, std::size_t{1} << 26);
-        const ssize_t written = ::write(fd.get(), bytes.data() + done, piece);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail(named, "cannot write", errno);
-        done += static_cast<std::size_t>(written);
-    }
+    if (!fd.write(bytes)) fail(named, "cannot write", errno);
     if (!fd.close()) fail(named, "cannot close", errno);
     std::error_code error;
     const auto size = fs::file_size(file, error);

@@ -56,34 +56,6 @@ void print_error(const FrameStatistics& frame) {
                              causes);
 }
 
-constexpr std::size_t most_lines = 4;
-
-/// Frames that copy one other frame, in a row.
-struct CopiedRun {
-    std::int64_t of = 0, first = 0, last = 0;
-    std::size_t count = 0;
-};
-
-std::vector<CopiedRun> list_runs(const std::vector<FinishedFrame>& frames) {
-    std::vector<CopiedRun> runs;
-    for (const FinishedFrame& f : frames) {
-        if (!f.copy_of) continue;
-        if (runs.empty() || runs.back().of != *f.copy_of) runs.push_back({*f.copy_of, f.frame, f.frame, 0});
-        CopiedRun& run = runs.back();
-        run.first = std::min(run.first, f.frame);
-        run.last = std::max(run.last, f.frame);
-        ++run.count;
-    }
-    return runs;
-}
-
-std::string describe(const CopiedRun& run) {
-    if (run.count == 1) {
-        return fmt::format("aleph: frame {} is a copy of frame {}: nothing changes\n", run.first, run.of);
-    }
-    return fmt::format("aleph: frames {}-{} are copies of frame {}: nothing changes\n", run.first, run.last, run.of);
-}
-
 class FrameWriter {
   public:
     FrameWriter(const FrameJob& job, const SceneOptions& options, const FrameRequest& request, RenderSignals& signals)
@@ -172,9 +144,12 @@ class FrameWriter {
             waited = 0.0;
             return true;
         };
+        const auto warn_once = [warned = false](const OutputError& e) mutable {  // the frame itself goes on
+            if (!std::exchange(warned, true)) std::cerr << "aleph: warning: " << e.what() << "\n";
+        };
         if (options_.checkpoint > 0.0 || options_.time_limit > 0.0 ||
             (options_.resume && std::filesystem::exists(checkpoint_file(file))))
-            checkpoint.emplace(checkpoint_file(file), fingerprint, is_due);
+            checkpoint.emplace(checkpoint_file(file), fingerprint, is_due, warn_once);
         bool wants_picture = false;
         FrameRequest watched = request_;
         watched.progress = [&](double fraction, const char* stage) {
@@ -197,9 +172,26 @@ class FrameWriter {
             }
         };
         stop_if_asked();
-        FrameOutput output = job_.make(frame, watched);
-        if (job_.keep_light) job_.keep_light();
-        statistics_.note(output.statistics, fingerprint);
+        finish(place, job_.make(frame, watched));
+    }
+
+    /// Writes the frame after its light and statistics, which no later run makes once the frame is there. The frame is
+    /// written where they cannot be.
+    /// @throws OutputError
+    void finish(std::size_t place, FrameOutput output) {
+        const int frame = output_.frames[place];
+        const std::filesystem::path file = output_.file(frame);
+        const std::string fingerprint = output_.fingerprint(frame);
+        std::exception_ptr lost;
+        const auto keep = [&](const auto& write) {
+            try {
+                write();
+            } catch (const OutputError&) {
+                lost = std::current_exception();
+            }
+        };
+        if (job_.keep_light) keep(job_.keep_light);
+        keep([&] { statistics_.note(output.statistics, fingerprint); });
         write_frame(file, job_, output, request_.maps, options_.importance, fingerprint);
         remove_unfinished(file);
         if (options_.watch != nullptr && options_.film.empty()) options_.watch->show(file);
@@ -210,6 +202,7 @@ class FrameWriter {
         made_.push_back({frame, output.statistics.copy_of});
         if (is_black(output.shaded.color)) ++black_;
         if (!options_.quiet && job_.settings.error > 0.0) print_error(output.statistics);
+        if (lost) std::rethrow_exception(lost);
     }
 
     void stop_if_asked() const {
@@ -273,16 +266,6 @@ class FrameWriter {
 };
 
 }  // namespace
-
-std::string describe_copies(const std::vector<FinishedFrame>& frames) {
-    const std::vector<CopiedRun> runs = list_runs(frames);
-    std::string text;
-    std::size_t left = 0;
-    for (const CopiedRun& run : runs | std::views::take(most_lines)) text += describe(run);
-    for (const CopiedRun& run : runs | std::views::drop(most_lines)) left += run.count;
-    if (left > 0) text += fmt::format("aleph: {} more frames are copies of others\n", left);
-    return text;
-}
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
     RenderSignals signals;

@@ -25,7 +25,7 @@ struct FrameJob {
     /// Checks the frames once they are written. @param estimated  share of the pixels that are beyond, where it is
     /// known
     std::function<VerifiedStatistics(std::optional<double> estimated)> verify = {};
-    std::function<void()> keep_light = {};  ///< called before a frame's file is written
+    std::function<void()> keep_light = {};  ///< called before a frame's file is written, whatever it throws
     const char* title = nullptr;            ///< of the progress; null: the picture's or that of maps
 };
 

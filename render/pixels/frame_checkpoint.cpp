@@ -28,8 +28,12 @@ std::optional<std::string_view> unseal(std::string_view magic, std::string_view 
     return text.substr(magic.size());
 }
 
-FrameCheckpoint::FrameCheckpoint(std::filesystem::path file, std::string identity, std::function<bool()> is_due)
-    : file_(std::move(file)), identity_(std::move(identity)), is_due_(std::move(is_due)) {
+FrameCheckpoint::FrameCheckpoint(std::filesystem::path file, std::string identity, std::function<bool()> is_due,
+                                 std::function<void(const OutputError&)> on_error)
+    : file_(std::move(file)),
+      identity_(std::move(identity)),
+      is_due_(std::move(is_due)),
+      on_error_(std::move(on_error)) {
     std::error_code error;
     if (!std::filesystem::exists(file_, error)) return;
     const Bytes bytes = read_regular_file(file_, file_.string(), "");
@@ -69,7 +73,12 @@ void FrameCheckpoint::offer(const std::function<std::string()>& find_samples) {
     }
     out.add_text(find_light_ ? find_light_() : std::string());
     out.add_text(find_samples ? find_samples() : std::string());
-    write_file(file_, seal(magic, out.take()));
+    try {
+        write_file(file_, seal(magic, out.take()));
+    } catch (const OutputError& e) {
+        if (!on_error_) throw;
+        on_error_(e);
+    }
 }
 
 }  // namespace aleph

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/base/color.h"
+#include "engine/base/errors.h"
 #include "engine/base/image.h"
 
 namespace aleph {
@@ -87,7 +88,9 @@ class FrameCheckpoint {
   public:
     /// Reads the state that an earlier process left, if the file is whole and of this identity; any other is ignored.
     /// @param is_due    asked between pieces of work: the state is to be written now
-    FrameCheckpoint(std::filesystem::path file, std::string identity, std::function<bool()> is_due);
+    /// @param on_error  told that it could not be written, and the frame goes on; empty: `offer` throws
+    FrameCheckpoint(std::filesystem::path file, std::string identity, std::function<bool()> is_due,
+                    std::function<void(const OutputError&)> on_error = {});
 
     /// Results of some gathers. Gathers of one round do not see what the others found: that is kept apart until the
     /// round has ended, and is then part of the light that gathers share.
@@ -119,6 +122,7 @@ class FrameCheckpoint {
     const std::filesystem::path file_;
     const std::string identity_;
     const std::function<bool()> is_due_;
+    const std::function<void(const OutputError&)> on_error_;
     std::vector<Gathers> gathers_;
     std::size_t next_ = 0;   ///< of gathers_
     std::size_t round_ = 0;  ///< the first of the present round

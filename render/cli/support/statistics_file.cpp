@@ -78,7 +78,7 @@ StatisticsFile::Row StatisticsFile::append(const std::string& row) {
     if (rows_.get() < 0) rows_ = FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
     // The row before may have been cut, by a process that was killed.
     const std::string line = "\n" + Json::parse(row).dump();
-    if (rows_.get() < 0 || ::write(rows_.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
+    if (rows_.get() < 0 || !rows_.write(line)) {
         throw OutputError(printable(path.string(), 4096),
                           fmt::format("cannot write: {}", std::generic_category().message(errno)));
     }

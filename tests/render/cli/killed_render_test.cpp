@@ -1,5 +1,7 @@
 // A render that is stopped or killed: finished frames stay whole, and --resume makes the others.
 
+#include <sys/resource.h>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/image/image_file.h"
@@ -275,6 +277,26 @@ TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
     std::ofstream(state, std::ios::binary) << first;  // killed between the frame's file and the end
     EXPECT_EQ(run(resumed).code, 0);
     expect_whole();
+}
+
+/// Files of at most so many bytes can be written: a full disk without a disk. That of the frame is smaller.
+TEST_F(KilledRender, OU05_TheFrameIsKeptWhereWhatIsBesideItCannotBeWritten) {
+    const Words lit{"--cache", folder_ / "light", "--light-step", "3", "--accuracy", ".2"};
+    const Words stats{"--stats", folder_ / "out.json"}, checkpoint{"--checkpoint", "1e-6", "--spp", "4"};
+    for (const auto& [beside, code] : {std::pair(lit, 1), {stats, 1}, {checkpoint, 0}}) {
+        SCOPED_TRACE(beside.front());
+        ASSERT_EQ(run(words("1", folder_ / "whole/f.png", beside)).code, 0);
+        fs::remove(folder_ / "light");
+        fs::remove(folder_ / "out.json");
+        const rlim_t most = fs::file_size(folder_ / "whole/f.png") + 200;
+        StartedProgram program(words("1-3", folder_ / "out/f.#.png", beside), folder_ / "log", [most] {
+            const rlimit limit{most, most};
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+        });
+        const Ended ended = program.wait();
+        expect_answer(ended, code, "cannot write: File too large\n");
+        EXPECT_TRUE(read_bytes(folder_ / "out/f.1.png") == read_bytes(folder_ / "whole/f.png"));
+    }
 }
 
 TEST_F(KilledRender, APictureOfSomebodyElseIsKept) {
