@@ -187,7 +187,14 @@ int write_job(const FarmOptions& options, const std::string& scheduler) {
     const std::vector<std::string> parts = prepare_job(options, job);
     refuse_line_breaks(job);
     try_output(job.folder / "job.json");
-    if (fs::exists(job.folder / "job.json")) job.rounds = read_farm_job(job.folder).rounds;
+    if (fs::exists(job.folder / "job.json")) {
+        const FarmJob there = read_farm_job(job.folder);
+        if (!makes_the_same(there, job))
+            throw OutputError(printable(job.folder.string(), 4096),
+                              "this is the folder of another job, which is collated from it; choose another --output, "
+                              "or remove it if that job is finished");
+        job.rounds = there.rounds;
+    }
     const fs::path submit = write_farm_scripts(job, parts, this_program());
     std::cout << fmt::format("{} tasks; {}\n", parts.size(), quote_words({"bash", submit.string()}));
     return options.submit ? run_words({"bash", submit.string()}) : static_cast<int>(exit_done);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
@@ -84,6 +85,13 @@ void write_farm_job(const FarmJob& job) {
     } catch (const Json::type_error&) {
         throw InputError(printable(job.folder.string(), 400), "", "a name or a path is not UTF-8");
     }
+}
+
+bool makes_the_same(const FarmJob& a, const FarmJob& b) {
+    const auto work = [](const FarmJob& job) {
+        return std::tie(job.command, job.arguments, job.frames, job.output, job.stats, job.working);
+    };
+    return work(a) == work(b);
 }
 
 FarmJob read_farm_job(const fs::path& folder) {

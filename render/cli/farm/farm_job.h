@@ -52,6 +52,9 @@ std::vector<std::string> divide_frames(const std::vector<int>& frames, int tasks
 /// @throws OutputError
 void write_farm_job(const FarmJob& job);
 
+/// Returns whether two jobs have the same results, whatever their tasks and scheduler: one may be a round of the other.
+bool makes_the_same(const FarmJob& a, const FarmJob& b);
+
 /// Reads the job of a folder of results, or of the folder `farm` in it.
 /// @throws InputError
 FarmJob read_farm_job(const std::filesystem::path& folder);

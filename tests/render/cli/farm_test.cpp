@@ -153,6 +153,19 @@ TEST_F(FarmTest, MapsAndStudiesAreDividedToo) {
     EXPECT_TRUE(fs::exists(study / "farm/submit.2.sh"));
 }
 
+TEST_F(FarmTest, AnotherJobDoesNotTakeTheFolder) {
+    const auto job = [&](const Words& more) {
+        return run(joined(with({"farm", "parallel"}, {"-o", out_ / "", "--stats", folder_ / "stats.json"}), more));
+    };
+    ASSERT_EQ(job({"--tasks", "2"}).code, 0);
+    ASSERT_EQ(job({"--tasks", "3", "--jobs", "2"}).code, 0) << "another round of the same";
+    const std::string first = read_bytes(out_ / "farm/job.json");
+    for (const Words& other : {Words{"--frames", "11-12"}, {"--spp", "2"}, {"--stats", folder_ / "other.json"}})
+        expect_answer(job(joined(other, {"--tasks", "2"})), 1, "this is the folder of another job");
+    EXPECT_EQ(read_bytes(out_ / "farm/job.json"), first);
+    EXPECT_FALSE(fs::exists(out_ / "farm/task.3.sh"));
+}
+
 TEST_F(FarmTest, SlurmWritesLogsInFoldersOfAnyName) {
     ASSERT_EQ(run(with({"farm", "slurm"}, {"-o", out_ / "50%a/", "--tasks", "2"})).code, 0);
     EXPECT_THAT(read_bytes(out_ / "50%a/farm/task.1.sh"), HasSubstr("/50%%a/farm/task.1-%a.log"));
