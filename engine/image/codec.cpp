@@ -57,6 +57,11 @@ Interleaved<T> decode_with_library(ByteView bytes, ImageFormat format, const std
     const PixelType type = std::is_same_v<T, float> ? PixelType::floats : PixelType::bytes;
     const std::string fault = image_library().decode(bytes, plugin, type, place);
     if (!fault.empty()) throw InputError(name, "", printable(fault, 400));
+    if (format == ImageFormat::hdr) {
+        const std::array<double, 3> factors = read_hdr_factors(bytes);
+        for (std::size_t i = 0; i < pixels.values.size(); ++i)
+            pixels.values[i] = static_cast<T>(pixels.values[i] / factors[i % 3]);
+    }
     return pixels;
 }
 

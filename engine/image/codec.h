@@ -2,6 +2,7 @@
 // Encoders and decoders of image files, from and to bytes in memory. Files are written by engine/base/atomic_file.h,
 // since the libraries lose write errors; files and embedded textures pass the same checks.
 
+#include <array>
 #include <cstdint>
 #include <glm/gtc/type_precision.hpp>
 #include <optional>
@@ -32,6 +33,11 @@ std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name);
 /// @throws InputError if the resolution line of an HDR file has its pixels in another order than from the top left, row
 /// by row: OpenImageIO reads them as if they were
 void check_hdr_order(ByteView bytes, const std::string& name);
+
+/// The factors that the radiances of an HDR file were multiplied by, of red, green and blue: the product of all lines
+/// EXPOSURE= and COLORCORR= of its header (Ward, Radiance File Formats). Lines of anything but numbers above 0 tell
+/// nothing: some programs write EXPOSURE=0.
+std::array<double, 3> read_hdr_factors(ByteView bytes);
 
 /// Reads each attribute of an EXR file's header alone: it has to lie within the file, and to end where its size says.
 /// Imf::InputFile takes the memory that an attribute names before it reads it, and goes on where a value ends, whatever

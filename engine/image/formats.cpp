@@ -8,6 +8,8 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <string_view>
@@ -175,6 +177,28 @@ void check_hdr_order(ByteView bytes, const std::string& name) {
     throw InputError(name, "",
                      fmt::format("its pixels are in the order \"{}\"; rows from the top left (-Y, +X) can be read",
                                  printable(std::string(line), 40)));
+}
+
+std::array<double, 3> read_hdr_factors(ByteView bytes) {
+    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    text = text.substr(0, text.find("\n\n"));
+    std::array<double, 3> factors{1.0, 1.0, 1.0};
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(text.size(), line.size() + 1));
+        const bool is_exposure = line.starts_with("EXPOSURE=");
+        if (!is_exposure && !line.starts_with("COLORCORR=")) continue;
+        std::array<double, 3> found{};
+        const char *at = line.data() + line.find('=') + 1, *const end = line.data() + line.size();
+        for (double& number : found) {
+            at = std::find_if(at, end, [](char c) { return c != ' ' && c != '\t'; });
+            at = std::from_chars(at, end, number).ptr;
+        }
+        if (is_exposure) found[1] = found[2] = found[0];
+        if (!std::ranges::all_of(found, [](double f) { return f > 0.0 && std::isfinite(f); })) continue;
+        for (std::size_t c = 0; c < 3; ++c) factors[c] *= found[c];
+    }
+    return factors;
 }
 
 void check_exr_header(ByteView bytes, const std::string& name) {

@@ -197,6 +197,23 @@ TEST(ImageIo, ReadsRadianceHdr) {
     EXPECT_EQ((*image.find("R"))(1, 0), 0.0f);
 }
 
+/// All factors together have been applied; a radiance is the value without them.
+TEST(ImageIo, ValuesOfAnHdrAreWithoutItsExposure) {
+    const auto decode = [](const std::string& lines) {
+        const std::string text = "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x82";
+        const glm::vec4 pixel = decode_texture({text.begin(), text.end()}, "a.hdr").floats(0, 0);
+        EXPECT_EQ(pixel.w, 1.0f);
+        return Rgb(pixel);
+    };
+    const Rgb given = decode("");
+    EXPECT_EQ(decode("EXPOSURE=4\n"), given / 4.0f);
+    EXPECT_EQ(decode("EXPOSURE= 4.0e0\nVIEW= -vp 1 2 3\nEXPOSURE=\t.5\n"), given / 2.0f);
+    EXPECT_EQ(decode("COLORCORR= 2 4 .5\nEXPOSURE=2\n"), given / Rgb(4.0f, 8.0f, 1.0f));
+    for (const char* nothing : {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=nan\n", "EXPOSURE=inf\n", "EXPOSURE=\n",
+                                "\tEXPOSURE=4\n", "COLORCORR=2 2\n", "# EXPOSURE=4\n"})
+        EXPECT_EQ(decode(nothing), given) << nothing;
+}
+
 TEST(ImageIo, OtherOrdersOfHdrAreRefused) {
     const auto decode = [](const std::string& resolution) {
         const std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n" + std::string(8, '\x80');
