@@ -106,7 +106,7 @@ PreparedImages prepare_images(const MapsOptions& options) {
     if (!(*shot.film.exposure > 0.0 && *shot.film.exposure <= 1e18)) {
         throw InputError("", "--exposure", "expected a number above 0, at most 1e+18");
     }
-    apply_settings(prepared.settings, given, "");
+    apply_given(prepared.settings, given);
     MotionSource& source = prepared.settings.guide.motion;
     source = source_for_pictures(source);
     if (!first.channels.empty()) {

@@ -232,12 +232,20 @@ int find_threads(int given) {
     return std::clamp(cpus, 0, max_threads);
 }
 
+void apply_given(RenderSettings& settings, const SettingMap& given) {
+    try {
+        apply_settings(settings, given, "");
+    } catch (const InputError& e) {
+        throw InputError("", option_name(e.place()), e.reason());
+    }
+}
+
 RenderSettings join_settings(Scene& scene, SettingMap given, bool keeps_to_error) {
     RenderSettings settings;
     if (keeps_to_error) add_default_error(scene.source.settings, given);
     apply_settings(settings, scene.source.settings, scene.source.file);
     set_scene_numbers(scene, given, "--set");
-    apply_settings(settings, given, "");
+    apply_given(settings, given);
     return settings;
 }
 

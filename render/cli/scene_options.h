@@ -66,6 +66,10 @@ PictureArea parse_crop(const std::string& text, const PictureSettings& picture);
 /// Behind the name of files of maps, to keep them apart from the pictures in the same folder.
 inline constexpr const char* maps_suffix = "-maps";
 
+/// Applies settings of the command line.
+/// @throws InputError naming the option of a setting
+void apply_given(RenderSettings& settings, const SettingMap& given);
+
 /// The defaults, overwritten by the scene file's settings, overwritten by the command line's. Numbers of the scene
 /// among these are set there.
 /// @param keeps_to_error  as SceneOptions has it

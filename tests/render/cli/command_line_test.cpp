@@ -55,6 +55,10 @@ TEST(CommandLine, EverySettingHasAnOptionThatCounts) {
         EXPECT_NE(given, plain) << option;
         EXPECT_EQ(given, fingerprint(fmt::format("--set {}={}", key, value))) << option;
     }
+    const std::string scene = source_folder() / "scenes/cornell/scene.json";
+    for (const Words& wrong : {Words{"--error", "x"}, {"--set", "error=x"}})
+        expect_one_error_line(run_command({"explain", scene}, wrong), 2,
+                              "aleph: error: --error: expected a number from 0 to 1000; found \"x\"");
 }
 
 TEST(CommandLine, HelpVersionAndUsage) {
