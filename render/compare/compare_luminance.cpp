@@ -35,6 +35,22 @@ double variance_at(const Image<float>* variance, std::size_t i) {
     return v >= 0.0 ? v : std::numeric_limits<double>::infinity();
 }
 
+/// Luminance of what a display shows, white = 1.
+double shown_luminance(const Rgb& color) {
+    return luminance(glm::clamp(color, 0.0f, 1.0f));
+}
+
+/// The part of a pixel's variance that a display shows: the squared half of what one standard error more and less show,
+/// all of it below white.
+double shown_variance(const Rgb& color, double variance) {
+    const double y = luminance(color), step = std::sqrt(variance) / y;
+    const bool is_below = std::max({color.x, color.y, color.z}) * (1.0 + step) <= 1.0;
+    if (is_below || !(variance >= 0.0 && y > 0.0 && std::isfinite(step))) return variance;
+    const auto shown = [&](double factor) { return double{luminance(Rgb(glm::min(glm::dvec3(color) * factor, 1.0)))}; };
+    const double deviation = 0.5 * (shown(1.0 + step) - shown(1.0 - step));
+    return deviation * deviation;
+}
+
 }  // namespace
 
 std::optional<double> find_number(const ChannelImage& image, const std::string& key) {
@@ -80,12 +96,13 @@ LuminanceError compute_luminance_error(const ChannelImage& a, const ChannelImage
     const double white = result.display_white;
     result.error = map_pixels(
         [&](const Rgb& ca, const Rgb& cb) {
-            const double d = double{luminance(ca)} - double{luminance(cb)};
-            return std::isfinite(d) ? white * d : std::numeric_limits<double>::quiet_NaN();
+            return is_finite(ca) && is_finite(cb) ? white * (shown_luminance(ca) - shown_luminance(cb))
+                                                  : std::numeric_limits<double>::quiet_NaN();
         },
         colours.a, colours.b);
     if (const Image<float>* variance = b.find("variance.Y"))
-        result.variance = map_pixels([&](float v) { return white * white * double{v}; }, *variance);
+        result.variance = map_pixels(
+            [&](const Rgb& color, float v) { return white * white * shown_variance(color, v); }, colours.b, *variance);
     return result;
 }
 

@@ -16,12 +16,15 @@ function encodeTable() {
   return encoded;
 }
 
-/** The luminance of a three-channel layer relative to white, one value a pixel. */
+/** A linear component as a display shows it: from black to its white. */
+export const shownComponent = value => Math.min(1, Math.max(0, value));
+
+/** The luminance of a three-channel layer as a display shows it, relative to white, one value a pixel. */
 export function luminance(layer) {
   const count = layer.width * layer.height;
-  const { values } = layer;
   const [r, g, b] = luminanceWeights;
-  return Float32Array.from({ length: count }, (_, i) => r * values[i] + g * values[count + i] + b * values[2 * count + i]);
+  const shown = i => shownComponent(layer.values[i]);
+  return Float32Array.from({ length: count }, (_, i) => r * shown(i) + g * shown(count + i) + b * shown(2 * count + i));
 }
 
 /** A linear three-channel layer as sRGB. @param {object} layer @param {number} stops  exposure @returns {ImageData} */
