@@ -1,9 +1,6 @@
 // Colours of pictures and of maps.
 import { scheme } from 'vega';
 
-/** Luminance weights of linear Rec. 709. */
-export const luminanceWeights = [0.2126, 0.7152, 0.0722];
-
 const encodeSteps = 16384;
 let encoded; // sRGB bytes of linear values 0 to 1
 
@@ -14,17 +11,6 @@ function encodeTable() {
     return Math.round(255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055));
   });
   return encoded;
-}
-
-/** A linear component as a display shows it: from black to its white. */
-export const shownComponent = value => Math.min(1, Math.max(0, value));
-
-/** The luminance of a three-channel layer as a display shows it, relative to white, one value a pixel. */
-export function luminance(layer) {
-  const count = layer.width * layer.height;
-  const [r, g, b] = luminanceWeights;
-  const shown = i => shownComponent(layer.values[i]);
-  return Float32Array.from({ length: count }, (_, i) => r * shown(i) + g * shown(count + i) + b * shown(2 * count + i));
 }
 
 /** A linear three-channel layer as sRGB. @param {object} layer @param {number} stops  exposure @returns {ImageData} */

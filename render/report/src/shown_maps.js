@@ -1,5 +1,5 @@
 // The maps that can be shown: those stored in the report, and those computed from its pictures.
-import { luminance } from './color.js';
+import { luminance } from './luminance.js';
 import { readLayer, valueAt } from './layers.js';
 import { findLayer, sharedFrame, variantFrame } from './study.js';
 

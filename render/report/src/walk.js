@@ -2,7 +2,7 @@
 import { menu, refill } from './controls.js';
 import { byId, fill, make, makeTable } from './dom.js';
 import { number } from './format.js';
-import { luminanceWeights, shownComponent } from './color.js';
+import { colorLuminance } from './luminance.js';
 import { readLayer, valueAt } from './layers.js';
 import { reference } from './panes.js';
 import { findLayer, findVariant, sharedFrame, variantFrame } from './study.js';
@@ -48,8 +48,7 @@ function readerOf(study, id, frame, { x, y }) {
     map: name => at(findLayer(study, id, frame, name)),
     luminance: async layer => {
       if (!layer) return undefined;
-      const parts = await Promise.all([0, 1, 2].map(channel => at(layer, channel)));
-      return parts.reduce((sum, value, channel) => sum + luminanceWeights[channel] * shownComponent(value), 0);
+      return colorLuminance(await Promise.all([0, 1, 2].map(channel => at(layer, channel))));
     },
   };
 }

@@ -1,6 +1,7 @@
 // The pictures, and the values that the pixel walk shows of them.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
+import { luminance } from '../src/luminance.js';
 import { choose, click, clickPixel, readWalk, redraw, waitForPanes } from './browser.mjs';
 import { all, id, openPage, size, study } from './fixture.mjs';
 import { frames, storedValue } from './sample.mjs';
@@ -54,6 +55,14 @@ describe('pixel walk', () => {
     const [x, y] = [Math.floor(96 * place(0.25)), Math.floor(64 * place(0.75))];
     const shown = await readWalk(page, x, y, all[0], 20);
     assert.equal(shown['threshold.Y'], storedValue('threshold.Y', 20, 0.5, x, y, size));
+  });
+});
+
+describe('luminance', () => {
+  it('is that which a display shows', () => {
+    const values = [0.5, 2, 3, -1, 0.5, 2, 0.5, -1, 0.5, 2, 0.25, -1]; // grey, white, orange, black
+    const expected = [0.5, 1, 0.2126 + 0.5 * 0.7152 + 0.25 * 0.0722, 0];
+    luminance({ width: 4, height: 1, values }).forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 1e-6, `${i}: ${value}`));
   });
 });
 
