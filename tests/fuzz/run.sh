@@ -26,6 +26,7 @@ cp "$root"/scenes/hard/*.json "$root"/scenes/furnace/*.json "$seeds/scene_file/"
 cp "$root/scenes/cornell/scene.json" "$seeds/scene_file/cornell.json"
 cp "$root"/tests/assets/abc/*.abc "$seeds/alembic/"
 cp "$root"/scenes/pool/textures/b*.png "$root"/tests/golden/*.exr "$seeds/image/"
+printf '#?RADIANCE\nEXPOSURE=2\nCOLORCORR= 1 2 .5\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n%016d' 0 >"$seeds/image/small.hdr"
 assets=$root/../shared/assets
 if [ -d "$assets" ]; then
   find "$assets/gltf" \( -name '*.glb' -o -name '*.gltf' \) -size -200k -exec cp {} "$seeds/gltf/" \;
