@@ -35,9 +35,9 @@ double variance_at(const Image<float>* variance, std::size_t i) {
     return v >= 0.0 ? v : std::numeric_limits<double>::infinity();
 }
 
-/// Luminance of what a display shows, white = 1.
+/// Luminance of what a display shows, white = 1. Light below 0 is an error, whatever a display makes of it.
 double shown_luminance(const Rgb& color) {
-    return luminance(glm::clamp(color, 0.0f, 1.0f));
+    return luminance(glm::min(color, 1.0f));
 }
 
 /// The part of a pixel's variance that a display shows: the squared half of what one standard error more and less show,

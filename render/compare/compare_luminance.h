@@ -25,7 +25,7 @@ Image<Rgb> linear_colour(const ChannelImage& image);
 /// cd/m2 of Y = 1: `whiteLuminance` of b, else of a, else 100.
 double display_white_of(const ChannelImage& a, const ChannelImage& b);
 
-/// Luminance of a picture minus that of the reference, both as a display shows them: R, G and B from 0 to white.
+/// Luminance of a picture minus that of the reference, both as a display shows them: R, G and B up to white.
 struct LuminanceError {
     Image<double> error;           ///< Y_a - Y_b, cd/m2; NaN where either is not finite
     Image<double> variance;        ///< of Y_b as it is shown, (cd/m2)^2; empty if b has no `variance.Y`

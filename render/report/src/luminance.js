@@ -3,14 +3,11 @@
 /** Luminance weights of linear Rec. 709. */
 const luminanceWeights = [0.2126, 0.7152, 0.0722];
 
-/** A linear component as a display shows it: from black to its white. */
-const shownComponent = value => Math.min(1, Math.max(0, value));
-
 /** The luminance of a three-channel layer as a display shows it, relative to white, one value a pixel. */
 export function luminance(layer) {
   const count = layer.width * layer.height;
   const [r, g, b] = luminanceWeights;
-  const shown = i => shownComponent(layer.values[i]);
+  const shown = i => Math.min(1, layer.values[i]);
   return Float32Array.from({ length: count }, (_, i) => r * shown(i) + g * shown(count + i) + b * shown(2 * count + i));
 }
 

@@ -60,9 +60,9 @@ describe('pixel walk', () => {
 
 describe('luminance', () => {
   it('is that which a display shows', () => {
-    const values = [0.5, 2, 3, -1, 0.5, 2, 0.5, -1, 0.5, 2, 0.25, -1]; // grey, white, orange, black
-    const expected = [0.5, 1, 0.2126 + 0.5 * 0.7152 + 0.25 * 0.0722, 0];
-    luminance({ width: 4, height: 1, values }).forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 1e-6, `${i}: ${value}`));
+    const values = [0.5, 2, 3, 0.5, 2, 0.5, 0.5, 2, 0.25]; // grey, white, orange
+    const expected = [0.5, 1, 0.2126 + 0.5 * 0.7152 + 0.25 * 0.0722];
+    luminance({ width: 3, height: 1, values }).forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 1e-6, `${i}: ${value}`));
   });
 });
 

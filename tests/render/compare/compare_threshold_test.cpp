@@ -79,12 +79,12 @@ TEST(CompareNoise, ByHand) {
     EXPECT_EQ(result.luminance->far, 1u);  // only .045 is beyond 3 * .01
 }
 
-/// By hand, white of 100 cd/m2: nothing is seen of what a display shows as its white, or as its black.
+/// By hand, white of 100 cd/m2: nothing is seen of what a display shows as its white.
 TEST(CompareThreshold, ErrorsAreOfWhatADisplayShows) {
     const std::vector<std::pair<Rgb, Rgb>> shown{{Rgb(1.5f), Rgb(3.0f)},                            // white
                                                  {Rgb(3.0f, 0.5f, 0.25f), Rgb(2.0f, 0.5f, 0.25f)},  // the same orange
-                                                 {Rgb(-0.5f), Rgb(0.0f)},                           // black
-                                                 {Rgb(0.9f), Rgb(3.0f)},                            // 10 cd/m2
+                                                 {Rgb(-0.5f), Rgb(0.0f)},  // light below 0 is an error
+                                                 {Rgb(0.9f), Rgb(3.0f)},   // 10 cd/m2
                                                  {Rgb(3.0f, 0.5f, 0.25f), Rgb(2.0f, 0.4f, 0.25f)},  // 7.152
                                                  {Rgb(float_infinity), Rgb(2.0f)},
                                                  {Rgb(float_nan), Rgb(2.0f)}};
@@ -97,9 +97,9 @@ TEST(CompareThreshold, ErrorsAreOfWhatADisplayShows) {
     }
     add_channel(b, "variance.Y", 1e-4f);
     const LuminanceError error = compute_luminance_error(a, b);
-    const std::vector<double> expected{0.0, 0.0, 0.0, -10.0, 7.152};
+    const std::vector<double> expected{0.0, 0.0, -50.0, -10.0, 7.152};
     for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(error.error.pixels[i], expected[i], 1e-5) << i;
-    EXPECT_EQ(measure_error(error, Image<float>(a.channels[0].values.width, 1, 1.0f)).beyond, 4u);
+    EXPECT_EQ(measure_error(error, Image<float>(a.channels[0].values.width, 1, 1.0f)).beyond, 5u);
     EXPECT_EQ(error.variance.pixels[0], 0.0) << "noise of white";
     EXPECT_DOUBLE_EQ(error.variance.pixels[2], 1e4 * 1e-4f) << "all of it";
 }
