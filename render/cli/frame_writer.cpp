@@ -46,14 +46,14 @@ void print_error(const FrameStatistics& frame) {
     if (!frame.error) return;
     const ErrorShares& shares = *frame.error;
     std::string causes;
-    for (std::size_t i = 0; i < cause_count; ++i) {
-        if (shares.by_cause[i] < 1e-5) continue;
+    for (std::size_t i = 0; i < cause_count && shares.beyond > most_beyond; ++i) {
+        if (shares.by_cause[i] < 0.1 * most_beyond) continue;
         causes += fmt::format("{}{} {} %", causes.empty() ? "; alone: " : ", ", cause_names()[i],
                               format_percent(shares.by_cause[i]));
     }
-    std::cerr << fmt::format("aleph: frame {}: about {} % of the pixels err by more than {:g} visible threshold{}{}\n",
-                             frame.frame, format_percent(shares.beyond), shares.asked, shares.asked == 1.0 ? "" : "s",
-                             causes);
+    std::cerr << fmt::format("aleph: frame {}: {} of the pixels err by more than {:g} visible threshold{}{}\n",
+                             frame.frame, describe_estimate(shares.beyond), shares.asked,
+                             shares.asked == 1.0 ? "" : "s", causes);
 }
 
 class FrameWriter {
@@ -266,6 +266,11 @@ class FrameWriter {
 };
 
 }  // namespace
+
+std::string describe_estimate(double share) {
+    return share > most_beyond ? fmt::format("about {} %", format_percent(share))
+                               : fmt::format("about {:g} % or less", 100.0 * most_beyond);
+}
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
     RenderSignals signals;

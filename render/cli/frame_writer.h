@@ -32,6 +32,10 @@ struct FrameJob {
 /// Share of the pixels that may err by more than was asked for where `--error` is kept (`--strict`).
 inline constexpr double most_beyond = 0.01;
 
+/// An estimated share of the pixels, in words: "about 3.2 %", or "about 1 % or less". Estimates below most_beyond say
+/// no more than that: rare bright samples and the error of cached light are hardly in them.
+std::string describe_estimate(double share);
+
 struct FinishedFrame {
     std::int64_t frame = 0;
     std::optional<std::int64_t> copy_of;

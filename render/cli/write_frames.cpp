@@ -150,7 +150,7 @@ std::string describe_verified(const VerifiedStatistics& verified) {
                                    format_percent(verified.beyond.share), differ, format_percent(verified.beyond.low),
                                    format_percent(verified.beyond.high), count_text(verified.blocks, "block"),
                                    count_text(verified.frames, "frame"));
-    if (verified.estimated) text += fmt::format(", estimated: {} %", format_percent(*verified.estimated));
+    if (verified.estimated) text += fmt::format(", estimated: {}", describe_estimate(*verified.estimated));
     text += "\naleph: verified: ";
     if (verified.error != 1.0)
         text += fmt::format("{} % are seen to differ (95 %: {} to {} %), ", format_percent(verified.seen.share),
