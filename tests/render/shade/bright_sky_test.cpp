@@ -58,7 +58,7 @@ struct Sun {
 /// The sum of all pixels, in the mean over seeds.
 double find_sum_of_samples(const Stage& stage, PixelFilter filter) {
     RenderSettings settings = plain_settings(0.0, 1);
-    settings.sampling.spp = 4;
+    settings.sampling.spp = 64;
     settings.picture.filter = filter;
     constexpr int seeds = 16;
     double sum = 0.0;
