@@ -6,24 +6,25 @@
 
 #include "engine/base/pixel_loops.h"
 #include "engine/rays/first_hits.h"
+#include "render/shade/bright_sky.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr double bright = 0.5;      // of white
 constexpr int reach = 2;            // pixels, of filters
 constexpr double covered = 0.9999;  // share of a filter's square that lamps cover where no outline is
 
-enum Seen : std::uint8_t { seen_nothing, seen_lamp, seen_sky };
+enum Seen : std::uint8_t { seen_surface, seen_lamp, seen_sky, seen_bright_sky };
 
 /// @param direction  of the ray that met it
 Seen find_seen(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction, double exposure) {
     if (hit.instance == no_index)
-        return luminance(environment_radiance(shading, direction)) * exposure >= bright ? seen_sky : seen_nothing;
+        return luminance(environment_radiance(shading, direction)) * exposure >= least_bright ? seen_bright_sky
+                                                                                              : seen_sky;
     const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
-    const bool is_bright = material.emits && luminance(material.values.emission) * exposure >= bright;
-    return is_bright ? seen_lamp : seen_nothing;
+    const bool is_bright = material.emits && luminance(material.values.emission) * exposure >= least_bright;
+    return is_bright ? seen_lamp : seen_surface;
 }
 
 /// Tells what the centres of all pixels show, and of those within reach around the picture.
@@ -54,14 +55,15 @@ Image<std::uint8_t> look_at_centers(const LightingContext& context, const Camera
 
 enum Share : std::uint8_t { share_none, share_some, share_all };
 
-/// Share of the centres around each pixel that show something.
-Image<std::uint8_t> find_shares(const Image<std::uint8_t>& seen, Seen what) {
+/// Share of the centres around each pixel that show what is asked for.
+template <class IsAsked>
+Image<std::uint8_t> find_shares(const Image<std::uint8_t>& seen, const IsAsked& is_asked) {
     Image<std::uint8_t> shares(seen.width - 2 * reach, seen.height - 2 * reach);
     parallel_pixels(shares, 16, [&](int x, int y) {
         bool any = false, all = true;
         visit_around(seen, x + reach, y + reach, reach, [&](int nx, int ny) {
-            any = any || seen(nx, ny) == what;
-            all = all && seen(nx, ny) == what;
+            any = any || is_asked(seen(nx, ny));
+            all = all && is_asked(seen(nx, ny));
         });
         shares(x, y) = all ? share_all : any ? share_some : share_none;
     });
@@ -71,7 +73,7 @@ Image<std::uint8_t> find_shares(const Image<std::uint8_t>& seen, Seen what) {
 /// Adds a triangle to the pixels in whose filters it lies, where lamps are not all that they show.
 /// @param areas  per pixel: pixels, of all its triangles
 void add_triangle(const PicturePolygon& polygon, PixelFilter filter, const Image<std::uint8_t>& lamp_shares,
-                  LampTriangle triangle, std::vector<LampTriangle>& out, Image<float>& areas) {
+                  BrightPiece triangle, std::vector<BrightPiece>& out, Image<float>& areas) {
     if (polygon.count < 3) return;
     glm::dvec2 low = polygon.corners[0], high = low;
     for (int i = 1; i < polygon.count; ++i) {
@@ -108,8 +110,10 @@ bool faces_camera(const CameraView& view, const ShadingScene& shading, const Emi
 
 }  // namespace
 
-PicturePolygon project_lamp(const CameraView& view, const ShadingScene& shading, const LampTriangle& triangle) {
-    const Emitter::Triangle placed = place_triangle(shading.instances[triangle.instance], triangle.primitive);
+PicturePolygon project_piece(const CameraView& view, const ShadingScene& shading, const BrightEdges& edges,
+                             const BrightPiece& piece) {
+    if (piece.instance == no_index) return project_cells(view, shading, *edges.cells, piece.primitive);
+    const Emitter::Triangle placed = place_triangle(shading.instances[piece.instance], piece.primitive);
     const glm::dvec3 corner = shading.anchor + glm::dvec3(placed.corner);
     return project_triangle(view, {corner, corner + glm::dvec3(placed.edge1), corner + glm::dvec3(placed.edge2)});
 }
@@ -118,24 +122,28 @@ BrightEdges find_bright_edges(const LightingContext& context, const CameraView& 
                               PixelFilter filter, double exposure, std::uint64_t& rays_cast) {
     const Image<std::uint8_t> seen = look_at_centers(context, view, centers, exposure, rays_cast);
     BrightEdges edges;
-    edges.sky = find_shares(seen, seen_sky);
-    for (std::uint8_t& share : edges.sky.pixels) share = share == share_some ? 1 : 0;
-    const Image<std::uint8_t> shares = find_shares(seen, seen_lamp);
+    edges.sky = find_shares(seen, [](std::uint8_t s) { return s == seen_bright_sky; });
+    const Image<std::uint8_t> around = find_shares(seen, [](std::uint8_t s) { return s < seen_sky; });
+    for (std::size_t i = 0; i < around.size(); ++i)
+        edges.sky.pixels[i] = edges.sky.pixels[i] != share_none && around.pixels[i] != share_none ? 1 : 0;
+    const Image<std::uint8_t> shares = find_shares(seen, [](std::uint8_t s) { return s == seen_lamp; });
     Image<float> areas(shares.width, shares.height);
     for (const Emitter& lamp : context.lights.emitters) {
-        if (luminance(lamp.brightest) * exposure < bright) continue;
+        if (luminance(lamp.brightest) * exposure < least_bright) continue;
         for (const Emitter::Triangle& triangle : lamp.triangles) {
             if (!lamp.double_sided && !faces_camera(view, context.shading, triangle)) continue;
-            const LampTriangle found{.instance = lamp.instance, .primitive = triangle.primitive};
-            add_triangle(project_lamp(view, context.shading, found), filter, shares, found, edges.lamps, areas);
+            const BrightPiece found{.instance = lamp.instance, .primitive = triangle.primitive};
+            add_triangle(project_piece(view, context.shading, edges, found), filter, shares, found, edges.pieces,
+                         areas);
         }
     }
     // What covers a filter and shows at no centre around is hidden.
     const double side = 2.0 * place_in_filter(filter, 1.0);
-    std::erase_if(edges.lamps, [&](const LampTriangle& triangle) {
+    std::erase_if(edges.pieces, [&](const BrightPiece& triangle) {
         return shares(triangle.x, triangle.y) == share_none && areas(triangle.x, triangle.y) >= covered * side * side;
     });
-    std::ranges::stable_sort(edges.lamps, {}, [](const LampTriangle& t) { return std::pair(t.y, t.x); });
+    add_bright_sky(context.shading, view, filter, exposure, edges);
+    std::ranges::stable_sort(edges.pieces, {}, [](const BrightPiece& t) { return std::pair(t.y, t.x); });
     return edges;
 }
 

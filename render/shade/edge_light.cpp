@@ -16,12 +16,12 @@ namespace {
 
 constexpr int packet = 16;
 constexpr int rays_of_a_sample = 16;
-constexpr int first_lamp_rays = 64, first_sky_rays = 256;  // of a pixel's first set
-constexpr double covered_square = 0.9999;                  // share of a filter's square that is as good as all of it
-constexpr int parts_of_a_set = 8;                          // which tell its error
-constexpr double share_of_energy = 0.25;                   // of the error that pixels may have
-constexpr double variance_of_half = 2.0;                   // of half as many rays, over that of all
-constexpr std::uint32_t edge_key_mask = 0x65646765u;       // apart from the samples' own places
+constexpr int first_piece_rays = 64, first_sky_rays = 256;  // of a pixel's first set
+constexpr double covered_square = 0.9999;                   // share of a filter's square that is as good as all of it
+constexpr int parts_of_a_set = 8;                           // which tell its error
+constexpr double share_of_energy = 0.25;                    // of the error that pixels may have
+constexpr double variance_of_half = 2.0;                    // of half as many rays, over that of all
+constexpr std::uint32_t edge_key_mask = 0x65646765u;        // apart from the samples' own places
 
 /// What pixels may err by.
 struct EdgeLimits {
@@ -29,21 +29,32 @@ struct EdgeLimits {
     Image<float> density;  ///< share of the pixels that are seen together that have a bright edge; empty: no limit
 };
 
-/// The part of a lamp's triangle that lies in a pixel's filter.
-struct LampPart {
-    LampTriangle triangle;
+/// The part of a piece that lies in a pixel's filter.
+struct PieceInFilter {
+    BrightPiece piece;
     PicturePolygon polygon;
     double weight = 0.0;   ///< about its share of the filter
     double end = 0.0;      ///< share of the rays up to and including it
     double density = 0.0;  ///< of its rays, per square pixel
 };
 
-bool is_hit(const Hit& hit, const LampTriangle& triangle) {
-    return hit.instance == triangle.instance && hit.primitive == triangle.primitive;
+/// Returns whether a ray met one of the pieces.
+bool meets(const ShadingScene& shading, const BrightEdges& edges, const Hit& hit, const glm::vec3& direction,
+           std::span<const BrightPiece> pieces) {
+    int primitive = hit.primitive;
+    if (hit.instance == no_index)
+        primitive = edges.cells ? edges.cells->find(direction * shading.environment.rotation) : no_index;
+    return std::ranges::any_of(
+        pieces, [&](const BrightPiece& p) { return p.instance == hit.instance && p.primitive == primitive; });
+}
+
+std::span<const BrightPiece> pieces_of(const BrightEdges& edges, const EdgeLight& edge) {
+    return std::span(edges.pieces).subspan(edge.first, edge.last - edge.first);
 }
 
 Rgb find_emission(const SampleScene& scene, RayTask& task, const SamplePlace& place, const Hit& hit,
                   const glm::vec3& direction, const glm::ivec2& pixel) {
+    if (hit.instance == no_index) return environment_radiance(scene.lighting.shading, direction);
     const PixelSurface surface = make_pixel_surface(scene.lighting.shading, scene.view, place, hit, direction, pixel);
     return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
 }
@@ -59,18 +70,18 @@ class EdgeRays {
           edges_(edges),
           light_(light),
           middle_(light.x + 0.5, light.y + 0.5) {
-        double sum = 0.0, end = 0.0;
         for (std::size_t i = light.first; i < light.last; ++i) {
-            const LampPart part = find_part(edges.lamps[i]);
-            if (!(part.weight > 0.0)) continue;
-            parts_.push_back(part);
-            sum += part.weight;
+            const PieceInFilter part = find_part(edges.pieces[i]);
+            if (part.weight > 0.0) parts_.push_back(part);
         }
+        weigh_sky();
+        double sum = 0.0, end = 0.0;
+        for (const PieceInFilter& part : parts_) sum += part.weight;
         const double side = 2.0 * place_in_filter(place_.filter, 1.0);
         double area = 0.0;
-        for (const LampPart& part : parts_) area += area_of(part.polygon);
+        for (const PieceInFilter& part : parts_) area += area_of(part.polygon);
         whole_ = area >= covered_square * side * side;
-        for (LampPart& part : parts_) {
+        for (PieceInFilter& part : parts_) {
             part.end = end += part.weight / sum;
             part.density = part.weight / sum / area_of(part.polygon);
         }
@@ -82,7 +93,7 @@ class EdgeRays {
         Rgb sum(0.0f);
         for (int begin = first; begin < last; begin += packet) {
             const int count = std::min(packet, last - begin);
-            if (!parts_.empty() && !whole_) sum += cast_to_lamps(begin, count);
+            if (!parts_.empty() && !whole_) sum += cast_to_pieces(begin, count);
             if (light_.sky || whole_) sum += cast_through_filter(begin, count);
         }
         place_.noise_key ^= edge_key_mask + set;
@@ -90,15 +101,26 @@ class EdgeRays {
     }
 
   private:
-    LampPart find_part(const LampTriangle& triangle) const {
+    PieceInFilter find_part(const BrightPiece& piece) const {
         const double radius = place_in_filter(place_.filter, 1.0);
-        const PicturePolygon whole = project_lamp(scene_.view, scene_.lighting.shading, triangle);
-        LampPart part{triangle, clip_to_rectangle(whole, middle_ - radius, middle_ + radius)};
+        const PicturePolygon whole = project_piece(scene_.view, scene_.lighting.shading, edges_, piece);
+        PieceInFilter part{piece, clip_to_rectangle(whole, middle_ - radius, middle_ + radius)};
         const PicturePolygon& polygon = part.polygon;
         for (int i = 0; i < polygon.count; ++i)
             part.weight += weigh(0.5 * (polygon.corners[i] + polygon.corners[(i + 2) % polygon.count]));
         part.weight *= area_of(polygon) / std::max(1, polygon.count);
         return part;
+    }
+
+    /// Parts of the sky count by their brightness: the brightest as much as a lamp.
+    void weigh_sky() {
+        const auto find_most = [&](const PieceInFilter& part) {
+            return part.piece.instance == no_index ? double{edges_.cells->find_range(part.piece.primitive).most} : 0.0;
+        };
+        double most = 0.0;
+        for (const PieceInFilter& part : parts_) most = std::max(most, find_most(part));
+        for (PieceInFilter& part : parts_)
+            if (part.piece.instance == no_index) part.weight *= find_most(part) / most;
     }
 
     /// Density of the filter at a place of the picture.
@@ -113,13 +135,13 @@ class EdgeRays {
         task_.counts.primary += static_cast<std::uint64_t>(count);
     }
 
-    Rgb cast_to_lamps(int begin, int count) {
+    Rgb cast_to_pieces(int begin, int count) {
         const PixelSequence sequence(place_.seed, place_.noise_key, light_.x, light_.y);
-        std::array<const LampPart*, packet> chosen{};
+        std::array<const PieceInFilter*, packet> chosen{};
         std::array<float, packet> weights{};
         for (int i = 0; i < count; ++i) {
             const double u = sequence.at_1d(SampleUse::bright_choice, begin + i);
-            const auto part = std::ranges::upper_bound(parts_, u, {}, &LampPart::end);
+            const auto part = std::ranges::upper_bound(parts_, u, {}, &PieceInFilter::end);
             chosen[i] = part == parts_.end() ? &parts_.back() : &*part;
             const glm::dvec2 at =
                 sample_polygon(chosen[i]->polygon, sequence.at_2d(SampleUse::bright_point, begin + i));
@@ -131,14 +153,14 @@ class EdgeRays {
         intersect(count);
         Rgb sum(0.0f);
         for (int i = 0; i < count; ++i) {
-            if (is_hit(hits_[i], chosen[i]->triangle))
+            if (meets(scene_.lighting.shading, edges_, hits_[i], rays_[i].direction, {&chosen[i]->piece, 1}))
                 sum += weights[i] *
                        find_emission(scene_, task_, place_, hits_[i], rays_[i].direction, {light_.x, light_.y});
         }
         return sum;
     }
 
-    /// Finds the sky, and lamps that fill the filter: there these rays are best.
+    /// Finds what is left of the sky, and pieces that fill the filter: there these rays are best.
     Rgb cast_through_filter(int begin, int count) {
         SamplePlace own = place_;
         for (int i = 0; i < count; ++i) {
@@ -148,7 +170,9 @@ class EdgeRays {
         intersect(count);
         Rgb sum(0.0f);
         for (int i = 0; i < count; ++i) {
-            if (whole_ || hits_[i].instance == no_index)
+            const bool is_left = hits_[i].instance == no_index && !meets(scene_.lighting.shading, edges_, hits_[i],
+                                                                         rays_[i].direction, pieces_of(edges_, light_));
+            if (whole_ || is_left)
                 sum += light_in_edge(scene_, task_, place_, edges_, light_, hits_[i], rays_[i].direction);
         }
         return sum;
@@ -160,7 +184,7 @@ class EdgeRays {
     const BrightEdges& edges_;
     const EdgeLight& light_;
     const glm::dvec2 middle_;
-    std::vector<LampPart> parts_;
+    std::vector<PieceInFilter> parts_;
     bool whole_ = false;  ///< they fill the filter
     std::array<Ray, packet> rays_;
     std::array<Hit, packet> hits_;
@@ -195,7 +219,7 @@ bool tells_enough(const EdgeLight& light, const EdgeLimits& limits) {
 }
 
 void take_sets(EdgeRays& rays, const EdgeLimits& limits, EdgeLight& light) {
-    const int most = rays_of_a_sample * limits.plan.most, first = light.sky ? first_sky_rays : first_lamp_rays;
+    const int most = rays_of_a_sample * limits.plan.most, first = light.sky ? first_sky_rays : first_piece_rays;
     int count = limits.density.empty() ? most : std::min(first, most);
     bool is_last = count == most;
     for (std::uint32_t set = 0;; ++set) {
@@ -212,7 +236,7 @@ std::vector<EdgeLight> list_edges(const BrightEdges& edges, const PicturePart* p
     for (int y = 0; y < edges.sky.height; ++y) {
         for (int x = 0; x < edges.sky.width; ++x) {
             const std::size_t first = next;
-            while (next < edges.lamps.size() && edges.lamps[next].x == x && edges.lamps[next].y == y) ++next;
+            while (next < edges.pieces.size() && edges.pieces[next].x == x && edges.pieces[next].y == y) ++next;
             const bool is_wanted = part == nullptr || (*part)(x, y) != 0, sky = edges.sky(x, y) != 0;
             if (is_wanted && (sky || next > first))
                 pixels.push_back({.x = x, .y = y, .sky = sky, .first = first, .last = next});
@@ -262,9 +286,8 @@ Rgb sample_edge_light(const SampleScene& scene, RayTask& task, const SamplePlace
 
 Rgb light_in_edge(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
                   const EdgeLight& edge, const Hit& hit, const glm::vec3& direction) {
-    if (hit.instance == no_index) return edge.sky ? environment_radiance(scene.lighting.shading, direction) : Rgb(0.0f);
-    const auto triangles = std::span(edges.lamps).subspan(edge.first, edge.last - edge.first);
-    const bool is_known = std::ranges::any_of(triangles, [&](const LampTriangle& t) { return is_hit(hit, t); });
+    const bool is_known = (edge.sky && hit.instance == no_index) ||
+                          meets(scene.lighting.shading, edges, hit, direction, pieces_of(edges, edge));
     return is_known ? find_emission(scene, task, place, hit, direction, {edge.x, edge.y}) : Rgb(0.0f);
 }
 

@@ -13,8 +13,8 @@ namespace aleph {
 /// What a pixel shows of lamps, and of the environment, by themselves.
 struct EdgeLight {
     int x = 0, y = 0;
-    bool sky = false;                 ///< the environment is in the mean
-    std::size_t first = 0, last = 0;  ///< its triangles in BrightEdges::lamps
+    bool sky = false;                 ///< all of the environment is in the mean
+    std::size_t first = 0, last = 0;  ///< its own in BrightEdges::pieces
     Rgb mean{0.0f};                   ///< over the pixel's filter
     float variance = 0.0f;            ///< of the mean's luminance, as parts of its rays tell it
 };

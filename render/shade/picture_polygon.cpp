@@ -46,6 +46,16 @@ PicturePolygon project_triangle(const CameraView& view, const std::array<glm::dv
     return polygon;
 }
 
+PicturePolygon project_directions(const CameraView& view, const std::array<glm::dvec3, 4>& directions) {
+    PicturePolygon polygon;
+    for (const glm::dvec3& direction : directions) {
+        const glm::dvec3 seen = direction * view.axes;
+        if (!(-seen.z > nearest * glm::length(seen))) return {};
+        polygon.add(project_camera_point(view, seen));
+    }
+    return polygon;
+}
+
 PicturePolygon clip_to_rectangle(const PicturePolygon& polygon, const glm::dvec2& low, const glm::dvec2& high) {
     PicturePolygon left = polygon;
     for (int axis = 0; axis < 2; ++axis) {

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles as the picture shows them.
+// Triangles and parts of the sky as the picture shows them.
 
 #include <array>
 #include <glm/vec2.hpp>
@@ -24,6 +24,11 @@ struct PicturePolygon {
 /// A triangle (world, m) as far as it lies before the camera, where rays start: its near plane hides nothing. Without
 /// corners if it lies behind.
 PicturePolygon project_triangle(const CameraView& view, const std::array<glm::dvec3, 3>& corners);
+
+/// A convex quadrilateral infinitely far away, as a perspective view shows it. Without corners where one lies behind
+/// the camera.
+/// @param directions  to its corners, world
+PicturePolygon project_directions(const CameraView& view, const std::array<glm::dvec3, 4>& directions);
 
 /// The part of a polygon of up to four corners within a rectangle (Sutherland and Hodgman 1974).
 PicturePolygon clip_to_rectangle(const PicturePolygon& polygon, const glm::dvec2& low, const glm::dvec2& high);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/parallel.h"
 #include "render/settings/numbers.h"
+#include "render/surface/environment_cells.h"
 #include "render/surface/texture_texels.h"
 
 namespace aleph {
@@ -116,18 +118,26 @@ EnvironmentMap make_environment_map(const SceneImage& image) {
             map.texels(x, y) = clean(Rgb(read_texel(image, x, y, TextureSpace::srgb)));
         }
     }
-    if (!map.texels.empty()) build_distribution(map);
+    if (map.texels.empty()) return map;
+    build_distribution(map);
+    const EnvironmentCells parts(map, ranges_step);
+    map.ranges.resize(static_cast<std::size_t>(parts.count()));
+    parallel_each(map.ranges.size(), 64, [&](std::size_t i) { map.ranges[i] = parts.find_range(static_cast<int>(i)); });
     return map;
 }
 
-Rgb look_up(const EnvironmentMap& map, const glm::vec3& direction) {
-    const int width = map.texels.width, height = map.texels.height;
+BetweenTexels place_between_texels(const EnvironmentMap& map, const glm::vec3& direction) {
     const glm::vec2 uv = to_uv(direction);
-    const float x = uv.x * static_cast<float>(width) - 0.5f, y = uv.y * static_cast<float>(height) - 0.5f;
-    const float fx = std::floor(x), fy = std::floor(y), ax = x - fx, ay = y - fy;
-    const int x0 = (static_cast<int>(fx) + width) % width, x1 = (x0 + 1) % width;
-    const int y0 = std::clamp(static_cast<int>(fy), 0, height - 1);
-    const int y1 = std::clamp(static_cast<int>(fy) + 1, 0, height - 1);
+    const float x = uv.x * static_cast<float>(map.texels.width) - 0.5f;
+    const float y = uv.y * static_cast<float>(map.texels.height) - 0.5f;
+    const float fx = std::floor(x), fy = std::floor(y);
+    return {(static_cast<int>(fx) + map.texels.width) % map.texels.width, static_cast<int>(fy), x - fx, y - fy};
+}
+
+Rgb look_up(const EnvironmentMap& map, const glm::vec3& direction) {
+    const auto [x0, y, ax, ay] = place_between_texels(map, direction);
+    const int x1 = (x0 + 1) % map.texels.width;
+    const int y0 = std::max(y, 0), y1 = std::min(y + 1, map.texels.height - 1);
     return (1.0f - ay) * ((1.0f - ax) * map.texels(x0, y0) + ax * map.texels(x1, y0)) +
            ay * ((1.0f - ax) * map.texels(x0, y1) + ax * map.texels(x1, y1));
 }

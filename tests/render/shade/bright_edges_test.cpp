@@ -82,7 +82,7 @@ BrightEdges find_edges(const Stage& stage, double exposure = 1.0, std::uint64_t*
 /// 1: a pixel takes light from rays of its own.
 Image<std::uint8_t> mark_edges(const BrightEdges& edges) {
     Image<std::uint8_t> marks = edges.sky;
-    for (const LampTriangle& triangle : edges.lamps) marks(triangle.x, triangle.y) = 1;
+    for (const BrightPiece& piece : edges.pieces) marks(piece.x, piece.y) = 1;
     return marks;
 }
 
@@ -169,7 +169,7 @@ TEST(BrightEdges, AreWhereALampLiesThatNoCentreMeets) {
         const bool near = std::abs(x - edges_width / 2) <= 1 && std::abs(y - (edges_height / 2 - 1)) <= 1;
         EXPECT_EQ(edges(x, y), near ? 1 : 0) << x << ' ' << y;
     }
-    EXPECT_TRUE(find_edges(stage, 1e-3).lamps.empty()) << "dark";
+    EXPECT_TRUE(find_edges(stage, 1e-3).pieces.empty()) << "dark";
 }
 
 TEST(BrightEdges, AreWhereALampIsTooThinForCentres) {
