@@ -10,9 +10,6 @@ namespace {
 
 constexpr float least_survival = 0.05f;
 
-/// sr: a lobe of this solid angle or less counts as narrow. It is that of GGX with roughness .25.
-constexpr float narrow_lobe = 0.05f;
-
 /// Known irradiance may err by more than the pixel's accuracy where the path has little weight, and where a wide lobe
 /// averages over many places, but by no more than this.
 constexpr float loosest_accuracy = 0.5f;
@@ -35,14 +32,6 @@ float loosen_accuracy(const PathState& state) {
     const float spread = std::sqrt(std::min(lobe_solid_angle(state), 1.0f));
     const float loose = state.accuracy * (1.0f + spread) / std::sqrt(std::max(weight, 1e-3f));
     return std::max(state.accuracy, std::min(loose, loosest_accuracy));
-}
-
-/// Lights to sample at the surface that the path met.
-int count_light_samples(const PathState& state) {
-    if (state.light_samples <= 1) return 1;
-    const float width = std::max(1.0f, lobe_solid_angle(state) / narrow_lobe);
-    const float weight = std::min(largest_channel(state.throughput), 1.0f);
-    return std::max(1, static_cast<int>(std::lround(static_cast<float>(state.light_samples) * weight / width)));
 }
 
 /// Emission of a surface that a ray met.
@@ -172,21 +161,11 @@ class Path {
                                   (!material.has_glass() || material.is_glass_smooth()) &&
                                   (!material.has_coat() || material.is_coat_mirror());
         if (only_mirrors) return;
-        const int count = count_light_samples(state_);
-        const LightNumbers shift{random_.next(), random_.next_2d()};
-        if (count == 1) return add_light(lit, choose_light(context_, lit, shares, shift), 1.0f);
-        for (int i = 0; i < count; ++i) {
-            const float step = static_cast<float>(i) / static_cast<float>(count);
-            const LightNumbers numbers{fraction(shift.choice + step), lattice_point(i, count, shift.point)};
-            add_light(lit, choose_light(context_, lit, shares, numbers), 1.0f / static_cast<float>(count));
-        }
-    }
-
-    void add_light(const LitSurface& lit, const ScatteredLight& direct, float share) {
+        const ScatteredLight direct = choose_light(context_, lit, shares, {random_.next(), random_.next_2d()});
         if (direct.radiance == Rgb(0.0f)) return;
         Rgb arrives = direct.radiance * transmit_to_light(state_.media, lit, direct.shadow_ray);
         if (direct.shadowed) arrives *= find_transmittance(context_, task_, direct.shadow_ray);
-        light_ += state_.throughput * arrives * share;
+        light_ += state_.throughput * arrives;
     }
 
     /// Russian roulette (Arvo and Kirk 1990).

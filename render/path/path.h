@@ -51,10 +51,7 @@ struct PathState {
     /// Used at surfaces that the path meets while the bounces that are left are those that it holds; null: nothing is
     /// known, and all light is found without bias.
     const KnownIrradiance* known = nullptr;
-    float accuracy = 0.0f;  ///< alpha of the pixel, for `known`
-    /// Lights that are sampled where a path arrives with its full weight from a mirror or a narrow lobe; fewer in
-    /// proportion to its weight and to the width of the lobe, at least one.
-    int light_samples = 1;
+    float accuracy = 0.0f;                  ///< alpha of the pixel, for `known`
     const BrightSampler* bright = nullptr;  ///< weighs what the next ray meets; null: by 1
     int patch = no_index;                   ///< that this ray is aimed at
 };

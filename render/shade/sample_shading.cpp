@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::uint32_t irradiance_seed_mask = 0x69727261u;  // apart from path_seed_mask and others (gather_at.cpp)
 
-constexpr int lights_in_mirrors = 4;  // PathState::light_samples
-
 /// Rays over the hemisphere of a sample. `gather` is their number where there are no records that it speaks of, and
 /// their error does not decide the number of samples.
 int count_sample_rays(const RenderSettings& settings) {
@@ -94,7 +92,6 @@ PathState start_beyond(const SampleShading& shading, const SampleScene& scene, c
     beyond.survival = 40.0f;    // but those that end by chance leave bright dots, where gloss shows a lamp in gloss
     beyond.known = shading.known;
     beyond.accuracy = shading.context.accuracy(surface.x, surface.y);
-    beyond.light_samples = lights_in_mirrors;
     return beyond;
 }
 

@@ -38,12 +38,11 @@ struct ConstantIrradiance : KnownIrradiance {
     mutable float least = 1.0f, most = 0.0f;  ///< accuracy asked for
 };
 
-PathState one_bounce(const KnownIrradiance* known, int light_samples = 1) {
+PathState one_bounce(const KnownIrradiance* known) {
     PathState state;
     state.left = {1, 8};
     state.known = known;
     state.accuracy = 0.1f;
-    state.light_samples = light_samples;
     return state;
 }
 
@@ -125,32 +124,6 @@ TEST(KnownIrradianceTest, AccuracyIsLooserForFaintAndWideLobes) {
     EXPECT_FLOAT_EQ(mirror.second, 0.1f);
     EXPECT_NEAR(asked(make_metal(0.0f), 0.25f).first, 0.2f, 1e-5f);
     EXPECT_FLOAT_EQ(asked(make_metal(0.0f), 0.01f).first, 0.5f);
-}
-
-Scene make_lit_room() {
-    Scene scene;
-    const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
-    add_mesh(scene, make_box({4.0, 2.0, 4.0}, white));
-    add_lamp(scene, 0.5, glm::dvec3(9.0), {0.6, 0.9, 0.0});
-    add_mesh(scene, make_box({0.5, 0.5, 0.5}, white), {0.2, -0.75, 0.3});
-    return scene;
-}
-
-TEST(KnownIrradianceTest, MoreLightsInAMirrorAreUnbiasedAndLessNoise) {
-    Scene scene = make_lit_room();
-    add_light(scene, Light::Kind::point, glm::dvec3(1.0), {-1.5, 0.5, 0.5});
-    const Stage stage(std::move(scene));
-    const ConstantIrradiance known(1);
-    ViewedSurface mirror = make_inner_surface(make_metal(0.0f));
-    mirror.point = make_point({-0.4f, 0.0f, -0.3f}, up);
-    mirror.view = glm::normalize(glm::vec3(0.3f, 0.8f, -0.5f));
-    EXPECT_TRUE(holds([&](Trial& trial) {
-        const int count = trial.times(8000);
-        const Mean one = estimate(stage, mirror, count, by_lobe_rays(one_bounce(&known, 1)), 1 + trial.seed);
-        const Mean many = estimate(stage, mirror, count, by_lobe_rays(one_bounce(&known, 8)), 2 + trial.seed);
-        trial.near(one, many);
-        EXPECT_LT(many.error(), 0.6 * one.error());
-    }));
 }
 
 /// A room whose wall behind the camera is seen in a mirror only.
