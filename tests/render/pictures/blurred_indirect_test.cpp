@@ -122,6 +122,21 @@ TEST(MotionBlur, MC27_IndirectLightOfALampThatIsSwitchedOn) {
     EXPECT_LT(count_paths(scene), 0.5);
 }
 
+TEST(MotionBlur, FX15_IndirectLightOfALampWhoseLidSlidesAway) {
+    // The lid is small and far from what is seen, and at the shutter's centre it is away.
+    Scene scene = make_shot();
+    const int lid = add_mesh(scene, make_box({0.3, 0.02, 0.3}, add_lambert(scene, glm::dvec3(0.05))));
+    scene.nodes[lid].transform.translation = keyed<glm::dvec3>({0.15, 0.2}, {{-1.0, 2.45, -1.0}, {-0.6, 2.45, -1.0}});
+    expect_same_light(scene, 0.5);
+}
+
+TEST(MotionBlur, MC27_IndirectLightOfAWallThatIsDarkForAMoment) {
+    Scene scene = make_shot();
+    const glm::dvec3 bright(0.7), dark(0.05);
+    scene.materials[1].base_color = keyed<glm::dvec3>({0.2, 0.25, 0.3}, {bright, dark, bright});
+    expect_same_light(scene, 0.5);
+}
+
 /// Light is linear: while a lamp goes from 0 to twice its power, its light is on average that of its power. Most of the
 /// picture is under a plate, so that it shows indirect light alone.
 TEST(MotionBlur, MC27_IndirectLightOfAFadeIsThatOfItsMean) {
