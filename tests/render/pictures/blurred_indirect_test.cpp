@@ -176,5 +176,33 @@ TEST(MotionBlur, MC27_OutlinesOfLampsAtRestTakeAsManySamplesWhateverMovesElsewhe
     EXPECT_LT(count_samples(0.5), 1.3 * count_samples(0.0));
 }
 
+TEST(MotionBlur, MC27_OutlinesOfLampsThatMoveAreNoCoarserAtTheShuttersCentre) {
+    // The lamp is white at each time, and its streak is grey.
+    Scene scene = make_shot();
+    const int lamp = add_mesh(scene, make_quad(0.4, 0.4, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(3.0))));
+    scene.nodes[lamp].transform.translation = move_between({-2.4, 1.5, -2.0}, {2.4, 1.5, -2.0});
+    scene.film.exposure = 1.0;
+    scene.nodes[4].transform.translation = glm::dvec3(0.0, 1.5, 3.0);
+    scene.nodes[4].transform.rotation = glm::dquat(1.0, 0.0, 0.0, 0.0);
+    scene.cameras[0].shutter = {0.0, 2.0 * half_second};
+    scene.cameras[0].fov = 0.3;
+    RenderSettings settings = shot_settings(0);
+    settings.picture = {.width = 40, .height = 16};
+    follow_error(settings, 1.0);
+    settings.light.bounces = 0;
+    settings.sampling.spp = 512;
+    PictureMeans means;
+    for (settings.seed = 0; settings.seed < 4; ++settings.seed)
+        means.add(Sequence(scene, settings).render(0).shaded.color);
+    double at_centre = 0.0, beside = 0.0;
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 40; ++x) {
+            const double error = means.pixels[y * 40 + x].error();
+            (x >= 14 && x < 26 ? at_centre : beside) += error * error;
+        }
+    }
+    EXPECT_LT(at_centre / 12.0, 4.0 * beside / 28.0);
+}
+
 }  // namespace
 }  // namespace aleph
