@@ -213,7 +213,9 @@ bool tells_enough(const EdgeLight& light, const EdgeLimits& limits) {
     const SamplingPlan& plan = limits.plan;
     const double least = std::min({light.mean.x, light.mean.y, light.mean.z}), variance = light.variance;
     const double deviations = 3.0 * std::sqrt(variance) / std::max(1e-30, double{luminance(light.mean)});
-    if (least * (1.0 - deviations) > plan.white) return true;
+    // While the shutter is open, what moves may be white at its centre and not in the picture.
+    const bool changes = !plan.least.empty() && plan.least(light.x, light.y) > 1;
+    if (!changes && least * (1.0 - deviations) > plan.white) return true;
     const double tolerance = plan.tolerance(light.x, light.y) / error_deviations;
     return variance * limits.density(light.x, light.y) <= share_of_energy * variance_of_half * tolerance * tolerance;
 }

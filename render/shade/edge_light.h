@@ -37,7 +37,7 @@ struct EdgeLights {
 /// Finds what pixels at bright edges show, at the shutter's centre. Sets of rays, each twice as many as those before
 /// and with random numbers of its own, are cast until one is told to be the last by those before it: the mean of that
 /// one alone has no bias. It is where the energy of the errors around, if they are all as large, is a quarter of what
-/// pixels may have, or where they tell white.
+/// pixels may have, or where they tell white and nothing changes while the shutter is open.
 /// @param place  of the first sample
 /// @param plan   for tolerances and white. With no tolerances there is one set, of 16 rays for each sample
 EdgeLights find_edge_light(const SampleScene& scene, const SamplePlace& place, const SamplingPlan& plan,

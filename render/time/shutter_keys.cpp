@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/settings/numbers.h"
+#include "render/time/shutter_shadows.h"
 
 namespace aleph {
 
@@ -139,12 +140,13 @@ std::vector<KeySpan> choose_spans(const ShutterInterval& shutter, const std::vec
 KeyframeRecords find_lasting(const KeyframeLight& light, const KeyPose& to, float accuracy) {
     const ShadingScene& from = light.at->shading;
     const std::vector<ShutterMover> movers = find_movers(from, to.shading);
-    const float dimmed = find_dimming(from, from, 0.0f, to.shading);
+    const float dimmed = find_dimming(from, from, 0.0f, to.shading) + find_shadow_change(from, movers);
     KeyframeRecords lasting;
     for (const IrradianceRecord& record : light.cache.records()) {
         const glm::vec3 at_rest(0.0f);
         const float change = dimmed + find_light_change(movers, record.position, at_rest) +
-                             find_hidden_change(movers, record.position, at_rest, no_index, accuracy);
+                             find_hidden_change(movers, record.position, at_rest, no_index, accuracy) +
+                             find_sunlight_change(from, movers, record.position, at_rest, no_index, accuracy);
         if (change <= accuracy) lasting.seen.push_back(record);
     }
     return lasting;

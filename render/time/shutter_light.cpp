@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "render/settings/numbers.h"
+#include "render/time/shutter_shadows.h"
 
 namespace aleph {
 
@@ -27,11 +28,6 @@ float find_longest_way(const PosedInstance& frame, const PosedInstance& sample, 
         way = std::max(way, glm::length(sample.place(v) + shift - frame.place(v)));
     }
     return way;
-}
-
-/// Upper bound of the share of irradiance that a sphere hides at a distance from its centre.
-float hidden_share(float radius, float distance) {
-    return radius < distance ? radius * radius / (distance * distance) : 1.0f;
 }
 
 float find_turn(const glm::mat3& from, const glm::mat3& to) {
@@ -58,6 +54,34 @@ float find_bend(const PosedInstance& from, const PosedInstance& to) {
 float find_difference(const Rgb& a, const Rgb& b) {
     const float largest = largest_channel(glm::max(a, b));
     return largest > 0.0f ? largest_channel(glm::abs(a - b)) / largest : 0.0f;
+}
+
+float find_difference(float a, float b) {
+    return find_difference(Rgb(a), Rgb(b));
+}
+
+/// Share of what a surface reflects or lets pass that may differ between two times, about: of the value that differs
+/// most. Where alpha decides what is there at all, any change of it counts as 1.
+float find_fade(const ShadingMaterial& from, const ShadingMaterial& to) {
+    const MaterialValues &a = from.values, &b = to.values;
+    if (a == b) return 0.0f;
+    const bool masked = from.material != nullptr && from.material->opacity.mode == Opacity::Mode::mask;
+    if (masked && a.alpha != b.alpha) return 1.0f;
+    return std::max(
+        {find_difference(a.base_color, b.base_color), find_difference(a.alpha, b.alpha),
+         find_difference(a.gloss.metallic, b.gloss.metallic), find_difference(a.gloss.roughness, b.gloss.roughness),
+         find_difference(a.gloss.specular, b.gloss.specular),
+         find_difference(a.gloss.specular_color, b.gloss.specular_color), find_difference(a.gloss.ior, b.gloss.ior),
+         find_difference(a.glass.transmission, b.glass.transmission),
+         find_difference(a.glass.thickness, b.glass.thickness),
+         find_difference(a.glass.attenuation_distance, b.glass.attenuation_distance),
+         find_difference(a.glass.attenuation_color, b.glass.attenuation_color),
+         find_difference(a.layers.clearcoat, b.layers.clearcoat),
+         find_difference(a.layers.clearcoat_roughness, b.layers.clearcoat_roughness),
+         find_difference(a.layers.sheen_color, b.layers.sheen_color),
+         find_difference(a.layers.sheen_roughness, b.layers.sheen_roughness),
+         find_difference(a.layers.anisotropy, b.layers.anisotropy),
+         find_difference(a.layers.anisotropy_rotation, b.layers.anisotropy_rotation)});
 }
 
 const glm::vec3 far_away(infinite);
@@ -123,12 +147,16 @@ std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingSc
     std::vector<ShutterMover> movers;
     for (int i = 0; i < std::ssize(frame.instances); ++i) {
         const PosedInstance &before = frame.instances[i], &after = sample.instances[i];
-        if (is_at_rest(before, after, shift)) continue;
+        const ShadingMaterial &first_values = frame.materials[before.material],
+                              &last_values = sample.materials[after.material];
+        const float faded = before.visible || after.visible ? find_fade(first_values, last_values) : 0.0f;
+        if (is_at_rest(before, after, shift) && faded == 0.0f) continue;
         const bool both = before.visible && after.visible;
         const BoundingSphere first = find_sphere(before.visible ? before : after),
                              last = find_sphere(after.visible ? after : before);
         ShutterMover mover{i, {first.center, last.center}, std::max(first.radius, last.radius), infinite};
-        mover.shines = frame.materials[before.material].emits || sample.materials[after.material].emits;
+        mover.faded = faded;
+        mover.shines = first_values.emits || last_values.emits;
         mover.turned = find_turn(before.linear, after.linear);
         if (mover.shines && before.deformed != nullptr && after.deformed != nullptr)
             mover.turned = std::max(mover.turned, find_bend(before, after));
@@ -143,13 +171,19 @@ std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingSc
     return movers;
 }
 
+float find_hidden_share(float radius, float distance) {
+    return radius < distance ? radius * radius / (distance * distance) : 1.0f;
+}
+
 float find_hidden_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved,
                          int instance, float enough) {
     float change = 0.0f;
     for (const ShutterMover& mover : movers) {
-        if (mover.instance == instance || !(mover.radius > 0.0f)) continue;
+        const bool own = mover.instance == instance;
+        if (!(mover.radius > 0.0f) || (own && mover.faded == 0.0f)) continue;
         const float distance = find_distance(mover, position, moved);
-        change += hidden_share(mover.radius, distance) * std::min(1.0f, find_steps(mover, distance, moved));
+        const float steps = own ? 0.0f : find_steps(mover, distance, moved);
+        change += find_hidden_share(mover.radius, distance) * std::min(1.0f, steps + mover.faded);
         if (change > enough) break;
     }
     return change;
@@ -229,9 +263,13 @@ ShutterLight::ShutterLight(const ShadingScene& frame, const ShadingScene& sample
 ShutterLight::ShutterLight(const ShadingScene& before, const ShadingScene& after, float weight,
                            const ShadingScene& sample, const CarriedLight* between)
     : carried_(between), dimmed_(find_dimming(before, after, weight, sample)) {
-    keys_.push_back(make_key(before, 1.0f - weight, sample));
+    const auto add = [&](const ShadingScene& at, float share) {
+        keys_.push_back(make_key(at, share, sample));
+        dimmed_ += share * find_shadow_change(at, keys_.back().movers);
+    };
+    add(before, 1.0f - weight);
     if (!(weight > 0.0f)) return;
-    keys_.push_back(make_key(after, weight, sample));
+    add(after, weight);
     find_bends(keys_[0].movers, keys_[1].movers, weight);
 }
 
@@ -255,8 +293,10 @@ std::optional<ShutterLight::Reading> ShutterLight::find_change(const PixelSurfac
         turned += key.weight * glm::length(surface.point.normal - point->normal) / std::numbers::sqrt2_v<float>;
         const glm::vec3 moved = surface.point.position + key.shift - point->position;
         reading.moved += key.weight * find_way(key.movers, surface.hit.instance, moved);
-        const float hidden =
-            find_hidden_change(key.movers, point->position, moved, surface.hit.instance, enough / key.weight);
+        const float most = enough / key.weight;
+        const int on = surface.hit.instance;
+        const float hidden = find_hidden_change(key.movers, point->position, moved, on, most) +
+                             find_sunlight_change(key.shading, key.movers, point->position, moved, on, most);
         reading.change += key.weight * (hidden + find_light_change(key.movers, point->position, moved));
     }
     reading.change = std::max(reading.change, turned);

@@ -8,6 +8,8 @@
 //   more than a record's may (irradiance_record.h).
 // - What moves. A sphere of radius r at distance d hides at most F = min(1, r^2 / d^2) of the light that arrives. If it
 //   moves by s, F changes by no more than min(F, 3 F s / d). The sum over all things that move is at most alpha.
+// - What fades. Of the light from things whose material changes by a share, so much may change.
+// - Lights that things hide at one time and not at another (shutter_shadows.h).
 // - Lights that move. What one brings from a distance d changes by about 3 (s / d + a) of it, a the angle by
 //   which it turns or its cone widens. All of the light may be that of the one that changes most.
 // - Lights that brighten or dim, by a share of the brighter one. More than a quarter ends all such light (LightBreaks).
@@ -35,6 +37,7 @@ struct ShutterMover {
     float radius = 0.0f;     ///< m, the larger one
     float moved = 0.0f;      ///< m, of its point that moves farthest; infinite if it is seen at one of the times only
     float bent = 0.0f;       ///< m, of a mesh that deforms: the farthest way of its points beside that of its centre
+    float faded = 0.0f;      ///< of its light: the largest share by which its material differs, emission aside
     bool shines = false;
     float turned = 0.0f;   ///< radians, about, a wider cone and growth included; of what shines
     int light = no_index;  ///< its node; no_index: an instance or the environment
@@ -42,10 +45,14 @@ struct ShutterMover {
                                                           ///< infinite: there is one time
 };
 
-/// Instances and lights that differ in place or direction between two poses of a scene.
+/// Instances and lights that differ in place, direction or, emission aside, material between two poses of a scene.
 std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingScene& sample);
 
-/// An upper bound of the share of a point's light that things hide at one of the two times and not at the other.
+/// Upper bound of the share of irradiance that a sphere hides at a distance from its centre.
+float find_hidden_share(float radius, float distance);
+
+/// An upper bound of the share of a point's light that things hide at one of the two times and not at the other, or
+/// send to it at one of them alone.
 /// @param position  m, where the point is at the frame's time
 /// @param moved     m, from there to where it is at the sample's time, in the frame's coordinates
 /// @param instance  that the point is on: it moves along. The sum stops above `enough`
@@ -108,7 +115,7 @@ class ShutterLight {
     std::vector<Key> keys_;  ///< one or two
     const CarriedLight* carried_;
     const IrradianceCache* cache_ = nullptr;
-    float dimmed_;
+    float dimmed_;  ///< share of all light that lights which dim or are hidden may change
     bool at_center_ = false;
 };
 

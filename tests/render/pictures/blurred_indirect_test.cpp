@@ -122,6 +122,21 @@ TEST(MotionBlur, MC27_IndirectLightOfALampThatIsSwitchedOn) {
     EXPECT_LT(count_paths(scene), 0.5);
 }
 
+TEST(MotionBlur, FX15_IndirectLightOfALampWhoseLidSlidesAway) {
+    // The lid is small and far from what is seen, and at the shutter's centre it is away.
+    Scene scene = make_shot();
+    const int lid = add_mesh(scene, make_box({0.3, 0.02, 0.3}, add_lambert(scene, glm::dvec3(0.05))));
+    scene.nodes[lid].transform.translation = keyed<glm::dvec3>({0.15, 0.2}, {{-1.0, 2.45, -1.0}, {-0.6, 2.45, -1.0}});
+    expect_same_light(scene, 0.5);
+}
+
+TEST(MotionBlur, MC27_IndirectLightOfAWallThatIsDarkForAMoment) {
+    Scene scene = make_shot();
+    const glm::dvec3 bright(0.7), dark(0.05);
+    scene.materials[1].base_color = keyed<glm::dvec3>({0.2, 0.25, 0.3}, {bright, dark, bright});
+    expect_same_light(scene, 0.5);
+}
+
 /// Light is linear: while a lamp goes from 0 to twice its power, its light is on average that of its power. Most of the
 /// picture is under a plate, so that it shows indirect light alone.
 TEST(MotionBlur, MC27_IndirectLightOfAFadeIsThatOfItsMean) {
@@ -159,6 +174,34 @@ TEST(MotionBlur, MC27_OutlinesOfLampsAtRestTakeAsManySamplesWhateverMovesElsewhe
         return static_cast<double>(Sequence(std::move(scene), settings).render(0).statistics.counts.samples);
     };
     EXPECT_LT(count_samples(0.5), 1.3 * count_samples(0.0));
+}
+
+TEST(MotionBlur, MC27_OutlinesOfLampsThatMoveAreNoCoarserAtTheShuttersCentre) {
+    // The lamp is white at each time, and its streak is grey.
+    Scene scene = make_shot();
+    const int lamp = add_mesh(scene, make_quad(0.4, 0.4, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(3.0))));
+    scene.nodes[lamp].transform.translation = move_between({-2.4, 1.5, -2.0}, {2.4, 1.5, -2.0});
+    scene.film.exposure = 1.0;
+    scene.nodes[4].transform.translation = glm::dvec3(0.0, 1.5, 3.0);
+    scene.nodes[4].transform.rotation = glm::dquat(1.0, 0.0, 0.0, 0.0);
+    scene.cameras[0].shutter = {0.0, 2.0 * half_second};
+    scene.cameras[0].fov = 0.3;
+    RenderSettings settings = shot_settings(0);
+    settings.picture = {.width = 40, .height = 16};
+    follow_error(settings, 1.0);
+    settings.light.bounces = 0;
+    settings.sampling.spp = 512;
+    PictureMeans means;
+    for (settings.seed = 0; settings.seed < 4; ++settings.seed)
+        means.add(Sequence(scene, settings).render(0).shaded.color);
+    double at_centre = 0.0, beside = 0.0;
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 40; ++x) {
+            const double error = means.pixels[y * 40 + x].error();
+            (x >= 14 && x < 26 ? at_centre : beside) += error * error;
+        }
+    }
+    EXPECT_LT(at_centre / 12.0, 4.0 * beside / 28.0);
 }
 
 }  // namespace

@@ -86,6 +86,65 @@ TEST(ShutterLight, NothingIsKnownWhereLightsMoveFar) {
     EXPECT_FALSE(find_middle(plate.scene, 0.15f).has_value()) << "a lamp, not a box";
 }
 
+TEST(ShutterLight, NothingIsKnownWhereThingsHideLights) {
+    // The light is 9 m away from the point.
+    const auto is_known = [](Light::Kind kind, const glm::dvec3& from, const glm::dvec3& to) {
+        Plate plate;
+        add_light(plate.scene, kind, glm::dvec3(5.0), {8.0, 4.0, 0.0}, z_to_up);
+        plate.scene.lights.back().inner_cone.values = plate.scene.lights.back().outer_cone.values = {0.3};
+        plate.scene.nodes[2].transform.translation = move_between(from, to);
+        return find_middle(plate.scene, 0.15f).has_value();
+    };
+    EXPECT_FALSE(is_known(Light::Kind::point, {8.0, 3.8, 0.0}, {8.4, 3.8, 0.0}));
+    EXPECT_TRUE(is_known(Light::Kind::point, {8.0, 3.8, 0.0}, {8.005, 3.8, 0.0})) << "it hardly moves";
+    EXPECT_TRUE(is_known(Light::Kind::point, {8.0, 2.0, 0.0}, {8.4, 2.0, 0.0})) << "it hides little";
+    EXPECT_FALSE(is_known(Light::Kind::spot, {8.0, 3.0, 0.0}, {8.4, 3.0, 0.0})) << "more of a cone";
+    EXPECT_TRUE(is_known(Light::Kind::spot, {8.0, 5.0, 0.0}, {8.4, 5.0, 0.0})) << "behind it";
+
+    const glm::dvec3 high(0.0, 8.0, 0.0), beside(0.2, 8.0, 0.0);
+    EXPECT_FALSE(is_known(Light::Kind::directional, high, beside)) << "its shadow is at the point";
+    EXPECT_TRUE(is_known(Light::Kind::point, high, beside));
+    EXPECT_TRUE(is_known(Light::Kind::directional, {8.0, 3.8, 0.0}, {8.4, 3.8, 0.0}));
+    EXPECT_TRUE(is_known(Light::Kind::directional, {0.0, -8.0, 0.0}, {0.2, -8.0, 0.0})) << "it is below";
+
+    const auto of_lamp = [](double size, double way) {
+        Plate plate;
+        const int dark = add_lambert(plate.scene, glm::dvec3(0.0), glm::dvec3(5.0));
+        const int lamp = add_mesh(plate.scene, make_quad(size, size, dark), {8.0, 1.3, 0.0}, z_to_down);
+        plate.scene.nodes[lamp].transform.translation = move_between({8.0, 1.3, 0.0}, {8.0 + way, 1.3, 0.0});
+        plate.scene.nodes[2].transform.translation = move_between({8.0, 1.0, 0.0}, {8.2, 1.0, 0.0});
+        return find_middle(plate.scene, 0.15f).has_value();
+    };
+    EXPECT_FALSE(of_lamp(0.2, 0.0));
+    EXPECT_TRUE(of_lamp(0.2, 0.2)) << "it moves along";
+    EXPECT_TRUE(of_lamp(2.0, 0.0)) << "it is large";
+}
+
+TEST(ShutterLight, NothingIsKnownBesideThingsThatFade) {
+    const auto is_known = [](const Material& material, int mesh, const glm::dvec3& place) {
+        Plate plate;
+        plate.scene.materials.push_back(material);
+        plate.scene.meshes[mesh].material = static_cast<int>(plate.scene.materials.size()) - 1;
+        plate.scene.nodes[mesh].transform.translation = place;
+        return find_middle(plate.scene, 0.15f).has_value();
+    };
+    const auto fading = [](double to) {
+        Material material;
+        material.base_color = move_between(glm::dvec3(0.5), glm::dvec3(to));
+        return material;
+    };
+    const glm::dvec3 below(0.0, -0.5, 0.0), beside(0.3, 0.1, 0.0), away(8.0, 1.0, 0.0);
+    EXPECT_TRUE(is_known(fading(0.55), 0, below));
+    EXPECT_FALSE(is_known(fading(0.7), 0, below));
+    EXPECT_FALSE(is_known(fading(0.0), 2, beside));
+    EXPECT_TRUE(is_known(fading(0.0), 2, away)) << "it is small at this distance";
+    EXPECT_FALSE(is_known(fading(0.7), 1, glm::dvec3(0.0))) << "a mesh may see itself";
+    Material cut;
+    cut.opacity = {.mode = Opacity::Mode::mask};
+    cut.opacity.alpha.values = {0.51, 0.49};
+    EXPECT_FALSE(is_known(cut, 2, beside));
+}
+
 TEST(ShutterLight, NothingIsKnownWhereLightsBrightenOrDim) {
     const auto is_known = [](Track<double> Light::*value, double from, double to) {
         Plate plate;
