@@ -16,7 +16,6 @@ namespace aleph {
 namespace {
 
 constexpr int first_stride = 64;            // pixels, size of the first tiles
-constexpr int probing_stride = 16;          // pixels, of tiles that get records in any case
 constexpr float least_reach_pixels = 0.7f;  // of a record at its own accuracy
 constexpr int max_reviews = 16;             // passes over all pixels after the last tile size
 /// A record may reach so much farther than expected: candidates within that wait.
@@ -63,37 +62,19 @@ int choose_record_rays(const IndirectContext& context, float reflected, glm::ive
     return add_rays_for_noise(rays, *expected, reflected, (*context.tolerance)(pixel.x, pixel.y));
 }
 
-/// Returns whether a point gets a record: those of large tiles do in any case, so that others know what to expect.
-bool needs_record(const IrradianceCache& cache, const IndirectContext& context, const FillPoint& point,
-                  glm::ivec2 pixel) {
-    if (context.tolerance == nullptr) return true;
-    if (pixel.x % probing_stride == 0 && pixel.y % probing_stride == 0) return true;
-    const float accuracy = context.accuracy(pixel.x, pixel.y);
-    const auto expected = cache.expect({point.position, point.normal, accuracy}, context.max_radius);
-    if (!expected) return true;
-    return is_worth_record(*expected, point.footprint, accuracy, point.reflected,
-                           (*context.tolerance)(pixel.x, pixel.y),
-                           choose_record_rays(context, point.reflected, pixel, expected));
-}
-
-/// The tiles whose samples no record covers and which need one, in tile order. The points of those that do without are
-/// taken out.
+/// The tiles whose samples no record covers, in tile order.
 std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const IndirectContext& context,
-                                      Image<FillPoint>& points, const std::vector<glm::ivec2>& tiles,
+                                      const Image<FillPoint>& points, const std::vector<glm::ivec2>& tiles,
                                       FrameCounts& counts) {
     std::vector<std::vector<Candidate>> found((tiles.size() + lookup_grain - 1) / lookup_grain);
     std::atomic<std::uint64_t> missed = 0;
     cast_parallel(tiles.size(), lookup_grain, context.lighting.rays, counts.rays, [&](int i, RayTask& task) {
         const int x = tiles[i].x, y = tiles[i].y;
-        FillPoint& point = points(x, y);
+        const FillPoint& point = points(x, y);
         const float accuracy = context.accuracy(x, y);
         const CacheQuery query{point.position, point.normal, accuracy, &task};
         if (cache.covers(query)) return;
         ++missed;
-        if (!needs_record(cache, context, point, tiles[i])) {
-            point.footprint = -1.0f;
-            return;
-        }
         found[i / lookup_grain].push_back(
             {x, y, {query.position, query.normal, accuracy}, radius_bounds(context, point.footprint, accuracy)});
     });
@@ -119,7 +100,7 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
             continue;
         }
         const auto known = cache.expect(candidate.query, context.max_radius);
-        const float radius = known ? known->reach.radius : context.max_radius;
+        const float radius = known ? known->radius : context.max_radius;
         expected.insert({.position = candidate.query.position,
                          .radius = std::max(radius, candidate.bounds.min),
                          .normal = candidate.query.normal,

@@ -28,15 +28,6 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
 /// Rays over the hemisphere of a sample whose irradiance no record knows.
 inline constexpr int sample_rays = 2;
 
-/// Returns whether a record pays: whether it costs less than the rays of samples that do without one (README.md). All
-/// samples of a pixel share the noise of its records, so the rule that stops sampling does not know it.
-/// @param footprint  m, of a pixel
-/// @param reflected  luminance of radiance over irradiance
-/// @param tolerance  luminance that the mean of the pixel's samples may err by
-/// @param rays       of the record's gather
-bool is_worth_record(const ExpectedRecord& expected, float footprint, float accuracy, float reflected, float tolerance,
-                     int rays);
-
 /// Returns the rays, at least `rays` and at most most_rays, that bring the noise of a record below what the pixel's
 /// samples may have.
 int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance);

@@ -122,7 +122,7 @@ void IrradianceCache::insert(IrradianceRecord record) {
 std::optional<ExpectedRecord> IrradianceCache::expect(const CacheQuery& query, float max_radius) const {
     if (records_.empty()) return std::nullopt;
     ExpectedRecord expected;
-    float growth = 0.0f, total = 0.0f;
+    float total = 0.0f;
     const float reach = expecting_reach * query.accuracy;
     index_.visit_near(query.position, reach, 0.0f, [&](int i) {
         const IrradianceRecord& record = records_[i];
@@ -130,7 +130,6 @@ std::optional<ExpectedRecord> IrradianceCache::expect(const CacheQuery& query, f
         if (weight > 0.0f && glm::dot(query.normal, record.normal) > 0.0f) {
             expected.irradiance += weight * luminance(record.irradiance);
             expected.ray_variance += weight * record.noise.ray_variance;
-            growth += weight * record.growth;
             total += weight;
         }
         return true;
@@ -138,13 +137,12 @@ std::optional<ExpectedRecord> IrradianceCache::expect(const CacheQuery& query, f
     if (total > 0.0f) {
         expected.irradiance /= total;
         expected.ray_variance /= total;
-        expected.reach.spread = 1.0f / std::sqrt(growth / total);
     } else {
         const auto count = static_cast<double>(records_.size());
         expected.irradiance = static_cast<float>(irradiances_ / count);
         expected.ray_variance = static_cast<float>(ray_variances_ / count);
     }
-    expected.reach.radius = radius_bound(query.position, query.normal, max_radius);
+    expected.radius = radius_bound(query.position, query.normal, max_radius);
     return expected;
 }
 

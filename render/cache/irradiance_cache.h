@@ -39,7 +39,7 @@ struct RecordUse {
 struct ExpectedRecord {
     float irradiance = 0.0f;    ///< luminance
     float ray_variance = 0.0f;  ///< of a single gather ray, relative
-    RecordReach reach;
+    float radius = 0.0f;        ///< m
 };
 
 /// A place where irradiance is needed.

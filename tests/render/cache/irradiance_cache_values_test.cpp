@@ -105,7 +105,6 @@ TEST(IrradianceCacheValues, ExpectedRecordsAreMeansWeightedByDistance) {
         record.normal = normal;
         record.noise.ray_variance = variance;
         record.irradiance = Rgb(10.0f * variance);
-        record.growth = variance;
         cache.insert(record);
     };
     add(0.0f, 1.0f, 8.0f);
@@ -117,27 +116,14 @@ TEST(IrradianceCacheValues, ExpectedRecordsAreMeansWeightedByDistance) {
     const ExpectedRecord between = *cache.expect(make_query(0.0625f, 0.125f), 9.0f);
     EXPECT_NEAR(between.ray_variance, (8.0 * first + 2.0 * second) / (first + second), 1e-5);
     EXPECT_NEAR(between.irradiance, 10.0f * between.ray_variance, 1e-4);
-    EXPECT_EQ(between.reach.radius, 0.9375f);  // neighbour clamping by the second
-    EXPECT_EQ(cache.expect(make_query(0.0625f, 0.125f), 0.5f)->reach.radius, 0.5f);
+    EXPECT_EQ(between.radius, 0.9375f);  // neighbour clamping by the second
+    EXPECT_EQ(cache.expect(make_query(0.0625f, 0.125f), 0.5f)->radius, 0.5f);
     EXPECT_EQ(cache.expect(make_query(-0.25f, 0.125f), 9.0f)->ray_variance, 8.0f);
     const ExpectedRecord far = *cache.expect(make_query(-0.5f, 0.125f), 9.0f);  // none near: the mean of all
     EXPECT_EQ(far.ray_variance, 52.0f);
     EXPECT_NEAR(far.irradiance, 520.0f, 1e-3);
-    EXPECT_EQ(far.reach.spread, std::numeric_limits<float>::infinity());
     cache.restore({make_record_at(0.0f, 1.0f)});
     EXPECT_EQ(cache.expect(make_query(5.0f, 0.1f), 9.0f)->ray_variance, 0.0f);
-}
-
-TEST(IrradianceCacheValues, ExpectedReachFollowsGrowthAround) {
-    IrradianceCache cache = make_empty_cache();
-    for (const float x : {0.0f, 0.01f}) {
-        IrradianceRecord record = make_record_at(x, 1.0f);
-        record.growth = 16.0f;
-        cache.insert(record);
-    }
-    const ExpectedRecord expected = *cache.expect(make_query(0.005f, 0.25f), 9.0f);
-    EXPECT_NEAR(expected.reach.spread, 0.25f, 1e-6);
-    EXPECT_NEAR(expected.reach.at(0.25f), 0.125f, 1e-6);
 }
 
 TEST(IrradianceCacheValues, RecordsAreComparedWithinTwiceTheirReach) {

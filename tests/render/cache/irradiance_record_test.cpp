@@ -199,34 +199,7 @@ TEST(RecordCorrection, ContactsHaveNoGradientBeyondThem) {
     EXPECT_EQ(gradient(0.0f), 0.0f);
 }
 
-/// One unit of irradiance, 512 rays, and a pixel 1 m wide.
-bool is_worth(float radius, float ray_variance, float tolerance) {
-    return is_worth_record({1.0f, ray_variance, {radius}}, 1.0f, 0.1f, 1.0f, tolerance, 512);
-}
-
-TEST(RecordWorth, GrowsWithReachAndVarianceAndFallsWithTolerance) {
-    constexpr float loose = 1e6f;
-    EXPECT_FALSE(is_worth(10.0f, 1.0f, loose)) << "about 3 pixels";
-    EXPECT_TRUE(is_worth(30.0f, 1.0f, loose)) << "28 pixels";
-    EXPECT_FALSE(is_worth(10.0f, 0.0f, 1e-3f)) << "no variance: no more samples";
-    EXPECT_TRUE(is_worth(10.0f, 1.0f, 0.1f)) << "130 more samples";
-    EXPECT_TRUE(is_worth(10.0f, 1.0f, 0.0f)) << "no error is tolerated";
-    bool before = true;
-    for (float tolerance = 1e-3f; tolerance < 1e3f; tolerance *= 1.5f) {
-        const bool now = is_worth(8.0f, 2.0f, tolerance);
-        EXPECT_TRUE(before || !now) << tolerance;
-        before = now;
-    }
-    EXPECT_FALSE(before);
-}
-
-TEST(RecordWorth, WhatSpreadsLimitsTheReach) {
-    const ExpectedRecord wide{1.0f, 0.0f, {1000.0f}}, narrow{1.0f, 0.0f, {1000.0f, 3.0f}};
-    EXPECT_TRUE(is_worth_record(wide, 1.0f, 0.1f, 1.0f, 1.0f, 512));
-    EXPECT_FALSE(is_worth_record(narrow, 1.0f, 0.1f, 1.0f, 1.0f, 512)) << "3 m sqrt(.1)";
-}
-
-TEST(RecordWorth, MoreRaysKeepNoiseBelowThatOfSamples) {
+TEST(RecordRays, MoreRaysKeepNoiseBelowThatOfSamples) {
     // One unit of irradiance, of which a tenth is reflected.
     const auto rays = [](float ray_variance, float tolerance) {
         return add_rays_for_noise(512, {1.0f, ray_variance, {}}, 0.1f, tolerance);
@@ -240,21 +213,8 @@ TEST(RecordWorth, MoreRaysKeepNoiseBelowThatOfSamples) {
     EXPECT_NEAR(0.1 * std::sqrt(5.0 / more), 0.5 * 0.01 / error_deviations, 1e-5) << "half a standard error of samples";
 }
 
-TEST(RecordWorth, ATolerantPictureHasFewerRecordsAndAStrictOneAll) {
-    IndirectStage room(make_cluttered_room(), 96, 72, 0.05, 1024);  // where a record costs much, fewer pay
-    const auto count = [&](const Image<float>* tolerance) {
-        room.context.tolerance = tolerance;
-        return room.fill().cache.records().size();
-    };
-    const Image<float> loose(96, 72, 1e6f), strict(96, 72, 0.0f);
-    const std::size_t all = count(nullptr), few = count(&loose), most = count(&strict);
-    EXPECT_GE(few, 20u) << "large tiles have records in any case";
-    EXPECT_LT(few * 2, all);
-    EXPECT_GT(most, all * 8 / 10);
-}
-
 /// Rays of samples are without bias, and records nearly: the mixture has the light of traced paths.
-TEST(RecordWorth, FramesMixRecordsAndRaysOfSamples) {
+TEST(RecordRays, FramesMixRecordsAndRaysOfSamples) {
     const Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
     RenderSettings settings{.picture = {.width = 48, .height = 36}};
     follow_error(settings, 1.0);
