@@ -62,15 +62,15 @@ class BrightSky {
         return cells_.find_in_cone(axis, 2.0 * std::asin(0.5 * chord));
     }
 
-    /// Returns false if they are known to be dark, or even.
+    /// Returns false if they are known to be dark, even, or all shown white.
     bool may_count(const CellRange& range) const {
         LuminanceRange all{std::numeric_limits<float>::infinity(), 0.0f};
         ranges_.visit_parts(range, [&](int part) {
             const LuminanceRange& of_part = shading_.environment.map->ranges[part];
             all = {std::min(all.least, of_part.least), std::max(all.most, of_part.most)};
         });
-        return double{all.most} * most_factor_ >=
-               std::max(least_bright * white_, contrast * least_factor_ * double{all.least});
+        const double least = double{all.least} * least_factor_;
+        return least < white_ && double{all.most} * most_factor_ >= std::max(least_bright * white_, contrast * least);
     }
 
     double look_at(const glm::dvec2& place) const {

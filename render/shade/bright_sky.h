@@ -10,8 +10,8 @@ PicturePolygon project_cells(const CameraView& view, const ShadingScene& shading
                              int part);
 
 /// Adds the parts of the environment in the filter of each pixel that are bright, and four times as bright as three
-/// quarters of it or as white. Samples know others, which are not rare. An orthographic view shows one place of the sky
-/// alone: it has none.
+/// quarters of it or as white. Samples know others, which are not rare. Where all is at least white there are none: it
+/// is shown white without them. An orthographic view shows one place of the sky alone: it has none.
 void add_bright_sky(const ShadingScene& shading, const CameraView& view, PixelFilter filter, double exposure,
                     BrightEdges& edges);
 
