@@ -19,6 +19,7 @@ constexpr int rays_of_a_sample = 16;
 constexpr int first_piece_rays = 64, first_sky_rays = 256;  // of a pixel's first set
 constexpr double covered_square = 0.9999;                   // share of a filter's square that is as good as all of it
 constexpr int parts_of_a_set = 8;                           // which tell its error
+constexpr double small_piece = 0.5;                         // pixels: the filter is about even over it
 constexpr double share_of_energy = 0.25;                    // of the error that pixels may have
 constexpr double variance_of_half = 2.0;                    // of half as many rays, over that of all
 constexpr std::uint32_t edge_key_mask = 0x65646765u;        // apart from the samples' own places
@@ -34,7 +35,6 @@ struct PieceInFilter {
     BrightPiece piece;
     PicturePolygon polygon;
     double weight = 0.0;   ///< about its share of the filter
-    double end = 0.0;      ///< share of the rays up to and including it
     double density = 0.0;  ///< of its rays, per square pixel
 };
 
@@ -82,7 +82,7 @@ class EdgeRays {
         for (const PieceInFilter& part : parts_) area += area_of(part.polygon);
         whole_ = area >= covered_square * side * side;
         for (PieceInFilter& part : parts_) {
-            part.end = end += part.weight / sum;
+            ends_.push_back(static_cast<float>(end += part.weight / sum));
             part.density = part.weight / sum / area_of(part.polygon);
         }
     }
@@ -105,10 +105,15 @@ class EdgeRays {
         const double radius = place_in_filter(place_.filter, 1.0);
         const PicturePolygon whole = project_piece(scene_.view, scene_.lighting.shading, edges_, piece);
         PieceInFilter part{piece, clip_to_rectangle(whole, middle_ - radius, middle_ + radius)};
-        const PicturePolygon& polygon = part.polygon;
-        for (int i = 0; i < polygon.count; ++i)
-            part.weight += weigh(0.5 * (polygon.corners[i] + polygon.corners[(i + 2) % polygon.count]));
-        part.weight *= area_of(polygon) / std::max(1, polygon.count);
+        const double area = area_of(part.polygon);
+        if (!(area > 0.0)) return part;
+        double size = 0.0;
+        for (int i = 1; i < part.polygon.count; ++i)
+            size = std::max(size, glm::distance(part.polygon.corners[0], part.polygon.corners[i]));
+        const int places = size < small_piece ? 2 : 8;
+        for (int i = 0; i < places; ++i)
+            part.weight += weigh(sample_polygon(part.polygon, lattice_point(i, places, {0.0f, 0.3f})));
+        part.weight *= area / places;
         return part;
     }
 
@@ -140,11 +145,10 @@ class EdgeRays {
         std::array<const PieceInFilter*, packet> chosen{};
         std::array<float, packet> weights{};
         for (int i = 0; i < count; ++i) {
-            const double u = sequence.at_1d(SampleUse::bright_choice, begin + i);
-            const auto part = std::ranges::upper_bound(parts_, u, {}, &PieceInFilter::end);
-            chosen[i] = part == parts_.end() ? &parts_.back() : &*part;
-            const glm::dvec2 at =
-                sample_polygon(chosen[i]->polygon, sequence.at_2d(SampleUse::bright_point, begin + i));
+            // One number chooses the piece and, stretched, the place on it: rays are even over all pieces together.
+            glm::vec2 u = sequence.at_2d(SampleUse::bright_point, begin + i);
+            chosen[i] = &parts_[choose_part(ends_, u.x)];
+            const glm::dvec2 at = sample_polygon(chosen[i]->polygon, u);
             weights[i] = static_cast<float>(weigh(at) / chosen[i]->density);
             CameraRay ray = make_camera_ray(scene_.view, at.x, at.y);
             if (place_.blend == Blend::random) ray.choice = sequence.at_1d(SampleUse::passing, begin + i);
@@ -185,7 +189,8 @@ class EdgeRays {
     const EdgeLight& light_;
     const glm::dvec2 middle_;
     std::vector<PieceInFilter> parts_;
-    bool whole_ = false;  ///< they fill the filter
+    std::vector<float> ends_;  ///< share of the rays up to each of them, it included
+    bool whole_ = false;       ///< they fill the filter
     std::array<Ray, packet> rays_;
     std::array<Hit, packet> hits_;
 };

@@ -55,16 +55,22 @@ struct Sun {
     }
 };
 
-/// The sum of all pixels, in the mean over seeds.
-double find_sum_of_samples(const Stage& stage, PixelFilter filter) {
+/// The sum of all pixels.
+double find_sum_of_samples(const Stage& stage, PixelFilter filter, std::uint32_t seed) {
     RenderSettings settings = plain_settings(0.0, 1);
     settings.sampling.spp = 64;
     settings.picture.filter = filter;
+    settings.seed = seed;
+    double sum = 0.0;
+    for (const Rgb& value : shade(stage, settings).color.pixels) sum += double{value.x};
+    return sum;
+}
+
+/// In the mean over seeds.
+double find_sum_of_samples(const Stage& stage, PixelFilter filter) {
     constexpr int seeds = 16;
     double sum = 0.0;
-    for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
-        for (const Rgb& value : shade(stage, settings).color.pixels) sum += double{value.x} / seeds;
-    }
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) sum += find_sum_of_samples(stage, filter, seed) / seeds;
     return sum;
 }
 
@@ -118,6 +124,20 @@ TEST(BrightSky, ASunThatNoCentreMeetsIsAsBrightAsItIs) {
     }
 }
 
+TEST(BrightSky, RaysAreEvenOverTheCellsOfASun) {
+    // Cells smaller than a pixel, and larger ones, of which its filter sees little of some.
+    constexpr int seeds = 16;
+    for (const auto& [width, most] : {std::pair{512, 0.008}, std::pair{64, 0.0015}}) {
+        const Sun sun{.x = width / 2, .y = width / 4, .width = width};
+        const Stage stage(sun.make_scene(Rgb(0.0f)), sun_picture_width, sun_picture_height);
+        const double mean = find_sum_of_samples(stage, PixelFilter::blackman_harris);
+        double squares = 0.0;
+        for (std::uint32_t seed = 0; seed < seeds; ++seed)
+            squares += std::pow(find_sum_of_samples(stage, PixelFilter::blackman_harris, seed) / mean - 1.0, 2.0);
+        EXPECT_LT(std::sqrt(squares / seeds), most) << width;
+    }
+}
+
 TEST(BrightSky, SurfacesCoverWhatLiesBehindThem) {
     // Half of the sun.
     const Sun sun{.x = 256, .y = 128};
@@ -141,6 +161,7 @@ TEST(BrightSky, EvenSkiesAndSlowChangesHaveNoPieces) {
     EXPECT_EQ(count([](int, int y) { return 0.01 * std::pow(1.5, std::abs(y - 64.0)); }), 0u) << "gradient";
     EXPECT_EQ(count([](int x, int y) { return (x + y) % 2 == 0 ? 1.0 : 0.3; }), 0u) << "clouds";
     EXPECT_EQ(count([](int x, int) { return x == 128 ? 0.4 : 0.0; }), 0u) << "dark";
+    EXPECT_EQ(count([](int x, int y) { return (x + y) % 2 == 0 ? 40.0 : 1.1; }), 0u) << "white";
     EXPECT_GT(count([](int x, int) { return x == 128 ? 40.0 : 0.0; }), 0u);
 }
 
