@@ -227,9 +227,7 @@ bool IrradianceCache::covers(const CacheQuery& query) const {
 
 /// 0 where the record must not be used.
 float IrradianceCache::weigh(const IrradianceRecord& record, const CacheQuery& query, float error, float accuracy) {
-    if (!is_usable(record, query, error, accuracy)) return 0.0f;
-    const float looser = std::max(1.0f, record.accuracy / accuracy);
-    return (1.0f - error / accuracy) / (looser * looser);
+    return is_usable(record, query, error, accuracy) ? 1.0f - error / accuracy : 0.0f;
 }
 
 std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {

@@ -41,8 +41,7 @@ std::optional<glm::dvec3> search_all(const IrradianceCache& cache, const CacheQu
     for (const IrradianceRecord& record : cache.records()) {
         const float error = interpolation_error(record, query.position, query.normal);
         if (!(error < accuracy) || is_beyond_clearance(record, query.position)) continue;
-        const double looser = std::max(1.0f, record.accuracy / accuracy);
-        const double weight = (1.0 - static_cast<double>(error) / accuracy) / (looser * looser);
+        const double weight = 1.0 - static_cast<double>(error) / accuracy;
         sum += glm::dvec3(extrapolate(record, query.position, query.normal)) * weight;
         total += weight;
     }
