@@ -9,7 +9,7 @@ namespace aleph {
 
 namespace {
 
-/// What shines, m in the frame's coordinates.
+/// A lamp, a point or a spot; m, in the frame's coordinates.
 struct ShadowedLight {
     BoundingSphere sphere;
     int instance = no_index, node = no_index;

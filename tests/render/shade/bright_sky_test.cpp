@@ -37,7 +37,7 @@ struct Sun {
         return scene;
     }
 
-    /// Of all pixels, by small squares of the four cells around the texel.
+    /// The sum over all pixels, by small squares of the four cells around the texel.
     double find_sum(const Stage& stage) const {
         constexpr int steps = 200;
         const double height = width / 2, pi_ = std::numbers::pi;
