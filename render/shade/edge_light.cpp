@@ -34,8 +34,9 @@ struct EdgeLimits {
 struct PieceInFilter {
     BrightPiece piece;
     PicturePolygon polygon;
-    double weight = 0.0;   ///< about its share of the filter
-    double density = 0.0;  ///< of its rays, per square pixel
+    double weight = 0.0;      ///< about its share of the filter
+    double brightness = 0.0;  ///< luminance, of the sky
+    double density = 0.0;     ///< of its rays, per square pixel
 };
 
 /// Returns whether a ray met one of the pieces.
@@ -114,18 +115,16 @@ class EdgeRays {
         for (int i = 0; i < places; ++i)
             part.weight += weigh(sample_polygon(part.polygon, lattice_point(i, places, {0.0f, 0.3f})));
         part.weight *= area / places;
+        if (piece.instance == no_index) part.brightness = double{edges_.cells->find_range(piece.primitive).most};
         return part;
     }
 
     /// Parts of the sky count by their brightness: the brightest as much as a lamp.
     void weigh_sky() {
-        const auto find_most = [&](const PieceInFilter& part) {
-            return part.piece.instance == no_index ? double{edges_.cells->find_range(part.piece.primitive).most} : 0.0;
-        };
         double most = 0.0;
-        for (const PieceInFilter& part : parts_) most = std::max(most, find_most(part));
+        for (const PieceInFilter& part : parts_) most = std::max(most, part.brightness);
         for (PieceInFilter& part : parts_)
-            if (part.piece.instance == no_index) part.weight *= find_most(part) / most;
+            if (part.piece.instance == no_index) part.weight *= part.brightness / most;
     }
 
     /// Density of the filter at a place of the picture.
