@@ -21,6 +21,9 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
     return x;
 }
 
+/// The largest number below 1.
+inline constexpr float below_one = 0x1.fffffep-1f;
+
 /// Uniform in [0, 1) with 24 bits: never 1, so that indices made from it stay in range.
 constexpr float unit_float(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;

@@ -78,7 +78,6 @@ class CellNumbers {
     static constexpr float plastic = 0.75487767f, plastic2 = 0.56984029f;
 
     float number(std::size_t dimension, float by_row, float by_column, int row, int column) const {
-        constexpr float below_one = 0x1.fffffep-1f;
         const float x = shifts_[dimension] + static_cast<float>(row) * by_row + static_cast<float>(column) * by_column;
         return std::min(fraction(x), below_one);
     }

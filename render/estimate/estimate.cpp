@@ -208,10 +208,14 @@ Rgb NodeIrradiance::at(const DiffuseSurface& surface, const glm::dvec2& pixel) c
     return found.irradiance + mean_ * (1.0f - found.confidence);
 }
 
-Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind) {
-    const SurfaceMaterial& material = surface.material;
-    if (kind == EstimateKind::flat) return material.emission + (material.diffuse + material.gloss.f0);
-    return material.emission + estimate_direct_light(context, task, surface, points_per_light(context.lights));
+Rgb estimate_radiance(const SightLine& line, RayTask& task, EstimateKind kind) {
+    const LightingContext& context = line.lighting();
+    const SurfaceMaterial& material = line.surface().material;
+    if (kind == EstimateKind::direct) {
+        const int points = points_per_light(context.lights);
+        return line.emission() + estimate_direct_light(context, task, line.surface(), points, line.followed());
+    }
+    return material.emission + material.diffuse + (line.followed() == LobeShares{} ? material.gloss.f0 : Rgb(0.0f));
 }
 
 Rgb estimate_surroundings(const ShadingScene& shading, const glm::vec3& direction, EstimateKind kind) {
@@ -232,7 +236,7 @@ struct EstimatedLight {
 
     Rgb of(const SightLine& line) const {
         const PixelSurface& surface = line.surface();
-        const Rgb radiance = estimate_radiance(line.lighting(), task, surface, kind) * exposure;
+        const Rgb radiance = estimate_radiance(line, task, kind) * exposure;
         if (indirect == nullptr) return radiance;
         const DiffuseSurface diffuse = make_diffuse_surface(surface);
         if (!(diffuse.footprint > 0.0f)) return radiance;

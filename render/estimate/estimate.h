@@ -10,6 +10,8 @@
 
 namespace aleph {
 
+class SightLine;
+
 /// Surface that indirect light finds at a pixel.
 struct DiffuseSurface {
     glm::vec3 position{0.0f};  ///< m, relative to the anchor
@@ -107,9 +109,9 @@ struct EstimateOptions {
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                             const EstimateOptions& options, RayCounts& counts);
 
-/// Returns the radiance that an estimate shows for a surface, without indirect light and exposure.
+/// Radiance that an estimate shows for the surface of a line of sight, without indirect light and exposure.
 /// @param task  its rays are those of Blend::cutout
-Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind);
+Rgb estimate_radiance(const SightLine& line, RayTask& task, EstimateKind kind);
 
 /// Returns the radiance that an estimate shows for what surrounds the scene, without exposure.
 Rgb estimate_surroundings(const ShadingScene& shading, const glm::vec3& direction, EstimateKind kind);

@@ -13,15 +13,7 @@ namespace {
 
 constexpr int most_surfaces = 16;
 constexpr float least_left = 0.01f;
-
-/// Glass passes light unless it reflects all of it.
-constexpr float passing_side = 0x1.fffffep-1f;
-
-constexpr LobeShares make_glass_share() {
-    LobeShares shares{};
-    shares[static_cast<int>(Lobe::glass)] = 1.0f;
-    return shares;
-}
+constexpr float least_blurred = 0.3f;  // of what rough surfaces reflect: metals, and others at grazing angles
 
 constexpr int most_layers = 4;
 constexpr float good_part = 0.1f;
@@ -60,7 +52,13 @@ bool SightLine::advance(RayCounts& counts) {
     const float before = last_.hit.distance;
     last_ = meet(counts);
     ++surfaces_;
-    if (last_.hit.instance == no_index) return false;
+    if (last_.hit.instance == no_index) {
+        const PathState& turned = way_.turned;
+        if (turned.emission == EmissionWeight::weighted && lighting_.lights.has_environment)
+            way_.left *=
+                power_heuristic(turned.pdf, pdf_environment(lighting_.shading, turned.from, way_.ray.direction));
+        return false;
+    }
     Hit hit = last_.hit;
     hit.distance += way_.travelled;
     surface_ = make_pixel_surface(lighting_.shading, start_.view, SamplePlace{}, hit, way_.ray.direction, start_.pixel);
@@ -74,10 +72,14 @@ bool SightLine::advance(RayCounts& counts) {
     way_.left *= transmit(way_.media.attenuation(surface_.point, material), last_.hit.distance - before);
     share_ = way_.left * last_.alpha;
     way_.left -= share_;
+    emission_ = met_emission(lighting_, way_.turned, surface_, last_.hit);
+    followed_ = {};
     if (material.is_mirror()) {
         note_reflection();
         material.gloss.f0 = Rgb(0.0f);  // what it reflects is met
         material.gloss.f90 = 0.0f;
+    } else if (material.has_glossy()) {
+        note_blurred_reflection();
     }
     if (material.has_glass()) pass_glass(counts);
     return true;
@@ -115,6 +117,23 @@ void SightLine::note_reflection() {
     turn(lit, direction, *reflected_);
 }
 
+void SightLine::note_blurred_reflection() {
+    const LitSurface lit(surface_);
+    const Rgb part = share_ * glossy_reflectance(lit.material, lit.cos_view) * lit.below_sheen;
+    if (!(largest_channel(part) > (reflected_ ? largest_channel(reflected_->left) : least_blurred))) return;
+    spread_ = true;
+    followed_ = only_lobe(Lobe::gloss);
+    const glm::vec2 u = lattice_point(number_, spread_lines, glm::vec2(0.0f));
+    const ScatterSample sample = sample_scatter(lit, followed_, 0.0f, u, 0.0f);
+    reflected_ = way_;
+    reflected_->left = share_ * sample.weight;
+    PathState& turned = reflected_->turned;
+    turned.emission = EmissionWeight::weighted;
+    turned.pdf = sample.pdf;
+    turned.from = {lit.point.ray_origin(), lit.point.normal};
+    turn(lit, sample.direction, *reflected_);
+}
+
 void SightLine::pass_glass(RayCounts& counts) {
     GlassLayer& glass = surface_.material.glass;
     const LitSurface lit(surface_);
@@ -132,7 +151,7 @@ void SightLine::pass_glass(RayCounts& counts) {
 
 void SightLine::turn_at_glass(const LitSurface& lit) {
     const glm::vec2 u = lattice_point(number_, spread_lines, glm::vec2(0.0f));
-    const ScatterSample sample = sample_scatter(lit, make_glass_share(), 0.0f, u, passing_side);
+    const ScatterSample sample = sample_scatter(lit, only_lobe(Lobe::glass), 0.0f, u, below_one);
     spread_ = spread_ || !lit.material.is_glass_smooth();
     if (sample.weight == Rgb(0.0f)) return;
     way_.left += share_ * (sample.passes ? sheet_transmittance(lit) : sample.weight);

@@ -3,6 +3,7 @@
 // blended surfaces and glass, and in mirrors.
 
 #include "render/light/light_choice.h"
+#include "render/path/path.h"
 #include "render/pixels/pixel_surfaces.h"
 
 namespace aleph {
@@ -19,13 +20,13 @@ struct SightStart {
 SightStart start_at_center(const CameraView& view, const SampleHits& centers, const glm::ivec2& pixel);
 
 /// The ray from surface to surface. Blended surfaces and smooth sheets of glass let it pass straight on, smooth walls
-/// of volumes refract it. Rough glass spreads it over several lines, of which this is one. What mirrors reflect
-/// is another way on; the reflections of glass are left out.
+/// of volumes refract it. Rough glass, and rough surfaces that reflect much, spread it over several lines, of which this
+/// is one. What is reflected is another way on; the reflections of glass are left out.
 class SightLine {
   public:
     /// Keeps references.
     /// @param tracer  of Blend::whole
-    /// @param number  which of spread_lines rough glass turns it to
+    /// @param number  which of spread_lines it is
     SightLine(const LightingContext& context, Tracer& tracer, const SightStart& start, int number = 0);
     static constexpr int spread_lines = 8;
 
@@ -40,12 +41,18 @@ class SightLine {
     const Rgb& share() const { return share_; }
     /// Light and media at the surface.
     const LightingContext& lighting() const { return lighting_; }
+    /// Emission of the surface: after a turn at a rough surface, less what sampling of lights finds there.
+    const Rgb& emission() const { return emission_; }
+    /// Lobes of the surface whose rays are followed.
+    const LobeShares& followed() const { return followed_; }
     /// Share of the light of what surrounds the scene, once there is no further surface, and the ray's direction.
     const Rgb& left() const { return way_.left; }
     const glm::vec3& direction() const { return way_.ray.direction; }
-    /// Share of the light of what `reflect` goes to.
-    Rgb reflected() const { return reflected_ ? reflected_->left : Rgb(0.0f); }
-    /// Returns whether it has met rough glass: others of its kind go elsewhere.
+    /// Share of the light of what `reflect` goes to, if that is a mirror's.
+    Rgb reflected() const {
+        return reflected_ && reflected_->turned.emission == EmissionWeight::full ? reflected_->left : Rgb(0.0f);
+    }
+    /// Returns whether others of spread_lines go elsewhere.
     bool is_spread() const { return spread_; }
 
   private:
@@ -55,11 +62,13 @@ class SightLine {
         Media media;             ///< of the ray, from the last surface on
         float travelled = 0.0f;  ///< m, by the rays before this one
         Rgb left{1.0f};
+        PathState turned{};  ///< at a rough surface that reflects; `full`: at none
     };
 
     Met meet(RayCounts& counts);
     void turn(const LitSurface& lit, const glm::vec3& direction, Way& way) const;
     void note_reflection();
+    void note_blurred_reflection();
     void pass_glass(RayCounts& counts);
     void turn_at_glass(const LitSurface& lit);
 
@@ -74,10 +83,11 @@ class SightLine {
     bool spread_ = false;
     int surfaces_ = 0;
     PixelSurface surface_;
-    Rgb share_{0.0f};
+    Rgb share_{0.0f}, emission_{0.0f};
+    LobeShares followed_{};
 };
 
-/// Sums the light along a pixel's line of sight, or where rough glass spreads it the mean of its lines.
+/// Sums the light along a pixel's line of sight, or where that is spread the mean of its lines.
 /// @param light  has of(line), the radiance of the line's surface, and beyond(direction), that of the surroundings
 template <class Light>
 Rgb add_along_lines(const Light& light, const LightingContext& context, Tracer& tracer, const SightStart& start,

@@ -239,7 +239,7 @@ struct LookLight {
 
     Rgb of(const SightLine& line) const {
         const PixelSurface& surface = line.surface();
-        const Rgb radiance = estimate_radiance(line.lighting(), task, surface, look.sharp.kind);
+        const Rgb radiance = estimate_radiance(line, task, look.sharp.kind);
         if (look.irradiance == nullptr) return radiance;
         DiffuseSurface diffuse = make_diffuse_surface(surface);
         if (!(diffuse.footprint > 0.0f)) return radiance;

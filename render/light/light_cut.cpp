@@ -8,8 +8,6 @@ namespace aleph {
 
 namespace {
 
-constexpr float below_one = 0x1.fffffep-1f;
-
 /// A cut while it is refined.
 struct Candidates {
     int size = 0;

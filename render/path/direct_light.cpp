@@ -21,9 +21,8 @@ Rgb find_unblocked(const LightingContext& context, RayTask& task, const LitSurfa
     return passed == Rgb(0.0f) ? passed : light * passed;
 }
 
-/// The quick estimate's choice: the same points for every pixel, and no lobe is sampled.
+/// The quick estimate's choice: the same points for every pixel.
 constexpr glm::vec2 estimate_shift{0.0f, 0.25f};
-constexpr LobeShares estimate_shares{};
 
 /// A narrow lobe would show single points of the fixed pattern as sparkles.
 ViewedSurface widen_lobes(ViewedSurface surface) {
@@ -76,8 +75,9 @@ class ChosenLights {
 
 /// The quick estimate of more than LightCut::few lights: samples of lights that are chosen, as many as the few would
 /// have.
-Rgb estimate_chosen_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples) {
-    ChosenLights lights(context, lit, estimate_shares);
+Rgb estimate_chosen_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples,
+                           const LobeShares& followed) {
+    ChosenLights lights(context, lit, followed);
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
     Rgb sum(0.0f);
     const int count = samples * LightCut::few;
@@ -87,7 +87,8 @@ Rgb estimate_chosen_lights(const LightingContext& context, RayTask& task, const 
 }
 
 /// The quick estimate of a few lights: samples of each.
-Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples) {
+Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples,
+                        const LobeShares& followed) {
     Rgb sum(0.0f);
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
     for (int light = 0; light < context.lights.count(); ++light) {
@@ -98,9 +99,9 @@ Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const Lit
             const LightSample sample = sample_seen_light(context.shading, context.lights, seen, receiver,
                                                          lattice_point(i, count, estimate_shift), share);
             if (!lit.is_reached(sample.direction)) continue;
-            sum += find_unblocked(
-                context, task, lit, sample,
-                scatter_towards(lit, sample.direction, sample.pdf, estimate_shares) * sample.incoming * share);
+            sum +=
+                find_unblocked(context, task, lit, sample,
+                               scatter_towards(lit, sample.direction, sample.pdf, followed) * sample.incoming * share);
         }
     }
     return sum;
@@ -119,11 +120,12 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
     return sum;
 }
 
-Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples) {
+Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples,
+                          const LobeShares& followed) {
     const ViewedSurface widened = widen_lobes(surface);
     const LitSurface lit(widened);
-    const bool few = context.lights.count() <= LightCut::few;
-    return few ? estimate_few_lights(context, task, lit, samples) : estimate_chosen_lights(context, task, lit, samples);
+    const auto& estimate = context.lights.count() <= LightCut::few ? estimate_few_lights : estimate_chosen_lights;
+    return estimate(context, task, lit, samples, followed);
 }
 
 }  // namespace aleph

@@ -4,11 +4,16 @@
 #include <cmath>
 #include <utility>
 
+#include "render/surface/glass.h"
+
 namespace aleph {
 
 namespace {
 
 constexpr float least_survival = 0.05f;
+
+/// Chance that the smaller part of the light at smooth glass is followed as well, times its weight; at most 1.
+constexpr float split_survival = 10.0f;
 
 /// Known irradiance may err by more than the pixel's accuracy where the path has little weight, and where a wide lobe
 /// averages over many places, but by no more than this.
@@ -20,34 +25,12 @@ float weigh(const PathState& state, float light_pdf) {
     return state.emission == EmissionWeight::full ? 1.0f : 0.0f;
 }
 
-/// Solid angle of the lobe that the path's last turn was sampled from, about, sr.
-float lobe_solid_angle(const PathState& state) {
-    return state.emission == EmissionWeight::weighted && state.pdf > 0.0f ? 1.0f / state.pdf : 0.0f;
-}
-
-/// alpha for look-ups. A path of weight w brings an error of w times that of the look-up to the pixel. The square root
-/// of w leaves room for surfaces that are brighter in the reflection than the pixel itself.
-float loosen_accuracy(const PathState& state) {
-    const float weight = std::min(largest_channel(state.throughput), 1.0f);
-    const float spread = std::sqrt(std::min(lobe_solid_angle(state), 1.0f));
-    const float loose = state.accuracy * (1.0f + spread) / std::sqrt(std::max(weight, 1e-3f));
-    return std::max(state.accuracy, std::min(loose, loosest_accuracy));
-}
-
-/// Emission of a surface that a ray met.
-Rgb met_emission(const LightingContext& context, const PathState& state, const ViewedSurface& surface, const Hit& hit) {
-    const Rgb& emission = surface.material.emission;
-    if (emission == Rgb(0.0f) || state.emission == EmissionWeight::none) return Rgb(0.0f);
-    const int emitter = context.lights.emitter_of_instance[hit.instance];
-    if (emitter == left_out_emitter) return emission;
-    if (emitter == no_index) return state.emission == EmissionWeight::full ? emission : Rgb(0.0f);  // unlit
-    float light_pdf = 0.0f;
-    if (state.emission == EmissionWeight::weighted) {
-        light_pdf = pdf_emitter(context.lights.emitters[emitter], state.from.position, hit,
-                                std::abs(glm::dot(surface.point.geometric, surface.view)),
-                                glm::distance(surface.point.position, state.from.position));
-    }
-    return emission * weigh(state, light_pdf);
+/// Light of the surroundings that a ray meets.
+Rgb met_surroundings(const LightingContext& context, const PathState& state, const glm::vec3& direction) {
+    if (!context.lights.has_environment || state.emission == EmissionWeight::none) return Rgb(0.0f);
+    const bool weighted = state.emission == EmissionWeight::weighted;
+    const float light_pdf = weighted ? pdf_environment(context.shading, state.from, direction) : 0.0f;
+    return environment_radiance(context.shading, direction) * weigh(state, light_pdf);
 }
 
 /// A path that is being made.
@@ -68,13 +51,40 @@ class Path {
             const LobeShares shares = share_lobes(lit, known ? LobeSet::specular : LobeSet::all);
             add_direct(lit, shares);
             if (shares == LobeShares{}) return;
-            const ScatterSample sample = sample_scatter(lit, shares, random_.next(), random_.next_2d(), random_.next());
+            const ScatterSample sample =
+                split(lit, sample_scatter(lit, shares, random_.next(), random_.next_2d(), random_.next()));
             // After the last bounce the ray still looks for lamps: near a large one, sampling it alone is noise.
             const bool last_bounce = state_.left.bounces <= 0 && sample.lobe == Lobe::diffuse;
             if (!follow(lit, sample, surface)) return;
             const bool last_surface = state_.left.depth == 0 && state_.emission == EmissionWeight::weighted;
             if (last_bounce || last_surface) return look_through(sample.direction, surface);
         }
+    }
+
+    /// Where smooth glass is seen sharply, follows what less of the light comes from: a lamp there is many times as
+    /// bright as what most samples would find. @return the sample of the rest, elsewhere the same
+    ScatterSample split(const LitSurface& lit, const ScatterSample& sample) {
+        const bool is_sharp = !state_.turned && state_.emission == EmissionWeight::full;
+        if (state_.splits <= 0 || !is_sharp || sample.lobe != Lobe::glass || sample.pdf > 0.0f) return sample;
+        const float reflected = glass_reflectance(lit.material, lit.cos_view);
+        if (!(reflected > 0.0f && reflected < 1.0f)) return sample;
+        const auto take = [&](bool passes) {
+            ScatterSample way = sample_scatter(lit, only_lobe(Lobe::glass), 0.0f, {}, passes ? below_one : 0.0f);
+            way.weight *= (passes ? 1.0f - reflected : reflected) / sample.share;
+            return way;
+        };
+        const bool most_passes = reflected < 0.5f;
+        ScatterSample less = take(!most_passes);
+        --state_.splits;
+        const float chance = std::min(split_survival * largest_channel(state_.throughput * less.weight), 1.0f);
+        if (random_.next() < chance) {
+            less.weight /= chance;
+            Path branch(context_, task_, state_, random_);
+            ViewedSurface next;
+            if (branch.follow(lit, less, next)) branch.scatter_at(next);
+            light_ += branch.light_;
+        }
+        return take(most_passes);
     }
 
     /// Casts the ray of a sample and adds the emission that it meets. True if it met a surface, which is then `next`.
@@ -106,13 +116,7 @@ class Path {
             if (state_.throughput == Rgb(0.0f)) return false;
         }
         if (hit.instance == no_index) {
-            if (context_.lights.has_environment && state_.emission != EmissionWeight::none) {
-                const float pdf = state_.emission == EmissionWeight::weighted
-                                      ? pdf_environment(context_.shading, state_.from, ray.direction)
-                                      : 0.0f;
-                light_ +=
-                    state_.throughput * environment_radiance(context_.shading, ray.direction) * weigh(state_, pdf);
-            }
+            light_ += state_.throughput * met_surroundings(context_, state_, ray.direction);
             return false;
         }
         next = view_surface(context_.shading, make_surface_point(context_.shading, hit, ray.direction), -ray.direction,
@@ -149,9 +153,14 @@ class Path {
             return state_.throughput * diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen;
         };
         const std::optional<Rgb> irradiance =
-            known->find(surface, hit_, loosen_accuracy(state_), scattered(Rgb(1.0f)), task_);
+            known->find(surface, hit_, look_up_accuracy(), scattered(Rgb(1.0f)), task_);
         if (irradiance) light_ += scattered(*irradiance);
         return irradiance.has_value();
+    }
+
+    float look_up_accuracy() const {
+        const float pdf = state_.emission == EmissionWeight::weighted ? state_.pdf : 0.0f;
+        return loosen_accuracy(state_.accuracy, largest_channel(state_.throughput), pdf);
     }
 
     void add_direct(const LitSurface& lit, const LobeShares& shares) {
@@ -187,6 +196,27 @@ class Path {
 
 }  // namespace
 
+float loosen_accuracy(float accuracy, float weight, float pdf) {
+    const float spread = pdf > 0.0f ? std::sqrt(std::min(1.0f / pdf, 1.0f)) : 0.0f;
+    const float loose = accuracy * (1.0f + spread) / std::sqrt(std::clamp(weight, 1e-3f, 1.0f));
+    return std::max(accuracy, std::min(loose, loosest_accuracy));
+}
+
+Rgb met_emission(const LightingContext& context, const PathState& state, const ViewedSurface& surface, const Hit& hit) {
+    const Rgb& emission = surface.material.emission;
+    if (emission == Rgb(0.0f) || state.emission == EmissionWeight::none) return Rgb(0.0f);
+    const int emitter = context.lights.emitter_of_instance[hit.instance];
+    if (emitter == left_out_emitter) return emission;
+    if (emitter == no_index) return state.emission == EmissionWeight::full ? emission : Rgb(0.0f);  // unlit
+    float light_pdf = 0.0f;
+    if (state.emission == EmissionWeight::weighted) {
+        light_pdf = pdf_emitter(context.lights.emitters[emitter], state.from.position, hit,
+                                std::abs(glm::dot(surface.point.geometric, surface.view)),
+                                glm::distance(surface.point.position, state.from.position));
+    }
+    return emission * weigh(state, light_pdf);
+}
+
 Rgb scatter_light(const LightingContext& context, RayTask& task, ViewedSurface surface, PathState state,
                   RandomStream& random) {
     Path path(context, task, state, random);
@@ -198,7 +228,7 @@ Rgb follow_sample(const LightingContext& context, RayTask& task, const LitSurfac
                   PathState state, RandomStream& random) {
     Path path(context, task, state, random);
     ViewedSurface next;
-    if (path.follow(lit, sample, next)) path.scatter_at(next);
+    if (path.follow(lit, path.split(lit, sample), next)) path.scatter_at(next);
     return path.light();
 }
 

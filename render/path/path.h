@@ -24,6 +24,12 @@ struct KnownIrradiance {
     const KnownIrradiance* fewer = nullptr;  ///< light of fewer bounces; null: none is known
 };
 
+/// alpha for look-ups along a path. One of weight w brings an error of w times that of the look-up to the pixel. The
+/// square root of w leaves room for surfaces that are brighter in a reflection than the pixel itself.
+/// @param accuracy  alpha of the pixel
+/// @param pdf       of the path's last turn, per steradian: a wide lobe averages over many places; 0 for a mirror
+float loosen_accuracy(float accuracy, float weight, float pdf);
+
 /// How far paths go on.
 struct PathLimits {
     int bounces = 0;  ///< times that a Lambert layer may turn the path
@@ -46,6 +52,7 @@ struct PathState {
     Receiver from{};         ///< where it turned
     int roulette_after = 4;  ///< surfaces that scatter before Russian roulette may end the path
     float survival = 1.0f;   ///< chance to survive it, times the path's weight; at most 1
+    int splits = 0;          ///< times that both parts of the light at smooth glass may be followed
     bool turned = false;     ///< at a Lambert layer
     Media media{};
     /// Used at surfaces that the path meets while the bounces that are left are those that it holds; null: nothing is
@@ -61,6 +68,9 @@ struct PathState {
 inline PathState start_indirect(const PathLimits& left, const Media& media) {
     return {.left = left, .emission = EmissionWeight::none, .turned = true, .media = media};
 }
+
+/// Emission of a surface that the path's last ray meets.
+Rgb met_emission(const LightingContext& context, const PathState& state, const ViewedSurface& surface, const Hit& hit);
 
 /// Light that the surface scatters towards its viewer, without its own emission.
 Rgb scatter_light(const LightingContext& context, RayTask& task, ViewedSurface surface, PathState state,
@@ -93,7 +103,9 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
 /// Direct light from a fixed pattern of points on each light. The pattern is the same for every pixel, so the result
 /// has no noise that the model of vision would take for detail. Biased: penumbrae come in steps, and narrow highlights
 /// are widened. More than 16 lights share the samples that 16 would have.
-/// @param samples  per light that has an area
-Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples);
+/// @param samples   per light that has an area
+/// @param followed  lobes whose rays find lights as well (scatter_towards)
+Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples,
+                          const LobeShares& followed = {});
 
 }  // namespace aleph

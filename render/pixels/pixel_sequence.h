@@ -20,7 +20,6 @@ inline float fraction(float x) {
 /// In [0,1)^2.
 inline glm::vec2 lattice_point(int i, int n, const glm::vec2& shift) {
     constexpr float golden = 0.61803398875f;
-    constexpr float below_one = 0x1.fffffep-1f;
     return {std::min(fraction((static_cast<float>(i) + 0.5f) / static_cast<float>(n) + shift.x), below_one),
             std::min(fraction(static_cast<float>(i) * golden + shift.y), below_one)};
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/base/parallel.h"
+#include "engine/base/sampling.h"
 #include "render/settings/numbers.h"
 #include "render/surface/environment_cells.h"
 #include "render/surface/texture_texels.h"
@@ -12,8 +13,6 @@
 namespace aleph {
 
 namespace {
-
-constexpr float below_one = 0x1.fffffep-1f;
 
 /// In [0,1)^2, v downwards.
 glm::vec2 to_uv(const glm::vec3& direction) {

@@ -7,11 +7,6 @@ namespace aleph {
 
 namespace {
 
-float reflectance(const SurfaceMaterial& material, float cosine) {
-    const float full = dielectric_reflectance(cosine, material.glass.ior_ratio);
-    return full < 1.0f ? std::min(1.0f, full * material.glass.specular) : 1.0f;
-}
-
 /// The direction behind the surface that refraction by the half vector leads to; 0 at total reflection.
 glm::vec3 refract(const glm::vec3& view, const glm::vec3& h, float ratio) {
     const float c = glm::dot(view, h), inverse = 1.0f / ratio;
@@ -55,6 +50,11 @@ LobeValue evaluate_refracted(const SurfaceMaterial& material, const glm::vec3& v
 
 }  // namespace
 
+float glass_reflectance(const SurfaceMaterial& material, float cosine) {
+    const float full = dielectric_reflectance(cosine, material.glass.ior_ratio);
+    return full < 1.0f ? std::min(1.0f, full * material.glass.specular) : 1.0f;
+}
+
 LobeValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
     if (!(view.z > 0.0f) || light.z == 0.0f || material.is_glass_smooth()) return {};
     const bool passes = light.z < 0.0f;
@@ -64,7 +64,7 @@ LobeValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view,
     const glm::vec3 sum = view + mirrored;
     const float length = glm::length(sum);
     const glm::vec2 widths = material.widths();
-    const float reflected = reflectance(material, 0.5f * length);
+    const float reflected = glass_reflectance(material, 0.5f * length);
     const float share = passes ? 1.0f - reflected : reflected;
     const float d = share * ggx_d(widths, sum / length) / (4.0f * view.z);
     return {(passes ? material.glass.tint : Rgb(1.0f)) * (d * material.glass.share * smith_g2(widths, view, mirrored)),
@@ -76,7 +76,7 @@ GlassSample sample_glass(const SurfaceMaterial& material, const glm::vec3& view,
     const glm::vec3 h = smooth ? glm::vec3(0.0f, 0.0f, 1.0f) : sample_visible_normal(material.widths(), view, u);
     const float vh = glm::dot(view, h);
     const glm::vec3 reflected = 2.0f * vh * h - view;
-    if (side < reflectance(material, vh)) {
+    if (side < glass_reflectance(material, vh)) {
         if (!(reflected.z > 0.0f)) return {};
         return {reflected, smooth ? Rgb(material.glass.share) : Rgb(0.0f)};
     }
@@ -86,7 +86,7 @@ GlassSample sample_glass(const SurfaceMaterial& material, const glm::vec3& view,
 }
 
 Rgb evaluate_sheet(const SurfaceMaterial& material, float cos_view) {
-    return material.glass.tint * (material.glass.share * (1.0f - reflectance(material, cos_view)));
+    return material.glass.tint * (material.glass.share * (1.0f - glass_reflectance(material, cos_view)));
 }
 
 }  // namespace aleph

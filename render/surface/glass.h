@@ -14,6 +14,10 @@ struct LobeValue {
     float pdf = 0.0f;
 };
 
+/// Share of the light that an interface reflects.
+/// @param cosine  of the view with the microfacet's normal
+float glass_reflectance(const SurfaceMaterial& material, float cosine);
+
 /// 0 for glass without roughness.
 LobeValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light);
 

@@ -162,6 +162,7 @@ ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, fl
     ScatterSample sample;
     if (!(share > 0.0f)) return sample;
     const SurfaceMaterial& material = lit.material;
+    sample.share = share;
     sample.lobe = static_cast<Lobe>(chosen);
     const bool needs_view = sample.lobe != Lobe::diffuse && sample.lobe != Lobe::coat;
     if (needs_view && !(lit.view.z > 0.0f)) return sample;

@@ -52,6 +52,12 @@ struct LitSurface {
 /// Probability of each lobe; they sum to 1, or are all 0 where nothing scatters.
 using LobeShares = std::array<float, lobe_count>;
 
+constexpr LobeShares only_lobe(Lobe lobe) {
+    LobeShares shares{};
+    shares[static_cast<int>(lobe)] = 1.0f;
+    return shares;
+}
+
 /// Shares in proportion to the lobes' approximate albedos.
 LobeShares share_lobes(const LitSurface& lit, LobeSet set);
 
@@ -65,6 +71,7 @@ Rgb scatter_towards(const LitSurface& lit, const glm::vec3& direction, float pdf
 struct ScatterSample {
     glm::vec3 direction{0.0f};  ///< unit, world
     Rgb weight{0.0f};           ///< f cos / density; 0: nothing is scattered
+    float share = 0.0f;         ///< probability of its lobe
     float pdf = 0.0f;  ///< per steradian, of this lobe times its share; 0 for a mirror, glass without roughness
     Lobe lobe = Lobe::diffuse;
     bool passes = false;    ///< through the surface

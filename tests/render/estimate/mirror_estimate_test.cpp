@@ -1,5 +1,7 @@
 // The quick estimate of mirrors: they show what they reflect.
 
+#include <numbers>
+
 #include "render/estimate/estimate.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
@@ -11,7 +13,8 @@ constexpr int mirror_side = 4;  // pixels
 constexpr double near_radiance = 0.3, far_radiance = 0.7, metal_color = 0.8, dielectric_reflects = 0.04;
 
 /// Radiance of what the camera sees, which looks down from a height of 3 m.
-Rgb estimate_below(Scene& scene) {
+/// @param spread  by which pixels may differ
+Rgb estimate_below(Scene& scene, double spread = 1e-5) {
     add_camera(scene, {0.0, 3.0, 0.0}, glm::dvec3(0.0));
     scene.cameras[0].orthographic = true;
     scene.cameras[0].half_height = 0.2;
@@ -19,7 +22,7 @@ Rgb estimate_below(Scene& scene) {
     RayCounts counts;
     const Image<Rgb> seen =
         compute_estimate(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), {}, counts);
-    for (const Rgb& pixel : seen.pixels) EXPECT_NEAR(pixel.x, seen(1, 1).x, 1e-5f);
+    for (const Rgb& pixel : seen.pixels) EXPECT_NEAR(pixel.x, seen(1, 1).x, spread);
     return seen(1, 1);
 }
 
@@ -80,6 +83,43 @@ TEST(MirrorEstimate, PolishedFloorsReflect) {
     add_sheet(scene, 0.0, add_smooth(scene, 0.0, 0.0, 0.0));
     add_sheet(scene, 4.0, add_unlit(scene, far_radiance));
     EXPECT_NEAR(estimate_below(scene).x, dielectric_reflects * far_radiance, 1e-5);
+}
+
+/// A ceiling that lights from below reach beside the metal: without it the metal would have the threshold of darkness.
+TEST(MirrorEstimate, RoughMetalShowsWhatItReflects) {
+    constexpr double irradiance = 3.0, albedo = 0.5;
+    const auto estimate_at = [&](double roughness) {
+        Scene scene;
+        const int metal = add_smooth(scene, metal_color, 1.0, 0.0);
+        scene.materials[metal].gloss.roughness = roughness;
+        add_mesh(scene, make_quad(1.0, 1.0, metal), {0.0, 0.0, 0.0}, z_to_up);
+        add_mesh(scene, make_quad(60.0, 60.0, add_lambert(scene, glm::dvec3(albedo))), {0.0, 4.0, 0.0}, z_to_down);
+        const glm::dvec3 upwards = glm::normalize(glm::dvec3(1.0, 1.0, 0.0));
+        add_light(scene, Light::Kind::directional, glm::dvec3(irradiance / upwards.y), glm::dvec3(0.0),
+                  glm::quatLookAt(upwards, {0.0, 0.0, 1.0}));
+        return estimate_below(scene, 1e-3).x;
+    };
+    const double shown = metal_color * albedo * irradiance / std::numbers::pi;
+    EXPECT_NEAR(estimate_at(0.0), shown, 1e-5);
+    EXPECT_NEAR(estimate_at(0.3), shown, 0.03 * shown);
+    EXPECT_NEAR(estimate_at(0.6), shown, 0.2 * shown);  // microfacets hide each other, and the lobe is a few lines
+}
+
+/// By points on lamps or by rays of the lobe, whatever is more likely to find them.
+TEST(MirrorEstimate, RoughMetalShowsLampsAndSurroundingsOnce) {
+    constexpr double shown = metal_color * far_radiance;
+    for (const double roughness : {0.3, 0.5}) {
+        Scene lamp, surroundings;
+        for (Scene* scene : {&lamp, &surroundings}) {
+            const int metal = add_smooth(*scene, metal_color, 1.0, 0.0);
+            scene->materials[metal].gloss.roughness = roughness;
+            add_sheet(*scene, 0.0, metal);
+        }
+        add_lamp(lamp, 60.0, glm::dvec3(far_radiance), {0.0, 4.0, 0.0}, z_to_down);
+        surroundings.environment.radiance = Track<glm::dvec3>{glm::dvec3(far_radiance)};
+        EXPECT_NEAR(estimate_below(lamp, 0.02).x, shown, 0.15 * shown) << roughness;
+        EXPECT_NEAR(estimate_below(surroundings, 1e-3).x, shown, 0.15 * shown) << roughness;
+    }
 }
 
 /// Light of one bounce is gathered where the mirror shows it.

@@ -166,6 +166,31 @@ TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
     }
 }
 
+/// A sheet under a large lamp and above a dark floor: one sample of many would be reflected, and each follows both
+/// ways.
+TEST(PathWeights, SmoothGlassIsFollowedBothWays) {
+    const Stage stage(make_surroundings(Surroundings::large_lamp));
+    SurfaceMaterial sheet = make_rough_sheet();
+    sheet.gloss.alpha = 0.0f;
+    const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), sheet, up};
+    const auto follow = [](int splits) {
+        return [=](const Stage& on, RayTask& task, const ViewedSurface& seen, RandomStream& random) {
+            const LitSurface lit(seen);
+            PathState state{.left = {1, 0}, .splits = splits};  // sees lamps alone
+            const ScatterSample sample = sample_scatter(lit, share_lobes(lit, LobeSet::specular), random);
+            return follow_sample(on.lighting(), task, lit, sample, state, random);
+        };
+    };
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const int count = trial.times(20'000);
+        const Mean chosen = estimate(stage, surface, count, follow(0), 1 + trial.seed);
+        const Mean both = estimate(stage, surface, count, follow(3), 2 + trial.seed);
+        EXPECT_GT(both.mean(), 0.05);
+        EXPECT_LT(both.error(), 0.5 * chosen.error());
+        trial.near(both, chosen);
+    }));
+}
+
 /// A floor under a lamp, with a sheet of glass between them.
 Scene make_sheet_scene(double roughness, double lamp_side = 1.0) {
     Scene scene;
