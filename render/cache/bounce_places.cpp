@@ -8,7 +8,6 @@
 #include "engine/base/pixel_loops.h"
 #include "render/cache/further_bounces.h"
 #include "render/path/path.h"
-#include "render/pixels/pixel_sequence.h"
 #include "render/surface/scatter.h"
 
 namespace aleph {
@@ -36,9 +35,8 @@ std::optional<PixelSurface> find_in_tile(const IndirectContext& context, const S
 }
 
 constexpr float narrow_alpha = 0.0625f;  // GGX width up to which a lobe counts as a mirror: roughness .25
-constexpr float least_weight = 0.1f;     // share of the light that has to come this way
+constexpr float least_weight = 0.1f;     // share of the light that mirrors have to reflect
 constexpr int most_turns = 8;
-constexpr int numbers_of_turns = 1 << 12;  // pixels so far apart have nearly the same
 
 /// The surface with narrow lobes as mirrors.
 ViewedSurface narrow_lobes(ViewedSurface surface) {
@@ -48,15 +46,17 @@ ViewedSurface narrow_lobes(ViewedSurface surface) {
     return surface;
 }
 
-/// The turn by which most light comes that the Lambert layer does not scatter; weight 0 if there is none.
-/// @param u  chooses the directions of lobes that are no mirrors
-ScatterSample choose_turn(const LitSurface& lit, const glm::vec2& u) {
+/// The turn at a mirror by which most light comes; weight 0 if there is none.
+ScatterSample choose_turn(const LitSurface& lit) {
     ScatterSample best;
-    const LobeShares shares = share_lobes(lit, LobeSet::specular);
-    // Glass is looked through, unless it reflects everything.
-    for (int lobe = 0; lobe < lobe_count; ++lobe) {
-        if (!(shares[lobe] > 0.0f)) continue;
-        const ScatterSample turn = sample_scatter(lit, only_lobe(static_cast<Lobe>(lobe)), 0.0f, u, below_one);
+    for (const Lobe lobe : {Lobe::gloss, Lobe::coat, Lobe::glass}) {
+        const SurfaceMaterial& material = lit.material;
+        const bool is_smooth = lobe == Lobe::gloss  ? material.has_glossy() && material.is_mirror()
+                               : lobe == Lobe::coat ? material.has_coat() && material.is_coat_mirror()
+                                                    : material.has_glass() && material.is_glass_smooth();
+        if (!is_smooth) continue;
+        // Glass is looked through, unless it reflects everything.
+        const ScatterSample turn = sample_scatter(lit, only_lobe(lobe), 0.0f, glm::vec2(0.0f), below_one);
         if (largest_channel(turn.weight) > largest_channel(best.weight)) best = turn;
     }
     return best;
@@ -67,29 +67,26 @@ struct Arrival {
     Hit hit;  ///< its distance is that of the whole path, m
     glm::vec3 direction{0.0f};
     float weight = 0.0f;  ///< of the path
-    float pdf = 0.0f;     ///< of its last turn, per steradian; 0 for a mirror
     ViewedSurface surface;
 };
 
-/// Follows mirrors and other lobes from a pixel's surface.
-std::optional<Arrival> follow_turns(const IndirectContext& context, const PixelSurface& first, RayTask& task) {
+/// Follows mirrors from a pixel's surface.
+std::optional<Arrival> follow_mirrors(const IndirectContext& context, const PixelSurface& first, RayTask& task) {
     const ShadingScene& shading = context.lighting.shading;
     const int turns = std::min(most_turns, context.settings.light.path_depth - 1 - count_bounces(context.settings));
-    const glm::vec2 u = lattice_point(static_cast<int>(first.pixel), numbers_of_turns, glm::vec2(0.0f));
-    Arrival end{first.hit, -first.view, 1.0f, 0.0f, first};
+    Arrival end{first.hit, -first.view, 1.0f, first};
     float distance = first.distance;
     Media media = context.lighting.around;
     for (int turn = 0; turn < turns; ++turn) {
         ViewedSurface mirror = narrow_lobes(end.surface);
         if (mirror.material.glass.volume) mirror.material.glass.ior_ratio = media.ratio_at(mirror);
         const LitSurface lit(mirror);
-        const ScatterSample sample = choose_turn(lit, u);
-        end.pdf = sample.pdf;
+        const ScatterSample sample = choose_turn(lit);
         end.weight *= largest_channel(sample.weight);
         if (!(end.weight >= least_weight)) return std::nullopt;
         if (sample.passes && mirror.material.glass.volume) media.pass(mirror.point, mirror.material);
         end.direction = sample.direction;
-        ++(end.pdf > 0.0f ? task.counts.glossy : task.counts.specular);
+        ++task.counts.specular;
         end.hit = task.tracer.intersect({lit.ray_origin(end.direction), end.direction});
         if (end.hit.instance == no_index) return std::nullopt;
         end.hit.distance = distance += end.hit.distance;
@@ -179,9 +176,9 @@ MirrorPlaces cast_mirror_places(const IndirectContext& context, const SampleHits
             if (sample.hits(x, y).instance == no_index) continue;
             const std::optional<PixelSurface> first = find_surface(context, sample, x, y);
             if (!first || !first->material.has_specular()) continue;
-            const std::optional<Arrival> arrival = follow_turns(context, *first, task);
+            const std::optional<Arrival> arrival = follow_mirrors(context, *first, task);
             if (!arrival) continue;
-            const float accuracy = loosen_accuracy(context.accuracy(x, y), arrival->weight, arrival->pdf);
+            const float accuracy = loosen_accuracy(context.accuracy(x, y), arrival->weight, 0.0f);
             PixelSurface place{arrival->surface};
             place.hit = arrival->hit;
             if (context.carried != nullptr && context.carried->find(place, accuracy, task)) continue;

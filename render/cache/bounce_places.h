@@ -1,6 +1,6 @@
 #pragma once
 // Places beside the pixels' own at which irradiance is needed: what gather rays hit needs light of further bounces, and
-// what mirrors, glass and gloss show needs light as what is in plain sight (KnownIrradiance).
+// what mirrors and smooth glass show needs light as what is in plain sight (KnownIrradiance).
 
 #include <vector>
 
@@ -29,7 +29,7 @@ PixelSurface make_bounce_surface(const ShadingScene& shading, const BouncePlaces
 /// The places to fill a cache at. They refer to `shading` and `places`.
 FillPlaces make_fill_places(const ShadingScene& shading, const BouncePlaces& places);
 
-/// Places of the scene that mirrors, glass and gloss show.
+/// Places of the scene that mirrors, smooth glass and lobes about as narrow show.
 struct MirrorPlaces {
     /// As many as pixels; distances count from the camera along the whole path. Nothing where a pixel shows no surface
     /// with a Lambert layer that way, or its light is known (CarriedLight).
@@ -39,8 +39,7 @@ struct MirrorPlaces {
 };
 
 /// One for each pixel of a sample: its path takes the brightest turn at every surface, up to the first one with a
-/// Lambert layer. Narrow lobes count as mirrors, and others turn each pixel's path to a direction of its own. Footprints
-/// are those of flat mirrors.
+/// Lambert layer. Footprints are those of flat mirrors.
 /// @param sample  cast in the pose whose light is wanted
 MirrorPlaces cast_mirror_places(const IndirectContext& context, const SampleHits& sample, RayCounts& counts);
 

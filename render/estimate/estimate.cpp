@@ -218,8 +218,9 @@ Rgb estimate_radiance(const SightLine& line, RayTask& task, EstimateKind kind) {
     return material.emission + material.diffuse + (line.followed() == LobeShares{} ? material.gloss.f0 : Rgb(0.0f));
 }
 
-Rgb estimate_surroundings(const ShadingScene& shading, const glm::vec3& direction, EstimateKind kind) {
-    return kind == EstimateKind::direct ? environment_radiance(shading, direction) : Rgb(1.0f);
+Rgb estimate_surroundings(const SightLine& line, EstimateKind kind) {
+    if (kind == EstimateKind::flat) return Rgb(1.0f);
+    return environment_radiance(line.lighting().shading, line.direction()) * line.weight_beyond();
 }
 
 namespace {
@@ -227,12 +228,11 @@ namespace {
 /// The light that a line of sight meets, times exposure.
 struct EstimatedLight {
     RayTask& task;
-    const ShadingScene& shading;
     EstimateKind kind;
     const NodeIrradiance* indirect;  ///< null: none
     float exposure;
 
-    Rgb beyond(const glm::vec3& direction) const { return estimate_surroundings(shading, direction, kind) * exposure; }
+    Rgb beyond(const SightLine& line) const { return estimate_surroundings(line, kind) * exposure; }
 
     Rgb of(const SightLine& line) const {
         const PixelSurface& surface = line.surface();
@@ -260,7 +260,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     const auto exposure = static_cast<float>(options.exposure);
     const auto estimate_row = [&](int y, RayTask& task) {
         Tracer whole(context.rays, Blend::whole);
-        const EstimatedLight light{task, context.shading, kind, indirect ? &*indirect : nullptr, exposure};
+        const EstimatedLight light{task, kind, indirect ? &*indirect : nullptr, exposure};
         for (int x = 0; x < view.width; ++x) {
             const SightStart start = start_at_center(view, centers, {x, y});
             estimate(x, y) = add_along_lines(light, lighting, whole, start, task.counts);

@@ -114,7 +114,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
 Rgb estimate_radiance(const SightLine& line, RayTask& task, EstimateKind kind);
 
 /// Returns the radiance that an estimate shows for what surrounds the scene, without exposure.
-Rgb estimate_surroundings(const ShadingScene& shading, const glm::vec3& direction, EstimateKind kind);
+Rgb estimate_surroundings(const SightLine& line, EstimateKind kind);
 
 /// 0.18 / exp(mean log Y) over the pixels of an estimate with Y > 0; nothing if there are none.
 std::optional<double> compute_exposure(const Image<Rgb>& estimate);

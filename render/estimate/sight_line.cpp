@@ -54,9 +54,10 @@ bool SightLine::advance(RayCounts& counts) {
     ++surfaces_;
     if (last_.hit.instance == no_index) {
         const PathState& turned = way_.turned;
-        if (turned.emission == EmissionWeight::weighted && lighting_.lights.has_environment)
-            way_.left *=
-                power_heuristic(turned.pdf, pdf_environment(lighting_.shading, turned.from, way_.ray.direction));
+        const bool weighted = turned.emission == EmissionWeight::weighted && lighting_.lights.has_environment;
+        weight_beyond_ =
+            weighted ? power_heuristic(turned.pdf, pdf_environment(lighting_.shading, turned.from, way_.ray.direction))
+                     : 1.0f;
         return false;
     }
     Hit hit = last_.hit;
@@ -110,18 +111,23 @@ void SightLine::note_reflection() {
     const LitSurface lit(surface_);
     const glm::vec3 direction = lit.basis.to_world({-lit.view.x, -lit.view.y, lit.view.z});
     if (!(lit.view.z > 0.0f && glm::dot(lit.point.geometric, direction) > 0.0f)) return;
+    if (reflected_ && reflected_->turned.emission == EmissionWeight::weighted) return;
     const Rgb left = share_ * glossy_reflectance(lit.material, lit.view.z) * lit.below_both(direction);
     if (!(largest_channel(left) > (reflected_ ? largest_channel(reflected_->left) : least_left))) return;
     reflected_ = way_;
     reflected_->left = left;
+    reflected_->turned = {};
     turn(lit, direction, *reflected_);
 }
 
 void SightLine::note_blurred_reflection() {
-    const LitSurface lit(surface_);
+    if (blurred_ || reflected_) return;
+    ViewedSurface widened = surface_;
+    widened.material.gloss.alpha = std::max(widened.material.gloss.alpha, min_estimate_alpha);
+    const LitSurface lit(widened);
     const Rgb part = share_ * glossy_reflectance(lit.material, lit.cos_view) * lit.below_sheen;
-    if (!(largest_channel(part) > (reflected_ ? largest_channel(reflected_->left) : least_blurred))) return;
-    spread_ = true;
+    if (!(largest_channel(part) > least_blurred)) return;
+    spread_ = blurred_ = true;
     followed_ = only_lobe(Lobe::gloss);
     const glm::vec2 u = lattice_point(number_, spread_lines, glm::vec2(0.0f));
     const ScatterSample sample = sample_scatter(lit, followed_, 0.0f, u, 0.0f);
@@ -155,6 +161,7 @@ void SightLine::turn_at_glass(const LitSurface& lit) {
     spread_ = spread_ || !lit.material.is_glass_smooth();
     if (sample.weight == Rgb(0.0f)) return;
     way_.left += share_ * (sample.passes ? sheet_transmittance(lit) : sample.weight);
+    way_.turned = {};
     turn(lit, sample.direction, way_);
     last_ = {};
     if (sample.passes && lit.material.glass.volume) way_.media.pass(surface_.point, lit.material);

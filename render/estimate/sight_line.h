@@ -20,8 +20,8 @@ struct SightStart {
 SightStart start_at_center(const CameraView& view, const SampleHits& centers, const glm::ivec2& pixel);
 
 /// The ray from surface to surface. Blended surfaces and smooth sheets of glass let it pass straight on, smooth walls
-/// of volumes refract it. Rough glass, and rough surfaces that reflect much, spread it over several lines, of which this
-/// is one. What is reflected is another way on; the reflections of glass are left out.
+/// of volumes refract it. Rough glass, and rough surfaces that reflect much, spread it over several lines, of which
+/// this is one. What is reflected is another way on; the reflections of glass are left out.
 class SightLine {
   public:
     /// Keeps references.
@@ -48,6 +48,9 @@ class SightLine {
     /// Share of the light of what surrounds the scene, once there is no further surface, and the ray's direction.
     const Rgb& left() const { return way_.left; }
     const glm::vec3& direction() const { return way_.ray.direction; }
+    /// Weight of the surroundings: after a turn at a rough surface less than 1, as sampling of lights finds them as
+    /// well.
+    float weight_beyond() const { return weight_beyond_; }
     /// Share of the light of what `reflect` goes to, if that is a mirror's.
     Rgb reflected() const {
         return reflected_ && reflected_->turned.emission == EmissionWeight::full ? reflected_->left : Rgb(0.0f);
@@ -81,6 +84,8 @@ class SightLine {
     Met last_{};                    ///< on this ray
     bool known_ = false;            ///< it is a first hit
     bool spread_ = false;
+    bool blurred_ = false;  ///< a rough surface's reflection is noted or followed, of which there is one at most
+    float weight_beyond_ = 1.0f;
     int surfaces_ = 0;
     PixelSurface surface_;
     Rgb share_{0.0f}, emission_{0.0f};
@@ -88,7 +93,7 @@ class SightLine {
 };
 
 /// Sums the light along a pixel's line of sight, or where that is spread the mean of its lines.
-/// @param light  has of(line), the radiance of the line's surface, and beyond(direction), that of the surroundings
+/// @param light  has of(line), the radiance of the line's surface, and beyond(line), that of the surroundings
 template <class Light>
 Rgb add_along_lines(const Light& light, const LightingContext& context, Tracer& tracer, const SightStart& start,
                     RayCounts& counts) {
@@ -97,7 +102,7 @@ Rgb add_along_lines(const Light& light, const LightingContext& context, Tracer& 
         SightLine line(context, tracer, start, i);
         do {
             while (line.advance(counts)) sum += line.share() * light.of(line);
-            if (line.left() != Rgb(0.0f)) sum += line.left() * light.beyond(line.direction());
+            if (line.left() != Rgb(0.0f)) sum += line.left() * light.beyond(line);
         } while (line.reflect());
         if (i == 0 && !line.is_spread()) return sum;
         if (i == SightLine::spread_lines - 1) return sum / static_cast<float>(SightLine::spread_lines);

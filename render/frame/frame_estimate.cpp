@@ -233,9 +233,7 @@ struct LookLight {
     const Look& look;
     RayTask& task;
 
-    Rgb beyond(const glm::vec3& direction) const {
-        return estimate_surroundings(look.keyframe.lighting.shading, direction, look.sharp.kind);
-    }
+    Rgb beyond(const SightLine& line) const { return estimate_surroundings(line, look.sharp.kind); }
 
     Rgb of(const SightLine& line) const {
         const PixelSurface& surface = line.surface();

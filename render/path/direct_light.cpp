@@ -9,8 +9,6 @@ namespace aleph {
 
 namespace {
 
-constexpr float min_estimate_alpha = 0.1f;  // GGX width of the quick estimate's lobes
-
 /// The part of a sample's light that nothing blocks.
 Rgb find_unblocked(const LightingContext& context, RayTask& task, const LitSurface& lit, const LightSample& sample,
                    const Rgb& light) {

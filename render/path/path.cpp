@@ -65,26 +65,26 @@ class Path {
     /// bright as what most samples would find. @return the sample of the rest, elsewhere the same
     ScatterSample split(const LitSurface& lit, const ScatterSample& sample) {
         const bool is_sharp = !state_.turned && state_.emission == EmissionWeight::full;
-        if (state_.splits <= 0 || !is_sharp || sample.lobe != Lobe::glass || sample.pdf > 0.0f) return sample;
+        if (state_.splits <= 0 || !is_sharp || sample.lobe != Lobe::glass || !lit.material.is_glass_smooth())
+            return sample;
         const float reflected = glass_reflectance(lit.material, lit.cos_view);
         if (!(reflected > 0.0f && reflected < 1.0f)) return sample;
-        const auto take = [&](bool passes) {
+        --state_.splits;
+        const auto take = [&](bool passes, float weight) {
             ScatterSample way = sample_scatter(lit, only_lobe(Lobe::glass), 0.0f, {}, passes ? below_one : 0.0f);
-            way.weight *= (passes ? 1.0f - reflected : reflected) / sample.share;
+            way.weight *= weight / sample.share;
             return way;
         };
         const bool most_passes = reflected < 0.5f;
-        ScatterSample less = take(!most_passes);
-        --state_.splits;
-        const float chance = std::min(split_survival * largest_channel(state_.throughput * less.weight), 1.0f);
-        if (random_.next() < chance) {
-            less.weight /= chance;
-            Path branch(context_, task_, state_, random_);
-            ViewedSurface next;
-            if (branch.follow(lit, less, next)) branch.scatter_at(next);
-            light_ += branch.light_;
-        }
-        return take(most_passes);
+        const float less = most_passes ? reflected : 1.0f - reflected;
+        const float chance = std::clamp(split_survival * largest_channel(state_.throughput) * less, less, 1.0f);
+        // Weights sum to 1 either way: where both ways show the same there is no noise.
+        if (random_.next() >= chance) return take(most_passes, 1.0f);
+        Path branch(context_, task_, state_, random_);
+        ViewedSurface next;
+        if (branch.follow(lit, take(!most_passes, less / chance), next)) branch.scatter_at(next);
+        light_ += branch.light_;
+        return take(most_passes, 1.0f - less / chance);
     }
 
     /// Casts the ray of a sample and adds the emission that it meets. True if it met a surface, which is then `next`.

@@ -100,6 +100,8 @@ struct DirectSamples {
 Rgb sample_direct_light(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
                         const PixelSequence& sequence, const DirectSamples& samples);
 
+inline constexpr float min_estimate_alpha = 0.1f;  ///< GGX width of the quick estimate's lobes
+
 /// Direct light from a fixed pattern of points on each light. The pattern is the same for every pixel, so the result
 /// has no noise that the model of vision would take for detail. Biased: penumbrae come in steps, and narrow highlights
 /// are widened. More than 16 lights share the samples that 16 would have.

@@ -187,28 +187,8 @@ TEST(MirrorPlaces, PathsArriveAtTheWall) {
 TEST(MirrorPlaces, LobesUpToARoughnessOfAQuarterAreMirrors) {
     Mirror{.roughness = 0.0}.expect_accuracy(0.1 / 0.6);
     Mirror{.roughness = 0.25}.expect_accuracy(0.1 / 0.6);
-}
-
-/// In directions of their own, each pixel's another, and with less accuracy the wider they are.
-TEST(MirrorPlaces, WiderLobesShowPlacesAsWell) {
-    const auto mean_accuracy = [](const Mirror& mirror) {
-        double sum = 0.0;
-        mirror.expect([&](const Stage& stage, const MirrorPlaces& found, const RayCounts& counts) {
-            EXPECT_EQ(counts.specular, 0u);
-            EXPECT_EQ(counts.glossy, static_cast<std::uint64_t>(width * height));
-            for (const auto [x, y] : all_pixels(width, height)) {
-                ASSERT_EQ(found.places.hits(x, y).instance, 1);
-                const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
-                EXPECT_LT(glm::dot(glm::dvec3(found.places.directions(x, y)), {ray.x, ray.y, -ray.z}), 1.0 - 1e-6);
-                sum += static_cast<double>(found.accuracy(x, y)) / (width * height);
-            }
-        });
-        return sum;
-    };
-    const double narrow = mean_accuracy({.roughness = 0.26});
-    EXPECT_GT(narrow, 0.1 / 0.6);
-    EXPECT_GT(mean_accuracy({.roughness = 0.4}), narrow);
-    EXPECT_GT(mean_accuracy({.roughness = 0.25, .anisotropy = 0.5}), 0.1 / 0.6);
+    Mirror{.roughness = 0.26}.expect_accuracy(0.0);
+    Mirror{.roughness = 0.25, .anisotropy = 0.5}.expect_accuracy(0.0);
 }
 
 TEST(MirrorPlaces, AccuracyFollowsTheShareOfLight) {

@@ -108,7 +108,7 @@ TEST(MirrorEstimate, RoughMetalShowsWhatItReflects) {
 /// By points on lamps or by rays of the lobe, whatever is more likely to find them.
 TEST(MirrorEstimate, RoughMetalShowsLampsAndSurroundingsOnce) {
     constexpr double shown = metal_color * far_radiance;
-    for (const double roughness : {0.3, 0.5}) {
+    for (const double roughness : {0.15, 0.3, 0.5}) {
         Scene lamp, surroundings;
         for (Scene* scene : {&lamp, &surroundings}) {
             const int metal = add_smooth(*scene, metal_color, 1.0, 0.0);

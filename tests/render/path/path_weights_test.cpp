@@ -166,28 +166,42 @@ TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
     }
 }
 
-/// A sheet under a large lamp and above a dark floor: one sample of many would be reflected, and each follows both
-/// ways.
+/// Light that a sheet reflects and passes straight from lamps.
+Estimator by_both_ways(int splits) {
+    return [=](const Stage& stage, RayTask& task, const ViewedSurface& surface, RandomStream& random) {
+        const LitSurface lit(surface);
+        PathState state{.left = {1, 0}, .splits = splits};
+        const ScatterSample sample = sample_scatter(lit, share_lobes(lit, LobeSet::specular), random);
+        return follow_sample(stage.lighting(), task, lit, sample, state, random);
+    };
+}
+
+/// A lamp above the sheet, and none below: one sample of many would be reflected.
 TEST(PathWeights, SmoothGlassIsFollowedBothWays) {
-    const Stage stage(make_surroundings(Surroundings::large_lamp));
+    const Stage lamp(make_surroundings(Surroundings::large_lamp));
     SurfaceMaterial sheet = make_rough_sheet();
     sheet.gloss.alpha = 0.0f;
     const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), sheet, up};
-    const auto follow = [](int splits) {
-        return [=](const Stage& on, RayTask& task, const ViewedSurface& seen, RandomStream& random) {
-            const LitSurface lit(seen);
-            PathState state{.left = {1, 0}, .splits = splits};  // sees lamps alone
-            const ScatterSample sample = sample_scatter(lit, share_lobes(lit, LobeSet::specular), random);
-            return follow_sample(on.lighting(), task, lit, sample, state, random);
-        };
-    };
     EXPECT_TRUE(holds([&](Trial& trial) {
         const int count = trial.times(20'000);
-        const Mean chosen = estimate(stage, surface, count, follow(0), 1 + trial.seed);
-        const Mean both = estimate(stage, surface, count, follow(3), 2 + trial.seed);
+        const Mean chosen = estimate(lamp, surface, count, by_both_ways(0), 1 + trial.seed);
+        const Mean both = estimate(lamp, surface, count, by_both_ways(3), 2 + trial.seed);
         EXPECT_GT(both.mean(), 0.05);
         EXPECT_LT(both.error(), 0.5 * chosen.error());
         trial.near(both, chosen);
+    }));
+}
+
+/// Its samples may fail, and then count as nothing.
+TEST(PathWeights, RoughGlassIsFollowedOneWay) {
+    const Stage stage(make_surroundings(Surroundings::constant));
+    SurfaceMaterial sheet = make_rough_sheet();
+    sheet.gloss.alpha = 0.64f;
+    const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), sheet, glm::normalize(glm::vec3(1.7f, 1, 0))};
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const int count = trial.times(20'000);
+        trial.near(estimate(stage, surface, count, by_both_ways(3), 1 + trial.seed),
+                   estimate(stage, surface, count, by_both_ways(0), 2 + trial.seed));
     }));
 }
 
