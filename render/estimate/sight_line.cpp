@@ -52,14 +52,7 @@ bool SightLine::advance(RayCounts& counts) {
     const float before = last_.hit.distance;
     last_ = meet(counts);
     ++surfaces_;
-    if (last_.hit.instance == no_index) {
-        const PathState& turned = way_.turned;
-        const bool weighted = turned.emission == EmissionWeight::weighted && lighting_.lights.has_environment;
-        weight_beyond_ =
-            weighted ? power_heuristic(turned.pdf, pdf_environment(lighting_.shading, turned.from, way_.ray.direction))
-                     : 1.0f;
-        return false;
-    }
+    if (last_.hit.instance == no_index) return false;
     Hit hit = last_.hit;
     hit.distance += way_.travelled;
     surface_ = make_pixel_surface(lighting_.shading, start_.view, SamplePlace{}, hit, way_.ray.direction, start_.pixel);
@@ -91,6 +84,12 @@ bool SightLine::reflect() {
     way_ = *std::exchange(reflected_, std::nullopt);
     last_ = {};
     return true;
+}
+
+float SightLine::weight_beyond() const {
+    const PathState& turned = way_.turned;
+    if (turned.emission == EmissionWeight::full || !lighting_.lights.has_environment) return 1.0f;
+    return power_heuristic(turned.pdf, pdf_environment(lighting_.shading, turned.from, direction()));
 }
 
 /// First hits do not tell what they passed.

@@ -50,7 +50,7 @@ class SightLine {
     const glm::vec3& direction() const { return way_.ray.direction; }
     /// Weight of the surroundings: after a turn at a rough surface less than 1, as sampling of lights finds them as
     /// well.
-    float weight_beyond() const { return weight_beyond_; }
+    float weight_beyond() const;
     /// Share of the light of what `reflect` goes to, if that is a mirror's.
     Rgb reflected() const {
         return reflected_ && reflected_->turned.emission == EmissionWeight::full ? reflected_->left : Rgb(0.0f);
@@ -85,7 +85,6 @@ class SightLine {
     bool known_ = false;            ///< it is a first hit
     bool spread_ = false;
     bool blurred_ = false;  ///< a rough surface's reflection is noted or followed, of which there is one at most
-    float weight_beyond_ = 1.0f;
     int surfaces_ = 0;
     PixelSurface surface_;
     Rgb share_{0.0f}, emission_{0.0f};

@@ -60,7 +60,7 @@ float place_in_sides(const Emitter& emitter, const FacingSides& facing, float u)
     for (std::size_t i = 0; i < emitter.sides.size(); ++i) {
         if ((facing.which >> i & 1u) == 0) continue;
         const Emitter::Side& side = emitter.sides[i];
-        place = std::min(side.begin + left, 0x1.fffffep-1f * side.end);  // the last one, if rounding leaves something
+        place = std::min(side.begin + left, below_one * side.end);  // the last one, if rounding leaves something
         left -= side.end - side.begin;
         if (left < 0.0f) break;
     }

@@ -90,7 +90,7 @@ PathState start_beyond(const SampleShading& shading, const SampleScene& scene, c
     --beyond.left.depth;
     beyond.roulette_after = 0;  // most lobes reflect little, and there are many samples
     beyond.survival = 40.0f;    // but those that end by chance leave bright dots, where gloss shows a lamp in gloss
-    beyond.splits = 3;
+    beyond.splits = 3;          // without a limit stacks of panes cost several times the rays
     beyond.known = shading.known;
     beyond.accuracy = shading.context.accuracy(surface.x, surface.y);
     return beyond;

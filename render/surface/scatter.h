@@ -52,6 +52,7 @@ struct LitSurface {
 /// Probability of each lobe; they sum to 1, or are all 0 where nothing scatters.
 using LobeShares = std::array<float, lobe_count>;
 
+/// All directions from one lobe.
 constexpr LobeShares only_lobe(Lobe lobe) {
     LobeShares shares{};
     shares[static_cast<int>(lobe)] = 1.0f;

@@ -14,14 +14,14 @@ constexpr double near_radiance = 0.3, far_radiance = 0.7, metal_color = 0.8, die
 
 /// Radiance of what the camera sees, which looks down from a height of 3 m.
 /// @param spread  by which pixels may differ
-Rgb estimate_below(Scene& scene, double spread = 1e-5) {
+Rgb estimate_below(Scene& scene, double spread = 1e-5, const EstimateOptions& options = {}) {
     add_camera(scene, {0.0, 3.0, 0.0}, glm::dvec3(0.0));
     scene.cameras[0].orthographic = true;
     scene.cameras[0].half_height = 0.2;
     const Stage stage(scene, mirror_side, mirror_side);
     RayCounts counts;
     const Image<Rgb> seen =
-        compute_estimate(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), {}, counts);
+        compute_estimate(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), options, counts);
     for (const Rgb& pixel : seen.pixels) EXPECT_NEAR(pixel.x, seen(1, 1).x, spread);
     return seen(1, 1);
 }
@@ -120,6 +120,17 @@ TEST(MirrorEstimate, RoughMetalShowsLampsAndSurroundingsOnce) {
         EXPECT_NEAR(estimate_below(lamp, 0.02).x, shown, 0.15 * shown) << roughness;
         EXPECT_NEAR(estimate_below(surroundings, 1e-3).x, shown, 0.15 * shown) << roughness;
     }
+}
+
+/// A flat estimate has no points on lights that would find the rest of the surroundings.
+TEST(MirrorEstimate, FlatMetalHasAllOfTheSurroundings) {
+    Scene scene;
+    const int metal = add_smooth(scene, metal_color, 1.0, 0.0);
+    scene.materials[metal].gloss.roughness = 0.3;
+    add_sheet(scene, 0.0, metal);
+    scene.environment.radiance = Track<glm::dvec3>{glm::dvec3(far_radiance)};
+    const EstimateOptions flat{.kind = EstimateKind::flat};
+    EXPECT_NEAR(estimate_below(scene, 1e-3, flat).x, metal_color, 0.1 * metal_color);  // surroundings are 1 there
 }
 
 /// Light of one bounce is gathered where the mirror shows it.

@@ -194,7 +194,9 @@ TEST(PathWeights, SmoothGlassIsFollowedBothWays) {
 
 /// Its samples may fail, and then count as nothing.
 TEST(PathWeights, RoughGlassIsFollowedOneWay) {
-    const Stage stage(make_surroundings(Surroundings::constant));
+    Scene surroundings;
+    surroundings.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
+    const Stage stage(surroundings);
     SurfaceMaterial sheet = make_rough_sheet();
     sheet.gloss.alpha = 0.64f;
     const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), sheet, glm::normalize(glm::vec3(1.7f, 1, 0))};
