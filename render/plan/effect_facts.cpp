@@ -33,12 +33,12 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
         facts.least_width = std::min(facts.least_width, std::max(least * least, min_ggx_alpha));
     };
     const TextureUse& gloss = textures[TextureSlot::metallic_roughness];
+    const bool stretched = values.layers.anisotropy > 0.0f;
+    const float roughest = stretched ? 1.0f : values.gloss.roughness * largest_texel(set, gloss).y;
     const float metallic = values.gloss.metallic * largest_texel(set, gloss).z;
     const float dielectric = has_base ? values.gloss.specular : 0.0f;
-    const bool stretched = values.layers.anisotropy > 0.0f;
     if (metallic > 0.0f || dielectric > 0.0f) {
-        add_lobe(std::max(metallic, dielectric), values.gloss.roughness * smallest_green(set, gloss),
-                 stretched ? 1.0f : values.gloss.roughness * largest_texel(set, gloss).y);
+        add_lobe(std::max(metallic, dielectric), values.gloss.roughness * smallest_green(set, gloss), roughest);
     }
     if (values.layers.clearcoat > 0.0f) {
         const TextureUse& coat = textures[TextureSlot::clearcoat_roughness];
@@ -49,6 +49,7 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
     if (values.layers.sheen_color != Rgb(0.0f)) add_lobe(largest_channel(values.layers.sheen_color), 1.0f, 1.0f);
     facts.glass = values.glass.transmission > 0.0f && values.gloss.metallic < 1.0f;
     facts.volume = facts.glass && values.glass.thickness > 0.0f;
+    facts.rough_glass = facts.glass && roughest * roughest >= min_ggx_alpha;
 }
 
 bool has_texture(const MaterialTextures& textures) {

@@ -21,7 +21,8 @@ struct MaterialFacts {
     bool glossy = false;       ///< some lobe has a width
     bool mirror = false;       ///< some lobe has none
     bool glass = false;
-    bool volume = false;  ///< the glass encloses one, and refracts
+    bool volume = false;       ///< the glass encloses one, and refracts
+    bool rough_glass = false;  ///< some of it
     bool textured = false, maps_normals = false;
     bool alpha = false;  ///< a mask or blended
     bool unlit = false;

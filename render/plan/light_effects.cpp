@@ -71,17 +71,27 @@ bool may_be_shadowed(const FrameFacts& facts, const LightFacts& light) {
     return false;
 }
 
+/// Radiance that an object can scatter of a light that is sampled, at most. Mirrors and smooth glass meet a light that
+/// has an area by themselves; wide lobes do so too rarely.
+double scattered_radiance(const LightFacts& light, const ObjectFacts& object) {
+    const MaterialFacts& material = object.material;
+    const double illuminance = largest_illuminance(light, object.bounds);
+    const auto lit = [&](double brightness) { return brightness > 0.0 ? brightness * illuminance : 0.0; };
+    const double diffuse = material.diffuse / std::numbers::pi;
+    if (!light.has_area()) return material.glass ? unbounded : lit(diffuse + lobe_peak(material));
+    if (material.rough_glass) return lit(diffuse) + light.strength;
+    if (!material.glossy) return lit(diffuse);
+    return lit(diffuse) + std::min(material.reflectance * light.strength, lit(lobe_peak(material)));
+}
+
 /// Radiance that a light can bring to pixels.
 double bound_light(const FrameFacts& facts, const LightFacts& light, int bounces) {
     double largest = 0.0;
     for (const ObjectFacts& object : facts.objects) {
         if (light.object != no_index && &facts.objects[light.object] == &object && object.convex) continue;
-        double reflects = object.material.diffuse / std::numbers::pi;
-        if (object.material.has_specular() && !light.has_area()) reflects += lobe_peak(object.material);
-        if (object.material.glass && !light.has_area()) return unbounded;
-        if (reflects > 0.0) largest = std::max(largest, reflects * largest_illuminance(light, object.bounds));
+        largest = std::max(largest, scattered_radiance(light, object));
     }
-    return largest > 0.0 ? largest * (1.0 + bounces) : 0.0;
+    return largest * (1.0 + bounces);
 }
 
 /// Chooses the lights to leave out: those that can hardly bring anything, the dimmest first.

@@ -101,6 +101,21 @@ TEST(EffectsBounds, FX14_LampsThatAreLeftOutAreStillSeen) {
     expect_within_bound(compare_forced(scene, seen_settings(), Effect::direct_light), Decision::simplify);
 }
 
+TEST(EffectsBounds, LampsAreSampledWhereWideLobesReflectThem) {
+    const auto left_out = [](const Material& material) {
+        Scene scene = make_lit_square();
+        scene.film.range = FrameRange{0, 0};
+        scene.materials[scene.meshes[0].material] = material;
+        const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(50.0));
+        add_mesh(scene, make_quad(0.1, 0.1, lamp), {1.0, 0.0, 3.0}, z_to_up * z_to_up);
+        return Sequence(scene, seen_settings()).plan(0).lights_left_out.size();
+    };
+    EXPECT_EQ(left_out({.gloss = {.metallic = 1.0, .roughness = 0.3}}), 0u);
+    EXPECT_EQ(left_out({.gloss = {.metallic = 1.0, .roughness = 0.0}}), 1u) << "a mirror meets it by itself";
+    EXPECT_EQ(left_out({.gloss = {.metallic = 0.0, .roughness = 0.3}, .glass = {.transmission = 1.0}}), 0u);
+    EXPECT_EQ(left_out({.gloss = {.metallic = 0.0, .roughness = 0.0}, .glass = {.transmission = 1.0}}), 1u);
+}
+
 /// Two walls that face each other, lit by a lamp in front of the camera; one is seen.
 Scene make_corridor(double albedo) {
     Scene scene = make_empty_view();
