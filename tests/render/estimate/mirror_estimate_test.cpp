@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "render/estimate/estimate.h"
+#include "render/estimate/sight_line.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -120,6 +121,51 @@ TEST(MirrorEstimate, RoughMetalShowsLampsAndSurroundingsOnce) {
         EXPECT_NEAR(estimate_below(lamp, 0.02).x, shown, 0.15 * shown) << roughness;
         EXPECT_NEAR(estimate_below(surroundings, 1e-3).x, shown, 0.15 * shown) << roughness;
     }
+}
+
+/// Points on lights do not find the surroundings by way of a mirror: what it shows is not weighted against them.
+TEST(MirrorEstimate, RoughMetalShowsMirrors) {
+    const auto estimate_with = [&](double side) {
+        Scene scene;
+        const int metal = add_smooth(scene, metal_color, 1.0, 0.0);
+        scene.materials[metal].gloss.roughness = 0.9;
+        add_mesh(scene, make_quad(1.0, 1.0, metal), {0.0, 0.0, 0.0}, z_to_up);
+        const int mirror = add_smooth(scene, 1.0, 1.0, 0.0);
+        const glm::dquat sideways = glm::angleAxis(glm::radians(45.0), glm::dvec3(0.0, 0.0, 1.0)) * z_to_down;
+        add_mesh(scene, make_quad(side, side, mirror), {0.0, 4.0, 0.0}, sideways);
+        scene.environment.radiance = Track<glm::dvec3>{glm::dvec3(far_radiance)};
+        return estimate_below(scene, 0.1).x;
+    };
+    const float shown = estimate_with(1e-3);
+    EXPECT_NEAR(estimate_with(60.0), shown, 0.1 * shown);
+}
+
+/// A line of sight that has met a mirror keeps what it shows.
+TEST(MirrorEstimate, MirrorsAboveRoughMetalAreKept) {
+    Scene scene;
+    const int mirror = add_smooth(scene, metal_color, 1.0, 0.0), metal = add_smooth(scene, metal_color, 1.0, 0.0);
+    scene.materials[mirror].opacity = {.alpha = 0.6, .mode = Opacity::Mode::blend};
+    scene.materials[metal].gloss.roughness = 0.3;
+    add_sheet(scene, 1.0, mirror);
+    add_sheet(scene, 0.0, metal);
+    add_sheet(scene, 4.0, add_unlit(scene, far_radiance));
+    EXPECT_NEAR(estimate_below(scene).x, 0.6 * metal_color * far_radiance, 1e-5);
+}
+
+/// Rooms of metal would cost a line of sight up to 16 surfaces, each eight times.
+TEST(MirrorEstimate, OneRoughReflectionIsFollowed) {
+    Scene scene;
+    const int metal = add_smooth(scene, metal_color, 1.0, 0.0);
+    scene.materials[metal].gloss.roughness = 0.3;
+    add_sheet(scene, 0.0, metal);
+    add_mesh(scene, make_quad(60.0, 60.0, metal), {0.0, 4.0, 0.0}, z_to_down);
+    add_camera(scene, {0.0, 3.0, 0.0}, glm::dvec3(0.0));
+    const Stage stage(scene, mirror_side, mirror_side);
+    RayCounts counts;
+    compute_estimate(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), {}, counts);
+    constexpr int pixels = mirror_side * mirror_side;
+    EXPECT_GT(counts.primary, 0u);
+    EXPECT_LE(counts.primary, 2u * pixels * SightLine::spread_lines);
 }
 
 /// A flat estimate has no points on lights that would find the rest of the surroundings.
