@@ -230,6 +230,7 @@ study=(--size 16x12 --frames 0 --reference-spp 2 --reference-passes 2)
 answers 2 'nothing to compare' aleph study first.json "${study[@]}"
 answers 2 'expected KEY=VALUE' aleph study first.json "${study[@]}" --sweep error
 answers 2 '--sweep: gathr: there is no such setting; did you mean "gather"' aleph study first.json "${study[@]}" --sweep gathr=1,2
+answers 2 '--set: noise: there is no such setting' aleph study first.json "${study[@]}" --sweep spp=1 --set noise=1
 answers 2 '--set: spp: expected a whole number' aleph study first.json "${study[@]}" --sweep error=1 --set spp=0
 answers 2 'pictures of a study have one size' aleph study first.json "${study[@]}" --sweep size=16x12,32x24
 answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 --repeats -1

@@ -50,7 +50,6 @@ std::pair<std::string, std::string> split_named(const std::string& text, const c
 
 /// @throws InputError naming the option
 void check_setting(SettingMap settings, const char* option) {
-    if (find_noise(settings, option)) return;
     Scene scene;
     RenderSettings render;
     set_scene_numbers(scene, settings, option);
@@ -64,7 +63,7 @@ StudyAxis parse_sweep(const std::string& text) {
     for (const auto& part : std::views::split(values, ',')) {
         SettingMap value;
         parse_setting(fmt::format("{}={}", key, std::string_view(part.begin(), part.end())), value);
-        check_setting(value, "--sweep");
+        if (!find_noise(value, "--sweep")) check_setting(value, "--sweep");
         axis.values.push_back(value.begin()->second);
     }
     return axis;
