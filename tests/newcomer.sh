@@ -174,6 +174,11 @@ explains 2 'write {"type": "sphere"}' '"shape": "sphere"'
 explains 2 'name the node that has the "include"' '"parent": "wheel"' '"include": "car.glb",'
 printf '{"aleph": 1,\n "fps": 30\n "frames": [0, 1]}\n' >key.json
 answers 2 'line 2, column 11: not valid JSON: a comma is missing here' aleph explain key.json
+printf '{"asset": {"version": "2.0"}\n "nodes": []}\n' >comma.gltf
+answers 2 'comma.gltf: line 1, column 29: not valid JSON: a comma is missing here' aleph explain comma.gltf
+printf 'PNG {' >picture.glb
+answers 2 'picture.glb: this is not a GLB file: it does not begin with "glTF"' aleph explain picture.glb
+answers 2 'this is a folder; expected a .json, .gltf, .glb or .abc file' aleph explain .
 
 # Keys that are computed on load: easing, look_at, follow_path and named values, and a slip in each.
 scene eased '"camera": {}, "translation": {"interpolation": "ease", "keys": [[0, [0, 0, 5]], [20, [0, 1, 5]]]}'
@@ -224,7 +229,9 @@ silent aleph maps first.json --size 16x12 --frames 0 -q --importance -o importan
 study=(--size 16x12 --frames 0 --reference-spp 2 --reference-passes 2)
 answers 2 'nothing to compare' aleph study first.json "${study[@]}"
 answers 2 'expected KEY=VALUE' aleph study first.json "${study[@]}" --sweep error
-answers 2 'did you mean "gather"' aleph study first.json "${study[@]}" --sweep gathr=1,2
+answers 2 '--sweep: gathr: there is no such setting; did you mean "gather"' aleph study first.json "${study[@]}" --sweep gathr=1,2
+answers 2 '--set: noise: there is no such setting' aleph study first.json "${study[@]}" --sweep spp=1 --set noise=1
+answers 2 '--set: spp: expected a whole number' aleph study first.json "${study[@]}" --sweep error=1 --set spp=0
 answers 2 'pictures of a study have one size' aleph study first.json "${study[@]}" --sweep size=16x12,32x24
 answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 --repeats -1
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
@@ -243,6 +250,11 @@ answers 0 'Best fixed settings of first, of 4 candidates' aleph study first.json
 answers 0 '0 runs made, 8 found finished' aleph study first.json "${study[@]}" --sweep error=4 --search --candidates 4 -o searched
 echo '{"scenes": [{"scene": "first.json", "frames": "0"}], "size": "16x12", "sweeps": {"spp": [1]}}' >typo.json
 answers 2 '/sweeps' aleph study typo.json
+sed 's/sweeps/sweep/; s/\[1\]/[0]/' typo.json >zero.json
+answers 2 'zero.json: spp: expected a whole number from 1 to 65536' aleph study zero.json
+mkdir -p barred/runs && touch barred/references
+answers 1 'barred/references: cannot create the folder: Not a directory' aleph study first.json "${study[@]}" --sweep spp=1 -o barred
+answers 1 'typo.json/runs: cannot create the folder: Not a directory' aleph study first.json "${study[@]}" --sweep spp=1 -o typo.json
 echo '{"scenes": [{"scene": "first.json", "frames": "0-1"}], "size": "24x18", "sweep": {"spp": [16, 32, 64]}, "repeats": 2,
   "reference": {"passes": 2, "spp": 16}}' >long.json
 killed_after "killed/runs/*.json" study long.json -q -o killed

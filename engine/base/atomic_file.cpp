@@ -126,6 +126,12 @@ void try_output(const fs::path& path) {
     ::unlink(temporary.c_str());
 }
 
+void create_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) fail(folder, "cannot create the folder", error.value());
+}
+
 void write_file(const fs::path& path, std::string_view bytes) {
     write_atomically(path, [&](const fs::path& temporary) { write_bytes(temporary, bytes, path); });
 }

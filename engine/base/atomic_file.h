@@ -26,6 +26,10 @@ std::filesystem::path hidden_beside(const std::filesystem::path& path, std::stri
 /// @throws OutputError naming `path`
 void try_output(const std::filesystem::path& path);
 
+/// Creates a folder, with its parents, if it is missing.
+/// @throws OutputError naming it
+void create_folder(const std::filesystem::path& folder);
+
 /// Writes the bytes to `path`, whole or not at all.
 /// @throws OutputError naming `path`
 void write_file(const std::filesystem::path& path, std::string_view bytes);

@@ -58,6 +58,8 @@ GltfChunks split_gltf(const Bytes& bytes, const std::string& file) {
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     GltfChunks chunks;
     if (all.substr(0, 4) != "glTF") {
+        if (file.ends_with(".glb") && all.find_first_not_of(" \t\r\n") != all.find('{'))
+            throw InputError(file, "", "this is not a GLB file: it does not begin with \"glTF\"");
         chunks.json = all;
         return chunks;
     }

@@ -121,10 +121,13 @@ SyntaxError explain_syntax_error(std::string_view text, std::size_t position, st
     return {position == 0 ? 0 : position - 1, "not valid JSON: " + parser_reason(what)};
 }
 
-/// Builds the value. nlohmann's own builder silently keeps the last of two equal keys.
+/// Builds the value, and refuses a text with the place and a plain reason. nlohmann's own builder silently keeps the
+/// last of two equal keys.
 class Builder {
   public:
-    Builder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+    /// @param unique_keys  refuses a key that is there twice
+    Builder(std::string_view text, const std::string& file, bool unique_keys)
+        : text_(text), file_(file), unique_keys_(unique_keys) {}
 
     bool null() { return add(nullptr); }
     bool boolean(bool value) { return add(value); }
@@ -141,7 +144,8 @@ class Builder {
     bool key(std::string& name) {
         Level& level = levels_.back();
         level.key = std::move(name);
-        if (!level.keys.insert(level.key).second) throw InputError(file_, pointer(), "this key is here twice");
+        if (!level.keys.insert(level.key).second && unique_keys_)
+            throw InputError(file_, pointer(), "this key is here twice");
         if (levels_.size() == 2) result_.key_order[levels_.front().key].push_back(level.key);
         return true;
     }
@@ -209,6 +213,7 @@ class Builder {
 
     std::string_view text_;
     const std::string& file_;
+    bool unique_keys_;
     JsonText result_;
     std::vector<Level> levels_;
 };
@@ -262,6 +267,8 @@ nlohmann::json parse_strict_json(std::string_view text, const std::string& file,
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& error) {
+        Builder builder(text, file, false);  // slower, but knows the place and a plain reason
+        json::sax_parse(text, &builder, json::input_format_t::json, true, false);
         throw InputError(file, "", "not valid JSON: " + printable(error.what(), 300));
     }
 }
@@ -272,7 +279,7 @@ JsonText parse_json_text(std::string_view text, const std::string& file, const L
                          fmt::format("the text is larger than {} MiB; {}", limits.text() >> 20, large_mesh_advice));
     }
     check_json_memory(text, true, limits, file, large_mesh_advice);
-    Builder builder(text, file);
+    Builder builder(text, file, true);
     json::sax_parse(text, &builder, json::input_format_t::json, true, true);
     return builder.take();
 }

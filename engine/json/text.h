@@ -18,7 +18,7 @@ inline constexpr std::size_t max_json_bytes = std::size_t{256} << 20;
 
 /// Parses JSON as the standard has it. The parser checks UTF-8.
 /// @param advice  what to do about a text with too many values
-/// @throws InputError
+/// @throws InputError with the place "line L, column C" for a syntax error
 nlohmann::json parse_strict_json(std::string_view text, const std::string& file, const LoadLimits& limits,
                                  std::string_view advice);
 

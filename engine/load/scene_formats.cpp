@@ -59,6 +59,9 @@ const SceneFormat& require_format(const SceneFormats& formats, FormatUse use, co
     if (use == FormatUse::save) {
         throw InputError(file, place, fmt::format("the name of a scene file must end in {}", known));
     }
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        throw InputError(file, place, fmt::format("this is a folder; expected a {} file", known));
     throw InputError(file, place,
                      fmt::format("files of the kind \"{}\" are not read; expected a {} file",
                                  printable(lower_extension(path)), known));

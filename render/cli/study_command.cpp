@@ -23,6 +23,7 @@
 #include "render/study/effects_ledger.h"
 #include "render/study/pages/pages.h"
 #include "render/study/prepared_study.h"
+#include "render/study/reference_picture.h"
 #include "render/study/search_study.h"
 #include "render/study/study.h"
 
@@ -47,6 +48,14 @@ std::pair<std::string, std::string> split_named(const std::string& text, const c
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+/// @throws InputError naming the option
+void check_setting(SettingMap settings, const char* option) {
+    Scene scene;
+    RenderSettings render;
+    set_scene_numbers(scene, settings, option);
+    apply_settings(render, settings, option);
+}
+
 /// "error=.5,1,2"
 StudyAxis parse_sweep(const std::string& text) {
     const auto [key, values] = split_named(text, "--sweep", "KEY=VALUE,VALUE,...");
@@ -54,6 +63,7 @@ StudyAxis parse_sweep(const std::string& text) {
     for (const auto& part : std::views::split(values, ',')) {
         SettingMap value;
         parse_setting(fmt::format("{}={}", key, std::string_view(part.begin(), part.end())), value);
+        if (!find_noise(value, "--sweep")) check_setting(value, "--sweep");
         axis.values.push_back(value.begin()->second);
     }
     return axis;
@@ -152,7 +162,11 @@ void override_study(const StudyCommandOptions& options, Study& study) {
         for (StudyScene& scene : study.scenes) scene.frames = options.frames;
     }
     if (!options.size.empty()) study.settings["size"] = options.size;
-    for (const std::string& set : options.sets) parse_setting(set, study.settings);
+    SettingMap given;
+    for (const std::string& set : options.sets) parse_setting(set, given);
+    check_setting(given, "--set");
+    given.merge(study.settings);
+    study.settings = std::move(given);
     if (options.passes > 0) study.reference.passes = options.passes;
     if (options.spp > 0) study.reference.spp = options.spp;
     if (options.repeats > 0) study.runs.repeats = options.repeats;

@@ -127,8 +127,8 @@ SceneWithSettings with_settings_of(const PreparedStudyScene& scene, const Study&
     apply_settings(out.settings, scene.scene.source.settings, scene.scene.source.file);
     SettingMap settings = more;
     settings.insert(study.settings.begin(), study.settings.end());
-    set_scene_numbers(out.scene, settings, "study");
-    apply_settings(out.settings, settings, "study");
+    set_scene_numbers(out.scene, settings, study.file);
+    apply_settings(out.settings, settings, study.file);
     return out;
 }
 

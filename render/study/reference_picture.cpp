@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/sampling.h"
 #include "engine/scene/scene_hash.h"
@@ -77,7 +78,7 @@ ReferencePicture find_or_make_reference(const PreparedStudyScene& scene, const S
     const SceneWithSettings own = reference_of(scene, study);
     ReferencePicture reference{{}, folder / name_file(scene.name, own, wanted.kind, frame)};
     reference.picture = read_reference(reference.file, own.settings);
-    std::filesystem::create_directories(folder);
+    create_folder(folder);
     for (double done = reference_passes(reference.picture); done < wanted.passes; ++done) {
         const auto show = [&](double fraction, const char*) { progress(done + fraction); };
         const ChannelImage pass = render_pass(own.scene, own.settings, frame, done, show);

@@ -82,6 +82,7 @@ struct Study {
     std::vector<std::string> metrics;    ///< metric_table.h; empty: the usual ones
     std::vector<StudyViewer> viewers;    ///< at least one; the first judges where one threshold is meant
     StudyRuns runs;
+    std::string file = "study";  ///< for messages
 };
 
 /// Every combination of the axes' values; the last axis changes fastest.

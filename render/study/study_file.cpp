@@ -128,6 +128,7 @@ Study parse_study(std::string_view text, const std::filesystem::path& path) {
         throw InputError(file, mismatch->pointer, mismatch->reason);
     const JsonRef root(json.root, file);
     Study study;
+    study.file = file;
     study.title = root.find_string("title").value_or(path.stem().string());
     study.description = root.find_string("description").value_or("");
     study.settings = find_settings(root);

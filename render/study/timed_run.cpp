@@ -106,9 +106,7 @@ std::vector<FrameRun> render_run(const Scene& scene, const RenderSettings& setti
 }
 
 RunStore::RunStore(std::filesystem::path folder) : folder_(std::move(folder)) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_ / "runs", error);
-    if (error) throw OutputError((folder_ / "runs").string(), error.message());
+    create_folder(folder_ / "runs");
 }
 
 std::filesystem::path RunStore::file(const RunName& name) const {

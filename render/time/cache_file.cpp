@@ -106,9 +106,7 @@ LightStore::LightStore(std::filesystem::path path, Fingerprint fingerprint)
         records_ = read_cache_file(path_, fingerprint_);
         return;
     }
-    std::error_code error;
-    std::filesystem::create_directories(path_, error);
-    if (error) throw OutputError(printable(path_.string(), 4096), "cannot create the folder: " + error.message());
+    create_folder(path_);
 }
 
 std::filesystem::path LightStore::file_of(std::int64_t keyframe) const {

@@ -109,26 +109,75 @@ std::vector<std::string> find_violations(const std::string& file, const std::str
     return violations;
 }
 
+/// The sources of all layers: texts by path from the repository's root.
+const std::map<std::string, std::string>& sources() {
+    static const std::map<std::string, std::string> all = [] {
+        const fs::path root = source_folder();
+        std::map<std::string, std::string> found;
+        for (const char* folder : {"engine", "motion", "perception", "render"}) {
+            for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+                const std::string path = fs::relative(entry.path(), root).generic_string();
+                if (path.find("node_modules") != std::string::npos || !entry.is_regular_file()) continue;
+                if (path.ends_with(".h") || path.ends_with(".cpp")) found[path] = read_bytes(entry.path());
+            }
+        }
+        return found;
+    }();
+    return all;
+}
+
+/// Does the page of a folder say that other folders may include this header? It has a line "From outside", or marks
+/// rows of its table as public, but for some of their files. Where it has neither, all are.
+bool is_public(const std::string& page, const std::string& header) {
+    const std::string stem = "`" + header.substr(0, header.find('.')) + ".*`", name = "`" + header + "`";
+    const auto has = [](const std::string& text, const std::string& part) { return text.find(part) != text.npos; };
+    if (const std::size_t at = page.find("**From outside:**"); at != page.npos) {
+        const std::string outside = page.substr(at, page.find("\n\n", at) - at);
+        return has(outside, "every header") || has(outside, name);
+    }
+    if (!has(page, "**public**")) return true;
+    std::istringstream rows(page);
+    for (std::string row; std::getline(rows, row);) {
+        if (!row.starts_with("|") || !has(row, "**public**")) continue;
+        const std::size_t end = row.find('|', 1);
+        const std::string files = row.substr(0, end), rest = row.substr(end);
+        const bool excepted = has(rest, "but for " + name) || has(rest, "but for " + stem);
+        if ((has(files, name) || has(files, stem)) && !excepted) return true;
+    }
+    return false;
+}
+
 TEST(House, EveryFolderIsALayerAndIncludesPointOneWay) {
-    const fs::path root = source_folder();
-    int files = 0, own_includes = 0;
-    for (const char* folder : {"engine", "motion", "perception", "render"}) {
-        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
-            const std::string path = fs::relative(entry.path(), root).generic_string();
-            if (path.find("node_modules") != std::string::npos) continue;
-            if (!entry.is_regular_file() || (entry.path().extension() != ".h" && entry.path().extension() != ".cpp"))
-                continue;
-            ++files;
-            const Layer* own = layer_of(path);
-            EXPECT_TRUE(own != nullptr && own->folder == fs::path(path).parent_path())
-                << path << " lies in a folder that layers() does not list";
-            const std::string text = read_bytes(entry.path());
-            for (const std::string& violation : find_violations(path, text)) ADD_FAILURE() << violation;
-            for (const std::string& included : included_paths(text)) own_includes += layer_of(included) != nullptr;
+    int own_includes = 0;
+    for (const auto& [path, text] : sources()) {
+        const Layer* own = layer_of(path);
+        EXPECT_TRUE(own != nullptr && own->folder == fs::path(path).parent_path())
+            << path << " lies in a folder that layers() does not list";
+        for (const std::string& violation : find_violations(path, text)) ADD_FAILURE() << violation;
+        for (const std::string& included : included_paths(text)) own_includes += layer_of(included) != nullptr;
+    }
+    EXPECT_GT(sources().size(), 40u);  // the folders were found
+    EXPECT_GT(own_includes, 100);      // and their includes understood
+}
+
+TEST(House, PagesMarkTheHeadersThatOtherFoldersInclude) {
+    std::map<std::string, std::string> pages;
+    for (const Layer& layer : layers()) {
+        const fs::path page = source_folder() / layer.folder / "README.md";
+        pages[layer.folder] = fs::exists(page) ? read_bytes(page) : "";
+    }
+    for (const auto& [path, text] : sources()) {
+        for (const std::string& included : included_paths(text)) {
+            const Layer* other = layer_of(included);
+            if (other == nullptr || other == layer_of(path)) continue;
+            EXPECT_TRUE(is_public(pages.at(other->folder), fs::path(included).filename()))
+                << path << " includes " << included << ", which the page of " << other->folder << " does not mark";
         }
     }
-    EXPECT_GT(files, 40);          // the folders were found
-    EXPECT_GT(own_includes, 100);  // and their includes understood
+    const std::string marked = "| `a.*`, `b.h` | **public**, but for `b.h`: it |\n| `c.h` | them |\n";
+    EXPECT_TRUE(is_public(marked, "a.h"));
+    EXPECT_FALSE(is_public(marked, "b.h") || is_public(marked, "c.h"));
+    EXPECT_FALSE(is_public("| `a.h` | it |\n\n**From outside:** `b.h`.\n\n`a.h`", "a.h"));
 }
 
 TEST(House, LayersHaveNoCycle) {

@@ -48,16 +48,19 @@ TEST_F(GltfBadFile, MissingFolderPipe) {
 }
 
 TEST_F(GltfBadFile, S13_1_Text) {
-    expect_text_refused("", "", "not valid JSON");
+    expect_text_refused("", "line 1, column 1", "not valid JSON");
     expect_text_refused("null", "", "must be an object");
     expect_text_refused("[]", "", "must be an object");
-    expect_text_refused("{\"asset\":", "", "not valid JSON");
-    expect_text_refused(full_draft().to_text() + "x", "", "not valid JSON");
-    expect_text_refused("{\"asset\":{\"version\":\"2.0\"},\"x\":NaN}", "", "not valid JSON");
-    expect_text_refused("{\"asset\":{\"version\":\"2.0\"},\"x\":1e999}", "", "not valid JSON");
-    expect_text_refused("{\"asset\":{\"version\":\"2.\xc3\x28\"}}", "", "UTF-8");
-    expect_text_refused("{\"asset\":{\"version\":\"2.\xed\xa0\x80\"}}", "", "UTF-8");
-    expect_text_refused("{\"asset\":{\"version\":\"2.\\ud800\"}}", "", "not valid JSON");
+    expect_text_refused("{\"asset\":", "line 1, column 10", "not valid JSON");
+    expect_text_refused("{\"asset\":{\"version\":\"2.0\"},\n\"x\":1,}", "line 2, column 6",
+                        "this comma is one too many");
+    const std::string more = full_draft().to_text() + "x";
+    expect_text_refused(more, "line 1, column " + std::to_string(more.size()), "not valid JSON");
+    expect_text_refused("{\"asset\":{\"version\":\"2.0\"},\"x\":NaN}", "line 1, column 32", "not valid JSON");
+    expect_text_refused("{\"asset\":{\"version\":\"2.0\"},\"x\":1e999}", "line 1, column 36", "too large for a double");
+    expect_text_refused("{\"asset\":{\"version\":\"2.\xc3\x28\"}}", "line 1, column 25", "UTF-8");
+    expect_text_refused("{\"asset\":{\"version\":\"2.\xed\xa0\x80\"}}", "line 1, column 25", "UTF-8");
+    expect_text_refused("{\"asset\":{\"version\":\"2.\\ud800\"}}", "line 1, column 30", "not valid JSON");
 }
 
 TEST_F(GltfBadFile, S12_5_S13_1_NestingIsLimitedWhateverCarriesIt) {
