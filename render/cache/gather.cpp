@@ -300,7 +300,10 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     add_unshadowed(context, task, options, scratch);
     if (options.material != nullptr) weigh_by_transmission(*options.material, point.normal, scratch);
     if (sampler) scale_light(scratch, [&](std::size_t ray) { return scratch.weights[ray]; });
-    return add_up_rays(strata, point.normal, scratch);
+    const Rgb rare = options.apart_if_rare ? take_rare_light(strata, scratch) : Rgb(0.0f);
+    IrradianceSample sample = add_up_rays(strata, point.normal, scratch);
+    sample.rare = rare;
+    return sample;
 }
 
 }  // namespace aleph

@@ -71,6 +71,7 @@ struct IrradianceGradients {
 struct IrradianceSample {
     /// Irradiance by reflected light, not straight from the lights; with GatherOptions::material, weighed by it.
     Rgb irradiance{0.0f};
+    Rgb rare{0.0f};  ///< irradiance that take_rare_light took from it
     IrradianceGradients gradients{};
     /// m, to the nearest surface met, the point's own left out; infinite if no ray hit anything.
     float nearest_distance = std::numeric_limits<float>::infinity();
@@ -186,6 +187,7 @@ struct GatherOptions {
     const SurfaceMaterial* material = nullptr;
     /// Rays towards them join those over the hemisphere; null: none.
     const BrightSurfaces* bright = nullptr;
+    bool apart_if_rare = false;  ///< whether light that three rays or fewer find is IrradianceSample::rare
 };
 
 /// Where the rays of a gather go.
@@ -211,6 +213,11 @@ void place_rays(const HemisphereStrata& strata, const Basis& basis, const Surfac
 KeptRays keep_rays(const GatherScratch& scratch);
 /// Sets what add_up_rays reads.
 void restore_rays(const KeptRays& kept, GatherScratch& scratch);
+
+/// Takes from the brightest rays over the hemisphere what they find beyond four times the light of the fourth
+/// brightest. That three rays or fewer find it is chance: a gather beside this one may find none of it.
+/// @return its irradiance
+Rgb take_rare_light(const HemisphereStrata& strata, GatherScratch& scratch);
 
 /// The irradiance and its summary from what the rays found, each by its weight.
 IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch);

@@ -65,7 +65,8 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
                               .found = found,
                               .multi_bounce = context.bounces.further,
                               .material = &surface.material,
-                              .bright = context.bright});
+                              .bright = context.bright,
+                              .apart_if_rare = context.settings.error > 0.0 && !context.bounces.further.noted});
 }
 
 int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance) {

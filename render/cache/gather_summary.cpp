@@ -1,8 +1,11 @@
 // Summary of the radiance and the distances over a hemisphere: gradients, noise and free space, beside the irradiance.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "render/cache/aimed_rays.h"
 #include "render/settings/numbers.h"
@@ -161,6 +164,10 @@ float estimate_relative_error(const HemisphereStrata& strata, GatherScratch& scr
     return share_of_independent * static_cast<float>(std::sqrt(variance) / sum);
 }
 
+/// Light is rare that fewer rays than these find.
+constexpr std::size_t common_rays = 4;
+constexpr float rare_over_common = 4.0f;
+
 /// From what the rays found to the radiance and the distance of every cell.
 void sort_by_cell(const HemisphereStrata& strata, GatherScratch& scratch) {
     scratch.distances.assign(static_cast<std::size_t>(strata.count()), infinite);
@@ -181,6 +188,27 @@ void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, Ga
     set_clearance(strata, basis, scratch, shortest, out);
     add_gradients(strata, basis, scratch, std::max(shortest, min_distance), out);
     out.relative_error = estimate_relative_error(strata, scratch);
+}
+
+Rgb take_rare_light(const HemisphereStrata& strata, GatherScratch& scratch) {
+    const std::span<Rgb> light(scratch.light.data(), scratch.rays_around());
+    std::array<float, common_rays> most{};  // largest first
+    for (const Rgb& found : light) {
+        float value = luminance(found);
+        for (float& larger : most)
+            if (value > larger) std::swap(value, larger);
+    }
+    const float limit = rare_over_common * most.back();
+    glm::dvec3 taken(0.0);
+    if (!(most.front() > limit)) return taken;
+    for (Rgb& found : light) {
+        const float value = luminance(found);
+        if (!(value > limit)) continue;
+        const Rgb left = found * (limit / value);
+        taken += glm::dvec3(found - left);
+        found = left;
+    }
+    return Rgb(taken * (std::numbers::pi / strata.count()));
 }
 
 IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch) {

@@ -92,7 +92,10 @@ class IrradianceCache {
     std::optional<ExpectedRecord> expect(const CacheQuery& query, float max_radius) const;
 
     /// Replaces each record's value and gradients by the mean of what it and the records around it extrapolate to its
-    /// place, of those that differ by no more than noise: less noise without more rays. Nothing is inserted afterwards.
+    /// place, of those that differ by no more than noise: less noise without more rays. Rare light of records is shared
+    /// out among those around that face about the same way, by what each of them has, so that it is no blotch and the
+    /// dark stays dark.
+    /// Nothing is inserted afterwards.
     /// @param kept  so many of the first records stay as they are
     void finish(std::size_t kept = 0);
 
@@ -109,6 +112,7 @@ class IrradianceCache {
     void clamp_to_neighbours(IrradianceRecord& record);
     void compare_with_neighbours(IrradianceRecord& record);
     IrradianceRecord smoothed(const IrradianceRecord& record) const;
+    void share_rare_light(std::size_t kept, std::vector<IrradianceRecord>& smooth) const;
 
     std::vector<IrradianceRecord> records_;
     RecordIndex index_;

@@ -43,16 +43,20 @@ float steepness(const std::array<glm::vec3, 3>& gradient) {
 
 std::optional<IrradianceRecord> make_record(const glm::vec3& position, const glm::vec3& normal, float accuracy,
                                             const IrradianceSample& sample, const RadiusBounds& bounds) {
-    if (!is_finite(sample.irradiance)) return std::nullopt;
+    if (!is_finite(sample.irradiance) || !is_finite(sample.rare)) return std::nullopt;
     IrradianceRecord record;
     record.position = position;
     record.normal = normal;
     record.irradiance = sample.irradiance;
+    record.rare = sample.rare;
     record.accuracy = accuracy;
     record.min_radius = bounds.min;
     record.max_growth = 1.0f / (bounds.min_spread * bounds.min_spread);
     record.noise.error = std::min(sample.relative_error, 1.0f);  // infinite where there are too few rays to tell
-    record.noise.ray_variance = record.noise.error * record.noise.error * static_cast<float>(sample.rays);
+    const float rare = luminance(sample.rare), all = luminance(sample.irradiance) + rare;
+    const float rare_error = all > 0.0f ? rare / all : 0.0f;  // found by one ray, or by two or three
+    record.noise.ray_variance =
+        (record.noise.error * record.noise.error + rare_error * rare_error) * static_cast<float>(sample.rays);
     record.tangent = make_basis(normal).tangent;
     record.space = sample.space;
     float radius = radius_over_distance * sample.nearest_distance;

@@ -45,6 +45,7 @@ struct IrradianceRecord {
     glm::vec3 normal{0.0f};    ///< unit
     float growth = 0.0f;       ///< 1 / S_i^2, 1/m2; 0: no difference found
     Rgb irradiance{0.0f};
+    Rgb rare{0.0f};  ///< more irradiance, which few rays found (take_rare_light); 0 after IrradianceCache::finish
     float min_radius = 0.0f;  ///< m; neighbour clamping stops here
     IrradianceGradients gradients{};
     glm::vec3 tangent{0.0f};  ///< of make_basis(normal), for the sectors of `space`

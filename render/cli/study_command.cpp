@@ -48,14 +48,6 @@ std::pair<std::string, std::string> split_named(const std::string& text, const c
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-/// @throws InputError naming the option
-void check_setting(SettingMap settings, const char* option) {
-    Scene scene;
-    RenderSettings render;
-    set_scene_numbers(scene, settings, option);
-    apply_settings(render, settings, option);
-}
-
 /// "error=.5,1,2"
 StudyAxis parse_sweep(const std::string& text) {
     const auto [key, values] = split_named(text, "--sweep", "KEY=VALUE,VALUE,...");
@@ -63,7 +55,7 @@ StudyAxis parse_sweep(const std::string& text) {
     for (const auto& part : std::views::split(values, ',')) {
         SettingMap value;
         parse_setting(fmt::format("{}={}", key, std::string_view(part.begin(), part.end())), value);
-        if (!find_noise(value, "--sweep")) check_setting(value, "--sweep");
+        if (!find_noise(value, "--sweep")) check_settings(value, "--sweep");
         axis.values.push_back(value.begin()->second);
     }
     return axis;
@@ -164,7 +156,7 @@ void override_study(const StudyCommandOptions& options, Study& study) {
     if (!options.size.empty()) study.settings["size"] = options.size;
     SettingMap given;
     for (const std::string& set : options.sets) parse_setting(set, given);
-    check_setting(given, "--set");
+    check_settings(given, "--set");
     given.merge(study.settings);
     study.settings = std::move(given);
     if (options.passes > 0) study.reference.passes = options.passes;

@@ -122,6 +122,13 @@ PreparedStudy prepare_study(Study study) {
     return prepared;
 }
 
+void check_settings(SettingMap settings, const std::string& source) {
+    Scene scene;
+    RenderSettings render;
+    set_scene_numbers(scene, settings, source);
+    apply_settings(render, settings, source);
+}
+
 SceneWithSettings with_settings_of(const PreparedStudyScene& scene, const Study& study, const SettingMap& more) {
     SceneWithSettings out{scene.scene, {}};
     apply_settings(out.settings, scene.scene.source.settings, scene.scene.source.file);

@@ -33,6 +33,9 @@ struct PreparedStudy {
 /// "pool" for pool/scene.json, else the name of the file without its extension.
 std::string name_scene(const std::filesystem::path& file);
 
+/// @throws InputError naming the source, if a setting has no such name or value
+void check_settings(SettingMap settings, const std::string& source);
+
 /// Loads the scenes and checks every setting of every variant and viewer, before anything is rendered.
 /// @throws InputError: a scene or a setting that is wrong, two scenes of one name, or a sweep of `size` or `seed`
 PreparedStudy prepare_study(Study study);

@@ -105,7 +105,8 @@ bool CheckedLight::differs(const IrradianceCache& cache, const IndirectContext& 
     if (!is_beyond(luminance(*own), rays)) return false;
     const int more = choose_rays_for_noise(ray_variance, deciding_noise * accuracy, rays, most_rays);
     thread_local GatherScratch scratch;
-    return is_beyond(luminance(gather_at(context, task, surface, scratch, more).irradiance), more);
+    const IrradianceSample sample = gather_at(context, task, surface, scratch, more);
+    return is_beyond(luminance(sample.irradiance + sample.rare), more);
 }
 
 void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context, FrameTally& frame) {

@@ -50,6 +50,27 @@ double number_of(int cell, int dimension) {
     return RandomStream({5, 0, static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(dimension)}).at(0);
 }
 
+TEST(GatherSummary, LightThatFewRaysFindIsTakenApart) {
+    const HemisphereStrata strata{8, 8};
+    Hemisphere hemisphere(strata);
+    std::vector<Rgb>& light = hemisphere.scratch.light;
+    light[3] = Rgb(4.0f);  // four times what others find is not rare
+    EXPECT_EQ(take_rare_light(strata, hemisphere.scratch), Rgb(0.0f));
+    light[7] = Rgb(100.0f, 200.0f, 0.0f);
+    light[40] = Rgb(50.0f);
+    const std::vector<Rgb> before = light;
+    const Rgb taken = take_rare_light(strata, hemisphere.scratch);
+    Rgb difference(0.0f);
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        difference += before[i] - light[i];
+        EXPECT_LE(luminance(light[i]), 4.0f + 1e-5f);
+    }
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(taken[c], difference[c] * pi / 64.0, 1e-5);
+    EXPECT_EQ(light[7].x * 2.0f, light[7].y) << "of the same colour";
+    for (int i : {10, 20, 30, 50}) light[static_cast<std::size_t>(i)] = Rgb(90.0f);
+    EXPECT_EQ(take_rare_light(strata, hemisphere.scratch), Rgb(0.0f)) << "four rays find it";
+}
+
 TEST(GatherSummary, GradientsAreWardAndHeckberts) {
     for (const HemisphereStrata& strata : {HemisphereStrata{3, 7}, HemisphereStrata{1, 4}, HemisphereStrata{5, 2}}) {
         Hemisphere hemisphere(strata);

@@ -200,6 +200,39 @@ TEST(IrradianceCacheValues, FinishAveragesWhatDiffersByNoise) {
     }
 }
 
+TEST(IrradianceCacheValues, FinishSharesRareLight) {
+    IrradianceCache cache = make_empty_cache();
+    // By what the records have: 1 to 3, besides one that is too far, one that faces away, and one that is kept.
+    const float reach = 8.0f * 0.25f;
+    const std::array<float, 6> light{5.0f, 1.0f, 3.0f, 2.0f, 7.0f, 9.0f};
+    std::vector<IrradianceRecord> records;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        records.push_back(make_record_at(0.3f * static_cast<float>(i), 0.01f, light[i], 0.01f));
+        records.back().min_radius = 0.25f;
+    }
+    records[2].rare = {6.0f, 12.0f, 0.0f};
+    records[4].position.x = records[2].position.x + 1.01f * reach;
+    records[5].normal = -up;
+    cache.restore(records);
+    cache.finish(1);
+    const auto find = [&](float x) {
+        return std::ranges::find_if(cache.records(), [x](const auto& r) { return r.position.x == x; })->irradiance;
+    };
+    const std::array<float, 6> share{0.0f, 1.0f / 6.0f, 3.0f / 6.0f, 2.0f / 6.0f, 0.0f, 0.0f};
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const Rgb found = find(records[i].position.x);
+        EXPECT_NEAR(found.x, light[i] + share[i] * 6.0f, 1e-5) << i;
+        EXPECT_NEAR(found.y, light[i] + share[i] * 12.0f, 1e-5) << i;
+    }
+    cache.finish();
+    EXPECT_NEAR(find(records[2].position.x).x, 6.0f, 1e-5) << "only once";
+    // In the dark evenly.
+    for (IrradianceRecord& record : records) record.irradiance = Rgb(0.0f);
+    cache.restore(records);
+    cache.finish();
+    for (const std::size_t i : {0u, 1u, 2u, 3u}) EXPECT_NEAR(find(records[i].position.x).x, 6.0 / 4.0, 1e-5) << i;
+}
+
 TEST(IrradianceCacheValues, BeyondTheClearanceARayDecides) {
     // A low wall half way from the record to a place 2 m away. Rays are lifted by .02 of the distance.
     for (const auto& [height, blocked] : {std::pair(0.039, false), std::pair(0.041, true)}) {
