@@ -62,10 +62,9 @@ EstimateNodes EstimateLight::find_nodes(std::int64_t frame, const FrameScene& sc
     return keyframe->nodes;
 }
 
-OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& scene, const FramePlan& plan) {
+OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FramePlan& plan) {
     OpenLens open;
-    if (!plan.skips(Effect::depth_of_field))
-        open.lens = find_lens(shot.scene, scene.posed().pose.cameras[shot.camera(frame)]);
+    if (!plan.skips(Effect::depth_of_field)) open.lens = plan.lens;
     if (!plan.skips(Effect::motion_blur)) open.shutter = shot.open_shutter(frame);
     return open;
 }
@@ -124,7 +123,7 @@ Image<float> blur_frame_estimate(const OpenFrame& frame, const SampleHits& cente
                                  const MotionField& motion, Image<Rgb>& sharp, RayCounts& counts) {
     const Shot& shot = frame.shot;
     const FrameScene& scene = frame.scene;
-    const OpenLens open = find_open_lens(shot, frame.number, scene, frame.plan);
+    const OpenLens open = find_open_lens(shot, frame.number, frame.plan);
     if (!open.shutter && !(open.lens.radius > 0.0)) return {};
     const SharpEstimate estimate{scene.shading(), scene.posed().view,           centers,      sharp,
                                  nodes,           shot.settings.guide.estimate, shot.exposure};

@@ -50,7 +50,7 @@ struct OpenLens {
     Lens lens;
     std::optional<ShutterInterval> shutter;
 };
-OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& scene, const FramePlan& plan);
+OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FramePlan& plan);
 
 /// A frame whose shutter or lens may be open.
 struct OpenFrame {

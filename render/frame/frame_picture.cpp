@@ -50,7 +50,7 @@ std::optional<KeyframeRisk> find_risk(const SequenceState& s, std::int64_t frame
 
 SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const FramePlan& plan) {
     SampleOptions options;
-    const OpenLens open = find_open_lens(s.shot, frame, s.here, plan);
+    const OpenLens open = find_open_lens(s.shot, frame, plan);
     options.lens = open.lens;
     options.blended = s.shot.blended;
     if (!open.shutter) return options;

@@ -146,11 +146,36 @@ ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const Frame
     const double open_at = interval->open / rate, close_at = interval->close / rate;
     shutter.changes = !shot_.steady.is_steady(camera, open_at, close_at);
     shutter.light_changes = shutter.changes && light_breaks_.changes(interval->open, interval->close);
-    if (shutter.changes && !facts.sees_all && shot_.steady.is_world_steady(open_at, close_at)) {
+    shutter.world_changes = shutter.changes && !shot_.steady.is_world_steady(open_at, close_at);
+    if (shutter.changes && !shutter.world_changes && !facts.sees_all) {
         shutter.blur = find_camera_blur(look(camera, open_at, close_at), shot_.settings.picture.width,
                                         shot_.settings.picture.height, nearest, shutter.largest);
     }
     return shutter;
+}
+
+/// Sets the lens and its facts.
+/// @param nearest  m along the view direction, of what is in view while the shutter is open
+void FramePlanner::find_lens_facts(const FrameWork& work, const PosedView& posed, double nearest, FramePlan& frame) {
+    const int index = shot_.camera(work.frame);
+    std::vector<CameraValues> cameras{posed.pose.cameras[index]};
+    const Camera& camera = shot_.scene.cameras[shot_.scene.nodes[cameras.front().node].camera];
+    const std::optional<ShutterInterval> interval = shot_.open_shutter(work.frame);
+    const bool blurs = interval && !shot_.settings.effects.forbid.contains(Effect::motion_blur);
+    if (blurs && (is_animated(camera.aperture) || is_animated(camera.focus_distance))) {
+        const double rate = shot_.scene.film.frame_rate.per_second();
+        const std::vector<CameraValues> looks = look(index, interval->open / rate, interval->close / rate);
+        cameras.insert(cameras.end(), looks.begin(), looks.end());
+    }
+    double& circle = frame.input.lens.circle;
+    for (const CameraValues& values : cameras) {
+        const Lens lens = find_lens(shot_.scene, values);
+        if (!(lens.radius > 0.0)) continue;
+        const CameraView view = make_camera_view(values, posed.view.width, posed.view.height);
+        circle = std::max(circle, find_largest_circle(view, lens.radius, lens.focus_distance, nearest));
+        if (lens.radius > frame.lens.radius) frame.lens = lens;
+    }
+    frame.input.lens.radius = frame.lens.radius;
 }
 
 FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
@@ -161,13 +186,10 @@ FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
     const Lens lens = find_lens(shot_.scene, posed.pose.cameras[shot_.camera(work.frame)]);
     const bool blurs = shot_.open_shutter(work.frame) || lens.radius > 0.0;
     in.facts = find_frame_facts(shot_.scene, *facts_, shot_.textures, posed.pose, posed.view, blurs);
-    in.lens.radius = lens.radius;
     const Nearest nearest = find_nearest(in.facts, posed.view);
-    if (lens.radius > 0.0) {
-        const double depth = in.facts.sees_all ? posed.view.near_plane : nearest.depth;
-        in.lens.circle = find_largest_circle(posed.view, lens.radius, lens.focus_distance, depth);
-    }
     in.shutter = find_shutter_facts(work, in.facts, nearest.distance);
+    const bool is_depth_known = !in.facts.sees_all && !in.shutter.changes;
+    find_lens_facts(work, posed, is_depth_known ? nearest.depth : posed.view.near_plane, frame);
     in.perceives = work.perceive;
     in.maps = work.maps;
     in.has_other = work.other != OtherFrame::none || work.edited;

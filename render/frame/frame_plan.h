@@ -16,6 +16,7 @@ struct FramePlan {
     PlanInput input;
     EffectsPlan effects;
     RenderSettings settings;  ///< the sequence's, without the indirect light that is skipped
+    Lens lens;                ///< at its widest while the shutter is open
     double seconds = 0.0;     ///< that planning took
 
     bool skips(Effect effect) const { return effects.skips(effect); }
@@ -54,6 +55,7 @@ class FramePlanner {
     /// Plans the effects, and sets the bounces that are left.
     void plan(FramePlan& frame, const std::optional<VisibleFrame>& visible) const;
     ShutterFacts find_shutter_facts(const FrameWork& work, const FrameFacts& facts, double nearest);
+    void find_lens_facts(const FrameWork& work, const PosedView& posed, double nearest, FramePlan& frame);
     std::vector<CameraValues> look(int camera, double from, double to);
 
     const Shot& shot_;

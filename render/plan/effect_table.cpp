@@ -4,8 +4,18 @@
 #include <cmath>
 
 #include "engine/base/pixel_loops.h"
+#include "render/plan/effect_bounds.h"
 
 namespace aleph {
+
+namespace {
+
+/// @param radiance  at the time of the frame's facts
+EffectBound bound_over_shutter(const Planning& frame, double radiance) {
+    return frame.bound_of(frame.in.shutter.world_changes ? unbounded : radiance);
+}
+
+}  // namespace
 
 const EffectTable& effect_table() {
     static const EffectTable table = [] {
@@ -48,7 +58,7 @@ Finding simulate_if(bool there, const char* yes, const char* no) {
 }
 
 Finding simulate_if_visible(const Planning& frame, double radiance, const std::string& some, const char* none) {
-    const EffectBound bound = frame.bound_of(radiance);
+    const EffectBound bound = bound_over_shutter(frame, radiance);
     if (bound.luminance == 0.0) return skip(none);
     Finding finding = simulate(some);
     finding.cheaper = {.decision = Decision::skip, .reason = some + ", but too little to be seen", .bound = bound};
@@ -58,7 +68,7 @@ Finding simulate_if_visible(const Planning& frame, double radiance, const std::s
 Finding leave_to_user(const Planning& frame, std::string reason, double radiance) {
     Finding finding = skip(std::move(reason));
     finding.planned.by_user = true;
-    finding.planned.bound = frame.bound_of(radiance);
+    finding.planned.bound = bound_over_shutter(frame, radiance);
     if (!std::isfinite(finding.planned.bound->luminance)) finding.planned.bound.reset();
     return finding;
 }

@@ -69,7 +69,8 @@ struct BlurMoments {
 struct ShutterFacts {
     bool open = false;           ///< for some time
     bool changes = false;        ///< something does while it is open
-    bool light_changes = false;  ///< what sends light does (LightBreaks), so that its bounds at one time do not hold
+    bool world_changes = false;  ///< more than the camera does, so that bounds of light at one time do not hold
+    bool light_changes = false;  ///< what sends light does (LightBreaks)
     /// How far the picture moves, where only the camera does; nothing if more than the picture's place may change.
     std::optional<BlurMoments> blur;
     double largest = 0.0;  ///< of these distances, pixels, from the first to the last

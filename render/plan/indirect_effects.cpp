@@ -67,8 +67,7 @@ int count_bounces(const Planning& frame) {
 
 Finding find_indirect_diffuse(Planning& frame) {
     const int bounces = count_bounces(frame);
-    const double bound =
-        frame.in.shutter.light_changes ? unbounded : bound_indirect_light(frame.in.facts, std::max(bounces, 1));
+    const double bound = bound_indirect_light(frame.in.facts, std::max(bounces, 1));
     if (bounces <= 0) return leave_to_user(frame, "the setting bounces is 0", bound);
     return simulate_if_visible(frame, bound, "light passes from surface to surface",
                                "no Lambert surface sees another that sends light");
@@ -79,8 +78,8 @@ Finding find_more_bounces(Planning& frame) {
     const int bounces = count_bounces(frame);
     if (bounces == 1)
         return leave_to_user(frame, "the setting bounces is 1", bound_further_bounces(frame.in.facts, 1, 1000));
-    const double bound = frame.in.shutter.light_changes ? unbounded : bound_further_bounces(frame.in.facts, 1, bounces);
-    return simulate_if_visible(frame, bound, "light of second and further bounces", "no light of a second bounce");
+    return simulate_if_visible(frame, bound_further_bounces(frame.in.facts, 1, bounces),
+                               "light of second and further bounces", "no light of a second bounce");
 }
 
 Finding find_caustics(Planning& frame) {

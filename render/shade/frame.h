@@ -11,7 +11,7 @@ namespace aleph {
 
 /// How a frame's samples differ from its pixel centres, and how many there are.
 struct SampleOptions {
-    Lens lens;
+    Lens lens;                 ///< at its widest while the shutter is open
     bool blended = false;      ///< blended surfaces are in the scene
     bool record_maps = false;  ///< fill ShadedFrame::cache_count and cache_radius
     /// The scene at a sample's time, valid until the next call; empty: the shutter opens for no time.

@@ -1,6 +1,8 @@
 // A thin lens against the closed form of its circle of confusion, and at the ends of its range.
 
+#include "engine/base/pixel_loops.h"
 #include "render/frame/sequence.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -147,6 +149,23 @@ TEST(DepthOfField, MC28_FocusAtTheCameraIsRefused) {
         scene.cameras[0].aperture = 0.0;
         EXPECT_NO_THROW(Sequence(scene, settings).render(0));
     }
+}
+
+TEST(DepthOfField, ALensThatIsClosedAtTheMiddleOfTheShutterAlone) {
+    RenderSettings settings = path_settings(0, 64);
+    set_size(settings, picture_width, picture_height);
+    Scene scene = make_disc_scene(4.0, 0.4f);
+    scene.cameras[0].shutter = {-0.5, 0.5};
+    scene.cameras[0].focus_distance = 2.0;
+    const auto spot = [&] {
+        const ShadedFrame shaded = Sequence(scene, settings).render(0).shaded;
+        return measure(map_pixels([](const Rgb& color) { return luminance(color); }, shaded.color));
+    };
+    scene.cameras[0].aperture = 0.8;
+    const Spot open = spot();
+    const double frame = scene.film.frame_rate.seconds_of(1);
+    scene.cameras[0].aperture = keyed<double>({-0.01 * frame, 0.0, 0.01 * frame}, {0.8, 0.0, 0.8});
+    EXPECT_NEAR(spot().radius, open.radius, 0.02 * open.radius);
 }
 
 }  // namespace

@@ -234,6 +234,54 @@ TEST(EffectsBounds, FX15_WhatChangesWhileTheShutterIsOpen) {
     EXPECT_EQ(decision(entering), Decision::simulate) << "an object enters";
 }
 
+/// A value at the middle of frame 0, and another at its ends; the shutter is open for all of it.
+template <class T>
+Track<T> swing(Scene& scene, const T& middle, const T& ends) {
+    scene.cameras[0].shutter = {-0.5, 0.5};
+    const double half = 0.5 * scene.film.frame_rate.seconds_of(1);
+    return keyed<T>({-half, 0.0, half}, {ends, middle, ends});
+}
+
+TEST(EffectsBounds, FX02_FX03_LightAtTheMiddleOfTheShutterBoundsNone) {
+    Scene scene = make_lit_square();
+    add_mesh(scene, make_quad(1.0, 1.0, 0), {0.0, -0.5, 0.5}, z_to_up);
+    scene.nodes[2].visible = 0.0;
+    const int shining = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(4.0));
+    const int lamp = add_mesh(scene, make_quad(0.5, 0.5, shining), {0.0, 0.5, 0.5});
+    RenderSettings settings = seen_settings();
+    settings.light.bounces = 2;
+    scene.nodes[lamp].transform.scale = glm::dvec3(0.0);
+    EXPECT_EQ(decide(scene, settings, Effect::indirect_diffuse), Decision::skip) << "a lamp without area";
+    scene.nodes[lamp].transform.scale = swing(scene, glm::dvec3(0.0), glm::dvec3(1.0));
+    EXPECT_EQ(decide(scene, settings, Effect::indirect_diffuse), Decision::simulate) << "it grows";
+    EXPECT_EQ(decide(scene, settings, Effect::more_bounces), Decision::simulate);
+
+    Scene gloss = make_lit_square();
+    gloss.meshes[0].material = add_material(gloss, 1.0, 0.6);
+    gloss.lights[0].intensity = 1e-12;
+    EXPECT_EQ(decide(gloss, settings, Effect::glossy_reflection), Decision::skip) << "a dim light";
+    gloss.lights[0].intensity = swing(gloss, 1e-12, 3.0);
+    EXPECT_EQ(decide(gloss, settings, Effect::glossy_reflection), Decision::simulate) << "it brightens";
+}
+
+TEST(EffectsBounds, FX12_AnApertureWhileTheShutterIsOpen) {
+    RenderSettings settings = seen_settings();
+    settings.picture.filter = PixelFilter::blackman_harris;
+    Scene scene = make_lit_square();
+    scene.cameras[0].aperture = swing(scene, 0.0, 0.1);
+    EXPECT_EQ(decide(scene, settings, Effect::depth_of_field), Decision::simulate) << "it is 0 at the middle alone";
+    EXPECT_EQ(decide(scene, settings, Effect::depth_of_field, 2), Decision::simulate);
+    scene.cameras[0].aperture = swing(scene, 0.0, 0.0);
+    EXPECT_EQ(decide(scene, settings, Effect::depth_of_field), Decision::skip);
+    scene.cameras[0].aperture = 3e-4;
+    scene.cameras[0].focus_distance = 3.0;
+    EXPECT_EQ(decide(scene, settings, Effect::depth_of_field), Decision::skip);
+    const int near = add_mesh(scene, make_quad(0.01, 0.01, 0), {0.0, 0.0, 2.99});
+    EXPECT_EQ(decide(scene, settings, Effect::depth_of_field), Decision::simulate) << "something is near";
+    scene.nodes[near].visible = swing(scene, 0.0, 1.0);
+    EXPECT_EQ(decide(scene, settings, Effect::depth_of_field), Decision::simulate) << "it comes and goes";
+}
+
 TEST(EffectsBounds, FX12_AnApertureThatHardlyBlurs) {
     Scene scene = make_lit_square();
     scene.cameras[0].aperture = 1e-9;

@@ -83,7 +83,10 @@ std::vector<Case> make_cases() {
     add("motion", scene, {"direct_light", "motion"}).perception.guide = Guide::full;
     add("motion that matters to viewers", scene, {"direct_light", "motion", "saliency"}).perception.guide =
         Guide::saliency;
+    scene = make_lit_square();
     scene.cameras[0].shutter = {0.0, 0.5};
+    scene.nodes[0].transform.translation =
+        keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.0, 0.0, 3.0), glm::dvec3(1.0, 0.0, 3.0)});
     add("motion blur", scene, {"direct_light", "motion_blur"});
     scene = make_lit_square();
     scene.cameras[0].aperture = 0.2;

@@ -189,6 +189,23 @@ TEST(LightingKeyframes, IC14_AnObjectThatTouchesOrLeavesTheFloorOrCrossesBetween
     }
 }
 
+/// Filters of the outermost pixels reach beyond the picture.
+TEST(LightingKeyframes, IC14_ALampThatGoesAndReturnsLightsNoBorder) {
+    Scene scene = make_shot();
+    const auto lamp = std::ranges::find_if(scene.nodes, [](const Node& node) { return node.light != no_index; });
+    const glm::dvec3 here = lamp->transform.translation.values.front();
+    lamp->transform.translation.values = {here, here + glm::dvec3(0.0, 20.0, 0.0), here};
+    lamp->transform.translation.sampling.period = 5.0 / 30.0;
+    RenderSettings settings = shot_settings(10), own = shot_settings(0);
+    settings.picture.filter = own.picture.filter = PixelFilter::blackman_harris;
+    settings.sampling.spp = own.sampling.spp = 16;
+    const Image<Rgb> found = render_alone(scene, settings, 5), expected = render_alone(scene, own, 5);
+    for (int y = 0; y < found.height; ++y) {
+        for (const int x : {0, found.width - 1})
+            EXPECT_LE(luminance(found(x, y)), 1.5 * luminance(expected(x, y))) << x << ' ' << y;
+    }
+}
+
 /// Everything turns together, so no light changes: all of it rides with the surfaces. What the frame computes are
 /// probes.
 TEST(LightingKeyframes, RecordsRideWithTheirSurfaces) {
