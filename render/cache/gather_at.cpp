@@ -59,6 +59,7 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
     const RandomKey key = choose_key(context, surface);
     if (context.bright != nullptr)
         rays = std::max(std::min(rays, least_rays), rays * around_per_aimed / (around_per_aimed + 1));
+    const bool apart_if_rare = context.settings.error > 0.0 && !context.bounces.further.noted && rays >= least_rays;
     return gather_irradiance(context.lighting, task, surface.point, {choose_strata(rays), key}, scratch,
                              {.depth = std::max(0, context.settings.light.path_depth - 2 - context.bounces.before),
                               .grid = context.direct,
@@ -66,7 +67,7 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
                               .multi_bounce = context.bounces.further,
                               .material = &surface.material,
                               .bright = context.bright,
-                              .apart_if_rare = context.settings.error > 0.0 && !context.bounces.further.noted});
+                              .apart_if_rare = apart_if_rare});
 }
 
 int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance) {

@@ -148,9 +148,9 @@ std::optional<Rgb> CheckedLight::find(const PixelSurface& surface, float accurac
     const glm::dvec3 place = to_camera(view_, glm::dvec3(surface.point.position) + anchor_);
     if (-place.z > view_.near_plane || view_.orthographic) {
         // Filters and lenses bring light from beyond the border: the tiles there tell of it.
-        const glm::dvec2 tile = project_camera_point(view_, place) / static_cast<double>(tile_pixels),
-                         inside =
-                             glm::clamp(tile, glm::dvec2(0.0), glm::dvec2(rejected_.width, rejected_.height) - 1.0);
+        const glm::dvec2 tile = project_camera_point(view_, place) / static_cast<double>(tile_pixels);
+        const glm::dvec2 last(rejected_.width - 1, rejected_.height - 1);
+        const glm::dvec2 inside = glm::clamp(tile, glm::dvec2(0.0), last);
         const std::uint8_t bit = risk_.moving[surface.hit.instance] != 0 ? moving_bit : still_bit;
         if ((rejected_(static_cast<int>(inside.x), static_cast<int>(inside.y)) & bit) != 0) return std::nullopt;
     }
