@@ -187,11 +187,12 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
 }
 
 void IrradianceCache::share_rare_light(std::size_t kept, std::vector<IrradianceRecord>& smooth) const {
+    std::vector<std::pair<int, float>> around;  // record, and its own light
     for (std::size_t i = kept; i < records_.size(); ++i) {
         const IrradianceRecord& from = records_[i];
         if (from.rare == Rgb(0.0f)) continue;
         const float reach = sharing_reach * from.min_radius;
-        std::vector<std::pair<int, float>> around;
+        around.clear();
         float sum = 0.0f;
         index_.visit([&](const RecordIndex::Cell& cell) { return cell.distance_to(from.position) < reach; },
                      [&](int j) {
@@ -203,7 +204,7 @@ void IrradianceCache::share_rare_light(std::size_t kept, std::vector<IrradianceR
                          sum += around.back().second;
                          return true;
                      });
-        const float even = sum > 0.0f ? 0.0f : 1.0f / static_cast<float>(around.size());
+        const float even = 1.0f / static_cast<float>(around.size());  // it is among them itself
         for (const auto& [j, light] : around) smooth[j].irradiance += from.rare * (sum > 0.0f ? light / sum : even);
         smooth[i].rare = Rgb(0.0f);
     }

@@ -147,7 +147,7 @@ std::optional<Rgb> CheckedLight::find(const PixelSurface& surface, float accurac
                                       RecordUse* used) const {
     const glm::dvec3 place = to_camera(view_, glm::dvec3(surface.point.position) + anchor_);
     if (-place.z > view_.near_plane || view_.orthographic) {
-        // Filters and lenses bring light from beyond the border: the tiles there tell of it.
+        // Filters and lenses bring light from beyond the border: it has the verdict of the nearest tile.
         const glm::dvec2 tile = project_camera_point(view_, place) / static_cast<double>(tile_pixels);
         const glm::dvec2 last(rejected_.width - 1, rejected_.height - 1);
         const glm::dvec2 inside = glm::clamp(tile, glm::dvec2(0.0), last);
