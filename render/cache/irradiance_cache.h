@@ -94,8 +94,7 @@ class IrradianceCache {
     /// Replaces each record's value and gradients by the mean of what it and the records around it extrapolate to its
     /// place, of those that differ by no more than noise: less noise without more rays. Rare light of records is shared
     /// out among those around that face about the same way, by what each of them has, so that it is no blotch and the
-    /// dark stays dark.
-    /// Nothing is inserted afterwards.
+    /// dark stays dark. Nothing is inserted afterwards.
     /// @param kept  so many of the first records stay as they are
     void finish(std::size_t kept = 0);
 
