@@ -123,17 +123,23 @@ std::optional<KeyframeRecords> LightStore::find(std::int64_t keyframe) const {
 }
 
 void LightStore::keep(std::int64_t keyframe, const KeyframeRecords& records) {
-    if (is_folder_) {
-        write_cache_file(file_of(keyframe), fingerprint_, {{keyframe, records}});
-        return;
-    }
     records_[keyframe] = records;
     changed_ = true;
+    if (!is_folder_) return;
+    try {
+        save();
+    } catch (const OutputError&) {  // the frame goes on; `save` tries again
+    }
 }
 
 void LightStore::save() {
-    if (is_folder_ || (!changed_ && std::filesystem::exists(path_))) return;
-    write_cache_file(path_, fingerprint_, records_);
+    if (is_folder_) {
+        for (const auto& [keyframe, records] : records_)
+            write_cache_file(file_of(keyframe), fingerprint_, {{keyframe, records}});
+        records_.clear();
+    } else if (changed_ || !std::filesystem::exists(path_)) {
+        write_cache_file(path_, fingerprint_, records_);
+    }
     changed_ = false;
 }
 

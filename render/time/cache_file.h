@@ -47,11 +47,10 @@ class LightStore {
     /// @throws InputError as read_cache_file; OutputError if it is not in the file, and the file cannot be written
     std::optional<KeyframeRecords> find(std::int64_t keyframe) const;
 
-    /// Keeps the records of a keyframe: in a folder at once.
-    /// @throws OutputError
+    /// Keeps the records of a keyframe: in a folder at once, where that can be written.
     void keep(std::int64_t keyframe, const KeyframeRecords& records);
 
-    /// Writes the file, if there is anything to add to it.
+    /// Writes what is not written yet.
     /// @throws OutputError
     void save();
 
@@ -61,7 +60,7 @@ class LightStore {
     const std::filesystem::path path_;
     const Fingerprint fingerprint_;
     const bool is_folder_;
-    ShotRecords records_;   ///< of the file
+    ShotRecords records_;   ///< of the file; of a folder those that are not written
     bool changed_ = false;  ///< since the file was read or written
 };
 

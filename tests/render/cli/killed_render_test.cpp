@@ -282,11 +282,13 @@ TEST_F(KilledRender, AFrameGoesOnFromItsCheckpoint) {
 /// Files of at most so many bytes can be written: a full disk without a disk. That of the frame is smaller.
 TEST_F(KilledRender, OU05_TheFrameIsKeptWhereWhatIsBesideItCannotBeWritten) {
     const Words lit{"--cache", folder_ / "light", "--light-step", "3", "--accuracy", ".2"};
+    const Words shared = joined(lit, {"--cache", folder_ / "lights/"});
     const Words stats{"--stats", folder_ / "out.json"}, checkpoint{"--checkpoint", "1e-6", "--spp", "4"};
-    for (const auto& [beside, code] : {std::pair(lit, 1), {stats, 1}, {checkpoint, 0}}) {
+    for (const auto& [beside, code] : {std::pair(lit, 1), {shared, 1}, {stats, 1}, {checkpoint, 0}}) {
         SCOPED_TRACE(beside.front());
         ASSERT_EQ(run(words("1", folder_ / "whole/f.png", beside)).code, 0);
         fs::remove(folder_ / "light");
+        fs::remove_all(folder_ / "lights");
         fs::remove(folder_ / "out.json");
         const rlim_t most = fs::file_size(folder_ / "whole/f.png") + 200;
         StartedProgram program(words("1-3", folder_ / "out/f.#.png", beside), folder_ / "log", [most] {
