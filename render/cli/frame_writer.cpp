@@ -137,15 +137,18 @@ class FrameWriter {
         std::optional<FrameCheckpoint> checkpoint;
         StageClock since;
         double waited = 0.0;
+        bool is_lost = false;
         const auto is_due = [&] {
             since.add_to(waited);
+            if (!std::exchange(has_begun_, true)) signals_.leave_time();
             const bool is_time = options_.checkpoint > 0.0 && waited >= options_.checkpoint;
-            if (!is_time && signals_.received() == 0) return false;
-            waited = 0.0;
-            return true;
+            is_kept_ = is_time || (signals_.received() != 0 && !is_lost);
+            if (is_kept_) waited = 0.0;
+            return is_kept_;
         };
-        const auto warn_once = [warned = false](const OutputError& e) mutable {  // the frame itself goes on
-            if (!std::exchange(warned, true)) std::cerr << "aleph: warning: " << e.what() << "\n";
+        const auto warn_once = [&](const OutputError& e) {  // the frame itself goes on
+            is_kept_ = false;
+            if (!std::exchange(is_lost, true)) std::cerr << "aleph: warning: " << e.what() << "\n";
         };
         if (options_.checkpoint > 0.0 || options_.time_limit > 0.0 ||
             (options_.resume && std::filesystem::exists(checkpoint_file(file))))
@@ -153,7 +156,7 @@ class FrameWriter {
         bool wants_picture = false;
         FrameRequest watched = request_;
         watched.progress = [&](double fraction, const char* stage) {
-            stop_if_asked();
+            stop_if_kept();
             if (signals_.take_status_request()) {
                 wants_picture = true;
                 std::cerr << fmt::format("aleph: {} of {} frames are finished; frame {}: {}, {:.0f} %\n",
@@ -171,8 +174,9 @@ class FrameWriter {
                 std::cerr << "aleph: warning: " << e.what() << "\n";
             }
         };
-        stop_if_asked();
+        stop_if_kept();
         finish(place, job_.make(frame, watched));
+        is_kept_ = true;
     }
 
     /// Writes the frame after its light and statistics, which no later run makes once the frame is there. The frame is
@@ -203,6 +207,12 @@ class FrameWriter {
         if (is_black(output.shaded.color)) ++black_;
         if (!options_.quiet && job_.settings.error > 0.0) print_error(output.statistics);
         if (lost) std::rethrow_exception(lost);
+    }
+
+    /// A limit of time waits until something new is kept, and until that took as long as what came before, which every
+    /// process does again: so a chain of processes ends, and takes little more than twice as long as one.
+    void stop_if_kept() const {
+        if (is_kept_ || signals_.received() != SIGALRM) stop_if_asked();
     }
 
     void stop_if_asked() const {
@@ -259,6 +269,8 @@ class FrameWriter {
     std::map<std::string, std::string> rows_;  ///< of an earlier run, by fingerprint
     std::vector<FinishedFrame> made_;
     std::vector<std::size_t> kept_;  ///< places of frames that others made
+    bool has_begun_ = false;         ///< what no process before has made
+    bool is_kept_ = false;           ///< all that this process has made, and it is not nothing
     double done_ = 0.0;              ///< frames
     std::size_t black_ = 0;          ///< frames
     std::vector<double> estimates_;  ///< of the frames that tell

@@ -136,14 +136,15 @@ void add_render_command(CLI::App& app, Command& command) {
             "--checkpoint",
             [options](const std::string& text) { options->scene.checkpoint = parse_seconds(text, "--checkpoint"); },
             "while a frame is made, keep its records and samples in a file every so many seconds, and when a signal "
-            "stops it: --resume goes on from there. --cache keeps the light of lighting keyframes, which come before")
+            "stops it: --resume goes on from there. --cache keeps the light of lighting keyframes for other frames too")
         ->type_name("SECONDS");
     render_app
         ->add_option_function<std::string>(
             "--time-limit",
             [options](const std::string& text) { options->scene.time_limit = parse_seconds(text, "--time-limit"); },
             "stop after so many seconds of a clock, loading included, and keep the state of the unfinished frame as "
-            "--checkpoint does; the exit code is 75, and the same command goes on")
+            "--checkpoint does; the exit code is 75, and the same command goes on. A limit that is too short for "
+            "anything new to be kept is exceeded")
         ->type_name("SECONDS")
         ->needs("--resume");
     add_text(*render_app, "--budget", "SECONDS", options->budget,

@@ -95,7 +95,7 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     FrameCounts of_spans;
     double span_seconds = 0.0;
     if (options.at_sample && carried == nullptr)
-        options.spans = find_shutter_spans(s, frame, prepared, options, of_spans);
+        options.spans = find_shutter_spans(s, frame, prepared, options, request, of_spans);
     clock.add_to(span_seconds);
     const IndirectContext context{.lighting = lighting,
                                   .view = out.view,
@@ -138,7 +138,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
         total.add_to(stats.seconds.total);
         const TracedRays by_frame = s.traced() - before;
         std::unique_ptr<CarriedLight> carried;
-        if (options.light_lasts) carried = find_carried_light(s, frame, plan, stats.keyframes, request.progress);
+        if (options.light_lasts) carried = find_carried_light(s, frame, plan, stats.keyframes, request);
         before = s.traced() - by_frame;
         total = {};
         s.here.leave_out(plan.effects);

@@ -1,5 +1,7 @@
 #include "render/frame/frame_shutter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -15,8 +17,9 @@ constexpr int most_spans = 8, least_samples = 8;  // of a pixel in each span: re
 /// The scene while the shutter of a frame is open. Poses SequenceState::shutter.
 class ShutterKeyLight {
   public:
-    ShutterKeyLight(SequenceState& s, std::int64_t frame, const PreparedFrame& prepared, const SampleOptions& options)
-        : s_(s), frame_(frame), prepared_(prepared), options_(options) {
+    ShutterKeyLight(SequenceState& s, std::int64_t frame, const PreparedFrame& prepared, const SampleOptions& options,
+                    const FrameRequest& request)
+        : s_(s), frame_(frame), prepared_(prepared), options_(options), request_(request) {
         if (options.limits != nullptr && prepared.plan.settings.error > 0.0)
             tolerance_ = compute_sampling_tolerance(*options.limits, prepared.plan.settings, s.shot.exposure);
     }
@@ -59,11 +62,14 @@ class ShutterKeyLight {
         const auto accuracy = static_cast<float>(prepared_.plan.settings.cache.accuracy);
         if (base_) lasting = make_keyframe_light(base_->at, find_lasting(*base_, *key.pose, accuracy));
         FrameCounts own;
+        if (request_.checkpoint != nullptr) request_.checkpoint->begin_fill(fmt::format("shutter {}", key.at));
         KeyframeRecords records = compute_records({.lighting = scene.lighting,
                                                    .views = views,
                                                    .settings = prepared_.plan.settings,
                                                    .cast = cast,
-                                                   .base = lasting ? &*lasting : nullptr},
+                                                   .base = lasting ? &*lasting : nullptr,
+                                                   .progress = request_.progress,
+                                                   .checkpoint = request_.checkpoint},
                                                   own);
         counts.rays += own.rays;
         counts.records += own.records;
@@ -74,6 +80,7 @@ class ShutterKeyLight {
     const std::int64_t frame_;
     const PreparedFrame& prepared_;
     const SampleOptions& options_;
+    const FrameRequest& request_;
     Image<float> tolerance_;
     std::map<double, std::shared_ptr<const KeyPose>> poses_;
     std::map<double, std::shared_ptr<const KeyframeLight>> lights_;
@@ -97,7 +104,8 @@ std::vector<PixelSurface> choose_places(const SequenceState& s, const PreparedFr
 }  // namespace
 
 std::vector<ShutterSpan> find_shutter_spans(SequenceState& s, std::int64_t frame, const PreparedFrame& prepared,
-                                            const SampleOptions& options, FrameCounts& counts) {
+                                            const SampleOptions& options, const FrameRequest& request,
+                                            FrameCounts& counts) {
     const RenderSettings& settings = prepared.plan.settings;
     const std::optional<ShutterInterval> shutter = s.shot.open_shutter(frame);
     if (!shutter || settings.light.integrator != Integrator::cache || settings.light.bounces == 0 ||
@@ -109,7 +117,7 @@ std::vector<ShutterSpan> find_shutter_spans(SequenceState& s, std::int64_t frame
         jumps = find_key_times(s.shot.scene, shutter->open / rate, shutter->close / rate);
         for (double& time : jumps) time *= rate;
     }
-    ShutterKeyLight keys(s, frame, prepared, options);
+    ShutterKeyLight keys(s, frame, prepared, options, request);
     const auto pose = [&](double at) { return keys.pose(at); };
     const ShutterPlaces places{choose_places(s, prepared), s.here.shading(), prepared.out.limits.alpha};
     const int most = std::min(most_spans, settings.sampling.spp / least_samples);

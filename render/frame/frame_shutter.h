@@ -10,6 +10,7 @@ namespace aleph {
 /// @param counts    of the records
 /// @return none: light of the shutter's centre does, or that of samples' own paths
 std::vector<ShutterSpan> find_shutter_spans(SequenceState& s, std::int64_t frame, const PreparedFrame& prepared,
-                                            const SampleOptions& options, FrameCounts& counts);
+                                            const SampleOptions& options, const FrameRequest& request,
+                                            FrameCounts& counts);
 
 }  // namespace aleph

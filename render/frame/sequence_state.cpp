@@ -79,10 +79,9 @@ const NoiseVisibility& SequenceState::noise(const FrameWork& work) {
 }
 
 std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t frame, const FramePlan& plan,
-                                                 std::vector<KeyframeStatistics>& filled,
-                                                 const FrameProgress& progress) {
+                                                 std::vector<KeyframeStatistics>& filled, const FrameRequest& request) {
     if (!s.shot_light || plan.skips(Effect::indirect_diffuse)) return nullptr;
-    return s.shot_light->at(frame, filled, progress);
+    return s.shot_light->at(frame, {filled, request.progress, request.checkpoint});
 }
 
 }  // namespace aleph

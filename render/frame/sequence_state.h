@@ -45,11 +45,10 @@ struct SequenceState {
 SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const FramePlan& plan);
 
 /// The light of the lighting keyframes around a frame; null if it reads none.
-/// @param filled    the keyframes that were computed for it are added
-/// @param progress  may be empty
+/// @param filled  the keyframes that were computed for it are added
 std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t frame, const FramePlan& plan,
                                                  std::vector<KeyframeStatistics>& filled,
-                                                 const FrameProgress& progress = {});
+                                                 const FrameRequest& request = {});
 
 /// Fills the cache, shades the picture and adds their times and counts to the frame's statistics.
 /// @param carried  light of lighting keyframes; may be null

@@ -11,7 +11,7 @@ namespace aleph {
 
 namespace {
 
-constexpr std::string_view magic = "alephC1\n";
+constexpr std::string_view magic = "alephC2\n";
 constexpr std::size_t digest_size = 40;
 
 }  // namespace
@@ -34,6 +34,7 @@ FrameCheckpoint::FrameCheckpoint(std::filesystem::path file, std::string identit
       identity_(std::move(identity)),
       is_due_(std::move(is_due)),
       on_error_(std::move(on_error)) {
+    begin_fill();
     std::error_code error;
     if (!std::filesystem::exists(file_, error)) return;
     const Bytes bytes = read_regular_file(file_, file_.string(), "");
@@ -41,38 +42,53 @@ FrameCheckpoint::FrameCheckpoint(std::filesystem::path file, std::string identit
     if (!content) return;
     ByteReader in(*content);
     if (in.read_text() != identity_) return;
-    std::vector<Gathers> gathers(std::min(in.read<std::size_t>(), content->size()));
-    for (auto& [results, found] : gathers) {
-        results = in.read_text();
-        found = in.read_text();
+    std::map<std::string, Fill> fills;
+    for (std::size_t left = in.read<std::size_t>(); left > 0 && in.is_good(); --left) {
+        Fill& fill = fills[std::string(in.read_text())];
+        fill.light = in.read_text();
+        fill.gathers.resize(std::min(in.read<std::size_t>(), content->size()));
+        for (auto& [results, found] : fill.gathers) {
+            results = in.read_text();
+            found = in.read_text();
+        }
     }
-    const std::string_view light = in.read_text(), samples = in.read_text();
+    const std::string_view samples = in.read_text();
     if (!in.is_good() || !in.at_end()) return;
-    gathers_ = std::move(gathers);
-    light_ = light;
+    fills_ = std::move(fills);
+    begin_fill();
     samples_ = samples;
 }
 
+void FrameCheckpoint::begin_fill(const std::string& name) {
+    fill_ = &fills_[name];
+    next_ = round_ = 0;
+    find_light_ = {};
+}
+
 void FrameCheckpoint::add_gathers(Gathers gathers) {
-    gathers_.push_back(std::move(gathers));
-    next_ = gathers_.size();
+    fill_->gathers.push_back(std::move(gathers));
+    next_ = fill_->gathers.size();
 }
 
 void FrameCheckpoint::end_round() {
-    for (; round_ < next_; ++round_) gathers_[round_].found = {};
+    for (; round_ < next_; ++round_) fill_->gathers[round_].found = {};
 }
 
 void FrameCheckpoint::offer(const std::function<std::string()>& find_samples) {
-    if (has_gathers() || !samples_.empty() || !is_due_()) return;
+    if (!is_due_()) return;
     ByteWriter out;
     out.add_text(identity_);
-    out.add(gathers_.size());
-    for (const auto& [results, found] : gathers_) {
-        out.add_text(results);
-        out.add_text(found);
+    out.add(fills_.size());
+    for (const auto& [name, fill] : fills_) {
+        out.add_text(name);
+        out.add_text(&fill == fill_ && find_light_ ? find_light_() : fill.light);
+        out.add(fill.gathers.size());
+        for (const auto& [results, found] : fill.gathers) {
+            out.add_text(results);
+            out.add_text(found);
+        }
     }
-    out.add_text(find_light_ ? find_light_() : std::string());
-    out.add_text(find_samples ? find_samples() : std::string());
+    out.add_text(find_samples ? find_samples() : samples_);
     try {
         write_file(file_, seal(magic, out.take()));
     } catch (const OutputError& e) {

@@ -1,11 +1,12 @@
 #pragma once
 // The state of a frame that is not finished, in a file, so that another process goes on from there: the results of
-// irradiance gathers in the order in which they were computed, and the samples of all pixels. What is computed quickly
-// is computed again.
+// irradiance gathers, of each fill in the order in which they were computed, and the samples of all pixels. What is
+// computed quickly is computed again.
 
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -91,6 +92,7 @@ class FrameCheckpoint {
     /// @param on_error  told that it could not be written, and the frame goes on; empty: `offer` throws
     FrameCheckpoint(std::filesystem::path file, std::string identity, std::function<bool()> is_due,
                     std::function<void(const OutputError&)> on_error = {});
+    FrameCheckpoint(const FrameCheckpoint&) = delete;
 
     /// Results of some gathers. Gathers of one round do not see what the others found: that is kept apart until the
     /// round has ended, and is then part of the light that gathers share.
@@ -98,35 +100,46 @@ class FrameCheckpoint {
         std::string results;
         std::string found;  ///< empty: the round has ended
     };
+    /// The gathers from here on belong to this fill of a cache. An earlier process may have done other fills, or in
+    /// another order: it had the light of other lighting keyframes.
+    /// @param name  empty: that of the frame itself
+    void begin_fill(const std::string& name = {});
+
     /// Returns whether an earlier process computed the next gathers.
-    bool has_gathers() const { return next_ < gathers_.size(); }
-    const Gathers& next_gathers() { return gathers_.at(next_++); }
+    bool has_gathers() const { return next_ < fill_->gathers.size(); }
+    const Gathers& next_gathers() { return fill_->gathers.at(next_++); }
     void add_gathers(Gathers gathers);
     /// Drops what the gathers of this round found.
     void end_round();
 
     /// The light that gathers shared when the earlier process wrote the file: once; empty afterwards.
-    std::string take_shared_light() { return std::exchange(light_, {}); }
-    /// Sets how this state is found. Called when the file is written, until the frame is finished.
+    std::string take_shared_light() { return std::exchange(fill_->light, {}); }
+    /// Sets how this state is found. Called when the file is written, until another fill begins.
     void set_shared_light(std::function<std::string()> find) { find_light_ = std::move(find); }
 
     /// The samples of the earlier process, once; empty: none.
     std::string take_samples() { return std::exchange(samples_, {}); }
 
-    /// Writes the state if that is due and nothing of the earlier process is left to be taken.
+    /// Writes the state if that is due, with what is left of the earlier process. Called after each piece of work.
     /// @param find_samples  may be empty: samples have not begun
     /// @throws OutputError
     void offer(const std::function<std::string()>& find_samples = {});
 
   private:
+    struct Fill {
+        std::vector<Gathers> gathers;
+        std::string light;  ///< of take_shared_light
+    };
+
     const std::filesystem::path file_;
     const std::string identity_;
     const std::function<bool()> is_due_;
     const std::function<void(const OutputError&)> on_error_;
-    std::vector<Gathers> gathers_;
-    std::size_t next_ = 0;   ///< of gathers_
+    std::map<std::string, Fill> fills_;
+    Fill* fill_ = nullptr;
+    std::size_t next_ = 0;   ///< of its gathers
     std::size_t round_ = 0;  ///< the first of the present round
-    std::string light_, samples_;
+    std::string samples_;
     std::function<std::string()> find_light_;
 };
 

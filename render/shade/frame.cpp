@@ -50,6 +50,7 @@ class FrameShading {
     /// rays of their own.
     void fill() {
         if (!integrator_->shares_light()) return;
+        if (context_.checkpoint != nullptr) context_.checkpoint->begin_fill();
         if (context_.progress) context_.progress(0.0, "fill");
         if (first_ == nullptr) {
             cast_first_ = cast_sample(context_.lighting.rays, context_.view, place_, &out_.counts.rays.primary);

@@ -74,6 +74,7 @@ KeyframeRecords compute_records(const KeyframeInput& input, FrameCounts& counts)
                             .accuracy = view->accuracy,
                             .max_radius = scene_radius(lighting.shading),
                             .progress = input.progress,
+                            .checkpoint = input.checkpoint,
                             .direct = &direct,
                             .carried = input.carried,
                             .seen = view->frame == input.frame ? nullptr : &view->shading,

@@ -58,6 +58,7 @@ struct KeyframeInput {
     const KeyframeLight* base = nullptr;    ///< its records hold at this keyframe too; may be null
     bool still = false;                     ///< nothing but the camera changes
     FrameProgress progress{};               ///< may be empty
+    FrameCheckpoint* checkpoint = nullptr;  ///< its fill has begun; may be null
 };
 
 /// The records of a base keyframe, if there is one, and those computed at surfaces that they do not cover.

@@ -1,5 +1,7 @@
 #include "render/time/shot_light.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "render/settings/measure.h"
@@ -28,8 +30,7 @@ std::int64_t ShotLight::find_base(std::int64_t keyframe) const {
 }
 
 KeyframeRecords ShotLight::compute(std::int64_t keyframe, const std::vector<std::int64_t>& frames,
-                                   const CarriedLight* carried, const KeyframeLight* base,
-                                   std::vector<KeyframeStatistics>& filled, const FrameProgress& progress) {
+                                   const CarriedLight* carried, const KeyframeLight* base, const KeyframeWork& work) {
     KeyframeStatistics statistics;
     statistics.frame = keyframe;
     StageClock clock;
@@ -39,29 +40,30 @@ KeyframeRecords ShotLight::compute(std::int64_t keyframe, const std::vector<std:
         if (!view) {
             view = source_.look(frame);
             statistics.counts.rays += view->rays;
-            if (progress) progress(0.0, "fill");
+            if (work.progress) work.progress(0.0, "fill");
         }
         views.push_back(view);
     }
     const LightingContext lighting = source_.light(keyframe);
-    const KeyframeInput input{keyframe, lighting, views, settings_, source_.cast, carried, base, still_, progress};
+    if (work.checkpoint != nullptr) work.checkpoint->begin_fill(fmt::format("keyframe {}", keyframe));
+    const KeyframeInput input{keyframe, lighting, views,  settings_,     source_.cast,
+                              carried,  base,     still_, work.progress, work.checkpoint};
     KeyframeRecords records = compute_records(input, statistics.counts);
     clock.add_to(statistics.seconds);
-    filled.push_back(statistics);
+    work.filled.push_back(statistics);
     return records;
 }
 
 void ShotLight::prepare(std::int64_t keyframe, const std::vector<std::int64_t>& views, const CarriedLight* carried,
-                        std::vector<KeyframeStatistics>& filled, const FrameProgress& progress) {
+                        const KeyframeWork& work) {
     std::shared_ptr<const KeyframeLight>& light = lights_[keyframe];
     if (light) return;
     std::optional<KeyframeRecords> records;
     if (store_) records = store_->find(keyframe);
     const std::int64_t base = find_base(keyframe);
     if (!records) {
-        if (base != keyframe) prepare(base, list_views(base), nullptr, filled, progress);
-        records =
-            compute(keyframe, views, carried, base == keyframe ? nullptr : lights_.at(base).get(), filled, progress);
+        if (base != keyframe) prepare(base, list_views(base), nullptr, work);
+        records = compute(keyframe, views, carried, base == keyframe ? nullptr : lights_.at(base).get(), work);
         if (store_) store_->keep(keyframe, *records);
     }
     light = std::make_shared<KeyframeLight>(make_keyframe_light(source_.pose(keyframe), *records));
@@ -73,14 +75,13 @@ std::unique_ptr<BlendedLight> ShotLight::blend(const KeyframePair& pair) const {
                                           still_ ? BetweenKeys::still : BetweenKeys::anything);
 }
 
-std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<KeyframeStatistics>& filled,
-                                            const FrameProgress& progress) {
+std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, const KeyframeWork& work) {
     const KeyframePair pair = keyframes_around(frame);
     const std::vector<std::int64_t> ends{pair.before, pair.after};
     std::vector<std::int64_t> views, lights = ends;
     for (const std::int64_t keyframe : ends) {
         const std::vector<std::int64_t> own = list_views(keyframe);
-        prepare(keyframe, own, nullptr, filled, progress);
+        prepare(keyframe, own, nullptr, work);
         views.insert(views.end(), own.begin(), own.end());
         lights.push_back(find_base(keyframe));
     }
@@ -89,7 +90,7 @@ std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<Keyf
     if (!still_ && middle != pair.before) {
         const std::unique_ptr<BlendedLight> at_middle =
             blend({pair.before, pair.after, find_keyframes(keyframes_, middle).weight});
-        prepare(middle, ends, at_middle.get(), filled, progress);
+        prepare(middle, ends, at_middle.get(), work);
         lights.push_back(middle);
         light->set_finer(blend(find_half(pair, middle, frame)));
     }

@@ -21,6 +21,13 @@ struct KeyframeSource {
     std::function<LightingContext(std::int64_t frame)> light;
 };
 
+/// What a frame keeps of the keyframes that are computed for it.
+struct KeyframeWork {
+    std::vector<KeyframeStatistics>& filled;  ///< they are added
+    const FrameProgress& progress;            ///< may be empty
+    FrameCheckpoint* checkpoint = nullptr;    ///< may be null
+};
+
 /// The light of every keyframe is a function of scene, settings and keyframe alone, so frames do not depend on the
 /// order in which they are rendered.
 class ShotLight {
@@ -49,9 +56,7 @@ class ShotLight {
 
     /// The light that a frame reads. Computes the lighting keyframes around the frame, unless they are kept from
     /// before.
-    /// @param progress  may be empty
-    std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<KeyframeStatistics>& filled,
-                                     const FrameProgress& progress);
+    std::unique_ptr<CarriedLight> at(std::int64_t frame, const KeyframeWork& work);
 
     /// Keeps the records of all keyframes there; those that it has need not be computed.
     void use(LightStore store) { store_.emplace(std::move(store)); }
@@ -63,10 +68,9 @@ class ShotLight {
     std::unique_ptr<BlendedLight> blend(const KeyframePair& pair) const;
     /// Finds the keyframe's light, or computes it at the surfaces of these views where `carried` does not know it.
     void prepare(std::int64_t keyframe, const std::vector<std::int64_t>& views, const CarriedLight* carried,
-                 std::vector<KeyframeStatistics>& filled, const FrameProgress& progress);
+                 const KeyframeWork& work);
     KeyframeRecords compute(std::int64_t keyframe, const std::vector<std::int64_t>& frames, const CarriedLight* carried,
-                            const KeyframeLight* base, std::vector<KeyframeStatistics>& filled,
-                            const FrameProgress& progress);
+                            const KeyframeLight* base, const KeyframeWork& work);
 
     LightingKeyframes keyframes_;
     const RenderSettings& settings_;

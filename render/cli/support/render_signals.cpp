@@ -14,7 +14,7 @@ volatile std::sig_atomic_t received_signal = 0, status_requests = 0;
 int objects = 0;  // that exist
 
 using Clock = std::chrono::steady_clock;
-Clock::time_point time_limit = Clock::time_point::max();
+Clock::time_point limited_since, time_limit = Clock::time_point::max();
 
 extern "C" void note_signal(int signal) {
     if (signal == SIGUSR1) {
@@ -51,7 +51,13 @@ RenderSignals::~RenderSignals() {
 
 void RenderSignals::stop_after(double seconds) {
     const std::chrono::duration<double> left(std::min(seconds, 1e9));
-    time_limit = Clock::now() + std::chrono::duration_cast<Clock::duration>(left);
+    limited_since = Clock::now();
+    time_limit = limited_since + std::chrono::duration_cast<Clock::duration>(left);
+}
+
+void RenderSignals::leave_time() const {
+    const auto now = Clock::now();
+    time_limit = std::max(time_limit, now + (now - limited_since));
 }
 
 int RenderSignals::received() const {

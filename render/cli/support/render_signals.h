@@ -29,6 +29,8 @@ class RenderSignals {
 
     /// Ends the command so many seconds from now, whatever object is asked then.
     void stop_after(double seconds);
+    /// Moves a limit of time so that what follows has as long as what came before since it was set.
+    void leave_time() const;
     /// SIGTERM or SIGINT, whichever arrived first, SIGALRM at the limit of time, or 0.
     int received() const;
     /// @param state    the end of the message: what is finished, and how to go on

@@ -76,25 +76,6 @@ TEST_F(KilledRender, ASignalBeforeTheFirstFrameIsResumedToo) {
     }
 }
 
-TEST_F(KilledRender, ATimeLimitStopsItAndTheFrameGoesOn) {
-    const Words frame{"render", folder_ / "scene.json", "--frames", "1",     "--size", "32x24", "-q", "--integrator",
-                      "path",   "--light-samples",      "1",        "--spp", "3000"};
-    ASSERT_EQ(run(joined(frame, {"-o", folder_ / "whole/f.exr"})).code, 0);
-    const Words limited = joined(frame, {"-o", folder_ / "out/f.exr", "--resume", "--time-limit"});
-    bool was_kept = false;
-    for (double seconds = 0.2; seconds < 1000.0; seconds *= 2.0) {
-        const Ended ended = run(joined(limited, {fmt::format("{}", seconds)}));
-        if (ended.code == 0) break;
-        expect_answer(ended, 75, "stopped by --time-limit: 0 of 1 frames are finished; the same command goes on");
-        EXPECT_FALSE(fs::exists(folder_ / "out/f.exr"));
-        was_kept = fs::exists(folder_ / "out/.f.exr.checkpoint");
-    }
-    EXPECT_TRUE(was_kept);
-    expect_whole();
-    expect_answer(run(joined(frame, {"-o", folder_ / "out/g.exr", "--time-limit", "1"})), 2, "--resume");
-    expect_answer(run(joined(limited, {"0"})), 2, "--time-limit");
-}
-
 TEST_F(KilledRender, ASecondInterruptEndsItAtOnce) {
     FolderEvents events(folder_ / "out");
     // The frame takes longer than the test: one stage of a million samples.
@@ -284,14 +265,17 @@ TEST_F(KilledRender, OU05_TheFrameIsKeptWhereWhatIsBesideItCannotBeWritten) {
     const Words lit{"--cache", folder_ / "light", "--light-step", "3", "--accuracy", ".2"};
     const Words shared = joined(lit, {"--cache", folder_ / "lights/"});
     const Words stats{"--stats", folder_ / "out.json"}, checkpoint{"--checkpoint", "1e-6", "--spp", "4"};
-    for (const auto& [beside, code] : {std::pair(lit, 1), {shared, 1}, {stats, 1}, {checkpoint, 0}}) {
-        SCOPED_TRACE(beside.front());
+    const Words paths{"--integrator", "path", "--sampling", "uniform", "--spp", "2000"},
+        limited{"--resume", "--time-limit", "1e-6"}, none;
+    for (const auto& [beside, more, code] :
+         {std::tuple(lit, none, 1), {shared, none, 1}, {stats, none, 1}, {checkpoint, none, 0}, {paths, limited, 75}}) {
+        SCOPED_TRACE(beside.back());
         ASSERT_EQ(run(words("1", folder_ / "whole/f.png", beside)).code, 0);
         fs::remove(folder_ / "light");
         fs::remove_all(folder_ / "lights");
         fs::remove(folder_ / "out.json");
         const rlim_t most = fs::file_size(folder_ / "whole/f.png") + 200;
-        StartedProgram program(words("1-3", folder_ / "out/f.#.png", beside), folder_ / "log", [most] {
+        StartedProgram program(words("1-3", folder_ / "out/f.#.png", joined(beside, more)), folder_ / "log", [most] {
             const rlimit limit{most, most};
             ::setrlimit(RLIMIT_FSIZE, &limit);
         });

@@ -2,6 +2,7 @@
 
 #include "render/pixels/frame_checkpoint.h"
 #include "tests/support/frame_bytes.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -105,6 +106,38 @@ INSTANTIATE_TEST_SUITE_P(
         CheckpointCase{"paths", "pool/scene.json", 20, {{"integrator", "path"}, {"spp", 1.0}, {"size", "160x120"}}},
         CheckpointCase{"shutter", "pool/scene.json", 20, {{"error", 4.0}, {"size", "24x18"}}, 0.5}),
     [](const auto& test) { return test.param.name; });
+
+TEST(FrameCheckpoint, OU07_LightThatComesBeforeTheFrameIsKept) {
+    RenderSettings keyframes = quick_settings(16, 12), shutter = keyframes;
+    keyframes.cache.light_step = 10;
+    shutter.cache.light_step = 0;
+    shutter.sampling.spp = 16;
+    Scene still = pool_scene(), blurred = pool_scene();
+    blurred.cameras.front().shutter = {0.0, 1.0};
+    add_light(blurred, Light::Kind::point, glm::dvec3(500.0), {0.0, 2.0, 0.0}, z_to_up);
+    blurred.nodes.back().transform.translation = keyed<glm::dvec3>({0.0, 1.0}, {{-9.0, 2.0, 0.0}, {9.0, 2.0, 0.0}});
+    for (const auto& [name, scene, settings] :
+         {std::tuple("keyframes", still, keyframes), std::tuple("shutter", blurred, shutter)}) {
+        SCOPED_TRACE(name);
+        const ScratchFolder folder;
+        FrameRequest request;
+        bool is_kept = false;
+        request.progress = [&](double, const char*) {
+            if (is_kept) throw StoppedHere();
+        };
+        FrameCheckpoint checkpoint(folder / "checkpoint", "frame", [&] { return is_kept = true; });
+        request.checkpoint = &checkpoint;
+        EXPECT_THROW(Sequence(scene, settings).render(15, request), StoppedHere);
+        EXPECT_TRUE(fs::exists(folder / "checkpoint"));
+        FrameCheckpoint kept(folder / "checkpoint", "frame", [] { return false; });
+        EXPECT_FALSE(kept.has_gathers()) << "of the frame itself";
+        EXPECT_TRUE(kept.take_samples().empty());
+        const auto finish = [&](FrameCheckpoint* from) {
+            return Sequence(scene, settings).render(15, {.checkpoint = from}).shaded.color.pixels;
+        };
+        EXPECT_TRUE(finish(&kept) == finish(nullptr));
+    }
+}
 
 /// A frame with an open shutter, and glass around which each time looks with a ray of its own. Goes on from the state
 /// after its last sample.
