@@ -52,14 +52,15 @@ std::vector<glm::ivec2> list_tiles(const Image<FillPoint>& points, int stride, b
     return tiles;
 }
 
-/// Rays of a pixel's record.
+/// Rays of a candidate's record.
 /// @param expected  nothing if it is the first
-int choose_record_rays(const IndirectContext& context, float reflected, glm::ivec2 pixel,
+int choose_record_rays(const IndirectContext& context, const Candidate& candidate, float reflected,
                        const std::optional<ExpectedRecord>& expected) {
-    const int rays = choose_rays(context.settings, context.accuracy(pixel.x, pixel.y),
+    const int rays = choose_rays(context.settings, candidate.query.accuracy,
                                  expected ? std::optional(expected->ray_variance) : std::nullopt);
     if (context.tolerance == nullptr || !expected) return rays;
-    return add_rays_for_noise(rays, *expected, reflected, (*context.tolerance)(pixel.x, pixel.y));
+    return add_rays_for_noise(rays, *expected, reflected, (*context.tolerance)(candidate.x, candidate.y),
+                              candidate.bounds.min);
 }
 
 /// The tiles whose samples no record covers, in tile order.
@@ -109,7 +110,7 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
         const float reflected = places.points(candidate.x, candidate.y).reflected;
         candidate.rays = places.rays > 0 ? choose_rays_for_noise(known ? known->ray_variance : 0.0f, places.noise,
                                                                  places.rays, places.most_rays)
-                                         : choose_record_rays(context, reflected, {candidate.x, candidate.y}, known);
+                                         : choose_record_rays(context, candidate, reflected, known);
         accepted.push_back(candidate);
     }
     waiting = std::move(later);

@@ -36,8 +36,13 @@ RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface
 
 /// Standard error of a record, over that of the mean of samples. Records lie about two pixels apart: noise that is
 /// smooth over a pixel is 2.5 times as visible as that of single pixels at 60 cd/m2, and 2.9 times at 5 (castleCSF, as
-/// in NoiseVisibility). Where records reach farther, those around them make it less (IrradianceCache::finish).
+/// in NoiseVisibility). Those around make it less (IrradianceCache::finish).
 constexpr double record_noise = 0.5;
+
+/// Least radii beyond which a record's standard error is smaller in proportion: the farther records reach, the fewer
+/// they are, and the less their errors cancel out over a patch. The mean of a wall would differ from frame to frame,
+/// which is seen in the dark beside it.
+constexpr double steady_radii = 5.0;
 
 }  // namespace
 
@@ -70,9 +75,10 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
                               .apart_if_rare = apart_if_rare});
 }
 
-int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance) {
+int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance, float min_radius) {
     const double light = reflected * expected.irradiance;
-    const double noise = record_noise * tolerance / (light * error_deviations);
+    const double farther = std::max(1.0, expected.radius / (steady_radii * min_radius));
+    const double noise = record_noise * tolerance / (farther * light * error_deviations);
     return choose_rays_for_noise(expected.ray_variance, noise, rays, most_rays);
 }
 

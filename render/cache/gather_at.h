@@ -30,6 +30,7 @@ inline constexpr int sample_rays = 2;
 
 /// Returns the rays, at least `rays` and at most most_rays, that bring the noise of a record below what the pixel's
 /// samples may have.
-int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance);
+/// @param min_radius  m, of RadiusBounds
+int add_rays_for_noise(int rays, const ExpectedRecord& expected, float reflected, float tolerance, float min_radius);
 
 }  // namespace aleph

@@ -201,8 +201,8 @@ TEST(RecordCorrection, ContactsHaveNoGradientBeyondThem) {
 
 TEST(RecordRays, MoreRaysKeepNoiseBelowThatOfSamples) {
     // One unit of irradiance, of which a tenth is reflected.
-    const auto rays = [](float ray_variance, float tolerance) {
-        return add_rays_for_noise(512, {1.0f, ray_variance, {}}, 0.1f, tolerance);
+    const auto rays = [](float ray_variance, float tolerance, float radius = 1.0f) {
+        return add_rays_for_noise(512, {1.0f, ray_variance, radius}, 0.1f, tolerance, 1.0f);
     };
     EXPECT_EQ(rays(1.0f, 1.0f), 512);
     EXPECT_EQ(rays(0.0f, 1e-6f), 512);
@@ -211,6 +211,8 @@ TEST(RecordRays, MoreRaysKeepNoiseBelowThatOfSamples) {
     const int more = rays(5.0f, 0.01f);
     EXPECT_GT(more, 512);
     EXPECT_NEAR(0.1 * std::sqrt(5.0 / more), 0.5 * 0.01 / error_deviations, 1e-5) << "half a standard error of samples";
+    EXPECT_EQ(rays(2.0f, 0.01f, 5.0f), rays(2.0f, 0.01f));
+    EXPECT_NEAR(rays(2.0f, 0.01f, 7.0f), 1.4 * 1.4 * rays(2.0f, 0.01f), 2.0) << "few records reach far";
 }
 
 /// Rays of samples are without bias, and records nearly: the mixture has the light of traced paths.
