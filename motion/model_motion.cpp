@@ -278,12 +278,6 @@ MotionField ModelMotion::compute(const PosedView& now, const PosedView& other, c
     return field;
 }
 
-MotionField compute_model_motion(const Scene& scene, const PosedView& now, const PosedView& other,
-                                 const Image<Hit>& hits, OtherFrame which) {
-    const PosePlan plan = make_pose_plan(scene);
-    return ModelMotion(scene, plan).compute(now, other, hits, which);
-}
-
 MotionField make_still_motion(const CameraView& view, const Image<Hit>& hits) {
     MotionField field = make_motion_field(hits.width, hits.height, MotionValidity::background);
     parallel_pixels(hits, 16, [&](int x, int y) {

@@ -64,10 +64,6 @@ class ModelMotion {
     std::optional<ScenePose> between_;
 };
 
-/// The same for a single pair of frames.
-MotionField compute_model_motion(const Scene& scene, const PosedView& now, const PosedView& other,
-                                 const Image<Hit>& hits, OtherFrame which = OtherFrame::next);
-
 /// The field of a frame in which neither world nor camera move: displacement 0, and what lies before the near plane has
 /// no valid motion.
 /// @param hits  first hits through the pixel centres of the view

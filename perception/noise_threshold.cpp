@@ -83,7 +83,6 @@ struct TemporalResponse {
     double sustained = 0.0;  ///< castle_sustained_response
     double power = 0.0;      ///< of the frequency, as castle_transient_response has it
 
-    TemporalResponse() = default;
     explicit TemporalResponse(double omega)
         : sustained(castle_sustained_response(omega)), power(std::pow(omega, castle_transient_power)) {}
 };

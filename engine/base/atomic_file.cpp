@@ -21,35 +21,31 @@ std::string shown(const fs::path& path) {
     return printable(path.string(), 4096);
 }
 
-/// A failed system call; strerror is not safe between threads.
-[[noreturn]] void fail(const fs::path& named, const char* what, int error) {
-    throw OutputError(shown(named), fmt::format("{}: {}", what, std::generic_category().message(error)));
-}
-
 /// The file to write: `path`, or what it links to. Refuses what cannot be replaced.
 fs::path checked_target(const fs::path& path) {
     if (!path.has_filename()) throw OutputError(shown(path), "this is a folder, not a file name");
     std::error_code error;
     const fs::path target = follow_links(path);
-    if (fs::is_symlink(target, error)) fail(path, "cannot follow the link", ELOOP);
+    if (fs::is_symlink(target, error)) fail_output(path, "cannot follow the link", ELOOP);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     const bool is_folder = fs::is_directory(folder, error);
-    if (error && error != std::errc::no_such_file_or_directory) fail(path, "cannot use its folder", error.value());
+    if (error && error != std::errc::no_such_file_or_directory)
+        fail_output(path, "cannot use its folder", error.value());
     if (!is_folder) throw OutputError(shown(path), fmt::format("the folder '{}' does not exist", shown(folder)));
     const fs::file_status status = fs::status(target, error);
     if (fs::exists(status)) {
         if (fs::is_directory(status)) throw OutputError(shown(path), "this is a folder");
         if (!fs::is_regular_file(status)) throw OutputError(shown(path), "exists and is not a regular file");
         if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
-            fail(path, "cannot replace the existing file", errno);
+            fail_output(path, "cannot replace the existing file", errno);
     }
     return target;
 }
 
 void flush_to_disk(const fs::path& file, const fs::path& named) {
     FileDescriptor fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-    if (fd.get() < 0) fail(named, "cannot re-open the temporary file", errno);
-    if (::fsync(fd.get()) != 0) fail(named, "cannot flush to disk", errno);
+    if (fd.get() < 0) fail_output(named, "cannot re-open the temporary file", errno);
+    if (::fsync(fd.get()) != 0) fail_output(named, "cannot flush to disk", errno);
 }
 
 /// Processes of other hosts and containers may have the same number.
@@ -62,15 +58,15 @@ void create_folder_of(const fs::path& path) {
     if (!path.has_parent_path()) return;
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
-    if (error) fail(path, "cannot create its folder", error.value());
+    if (error) fail_output(path, "cannot create its folder", error.value());
 }
 
 /// Every step is checked. write_atomically flushes them.
 void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& named) {
     FileDescriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (fd.get() < 0) fail(named, "cannot create a file in this folder", errno);
-    if (!fd.write(bytes)) fail(named, "cannot write", errno);
-    if (!fd.close()) fail(named, "cannot close", errno);
+    if (fd.get() < 0) fail_output(named, "cannot create a file in this folder", errno);
+    if (!fd.write(bytes)) fail_output(named, "cannot write", errno);
+    if (!fd.close()) fail_output(named, "cannot close", errno);
     std::error_code error;
     const auto size = fs::file_size(file, error);
     if (error || size != bytes.size()) {
@@ -107,7 +103,8 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     try {
         write(temporary);
         flush_to_disk(temporary, path);
-        if (::rename(temporary.c_str(), target.c_str()) != 0) fail(path, "cannot rename the temporary file", errno);
+        if (::rename(temporary.c_str(), target.c_str()) != 0)
+            fail_output(path, "cannot rename the temporary file", errno);
     } catch (...) {
         ::unlink(temporary.c_str());
         throw;
@@ -122,14 +119,14 @@ void try_output(const fs::path& path) {
     create_folder_of(path);
     const fs::path temporary = temporary_path(checked_target(path));
     const FileDescriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
-    if (file.get() < 0) fail(path, "cannot create a file in this folder", errno);
+    if (file.get() < 0) fail_output(path, "cannot create a file in this folder", errno);
     ::unlink(temporary.c_str());
 }
 
 void create_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error) fail(folder, "cannot create the folder", error.value());
+    if (error) fail_output(folder, "cannot create the folder", error.value());
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
 #include <vector>
 
 namespace aleph {
@@ -38,6 +39,10 @@ InputError::InputError(std::string file, std::string place, std::string reason)
 
 OutputError::OutputError(const std::string& file, const std::string& reason)
     : std::runtime_error(join_message(file, "", reason)) {}
+
+void fail_output(const std::string& file, const char* what, int error) {  // strerror is not safe between threads
+    throw OutputError(printable(file, 4096), fmt::format("{}: {}", what, std::generic_category().message(error)));
+}
 
 void fail_check(const char* expression, const char* file, int line, const std::string& values) {
     throw std::logic_error(fmt::format("{}:{}: check failed: {} ({})", file, line, expression, values));

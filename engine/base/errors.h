@@ -29,6 +29,9 @@ class OutputError : public std::runtime_error {
     OutputError(const std::string& file, const std::string& reason);
 };
 
+/// Throws OutputError: a system call failed. @param error  errno
+[[noreturn]] void fail_output(const std::string& file, const char* what, int error);
+
 /// Throws std::logic_error: an invariant of the program does not hold. @param values  the values found, as text
 [[noreturn]] void fail_check(const char* expression, const char* file, int line, const std::string& values);
 

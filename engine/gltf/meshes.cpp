@@ -75,7 +75,6 @@ void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, cons
     bool dropped_normals = false;
     for (const std::map<std::string, int>& source : primitive.targets) {
         MorphTarget target;
-        target.name = fmt::format("target{}", mesh.deformation.targets.size());
         if (const auto found = source.find("POSITION"); found != source.end()) {
             target.positions = to_vectors<glm::vec3>(reader, found->second);
         }

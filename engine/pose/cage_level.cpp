@@ -128,13 +128,6 @@ double find_level_needed(const SurfaceShape& shape, const glm::dmat4& world, con
     return shape.surface->level() + most;
 }
 
-int find_camera_node(const Scene& scene, int camera) {
-    for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
-        if (scene.nodes[node].camera != no_index && camera-- == 0) return static_cast<int>(node);
-    }
-    return no_index;
-}
-
 /// Shapes of meshes; those of deforming cages are updated for every time.
 class Shapes {
   public:

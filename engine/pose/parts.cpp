@@ -79,6 +79,13 @@ ScenePose place_nodes(const Scene& scene, double seconds) {
     return posed;
 }
 
+int find_camera_node(const Scene& scene, int camera) {
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
+        if (scene.nodes[node].camera != no_index && camera-- == 0) return static_cast<int>(node);
+    }
+    return no_index;
+}
+
 bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance) {
     const Instance& of = posed.instances[instance];
     return posed.visible[of.node] != 0 && evaluate_whole(scene.meshes[of.mesh].present, posed.seconds) != 0.0;
@@ -143,7 +150,6 @@ CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, 
             .shift_x = evaluate(camera.shift_x, seconds),
             .shift_y = evaluate(camera.shift_y, seconds),
             .near_plane = camera.near_plane,
-            .shutter = camera.shutter,
             .aperture = not_negative(camera.aperture, seconds),
             .focus_distance = not_negative(camera.focus_distance, seconds)};
 }

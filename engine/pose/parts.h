@@ -15,6 +15,9 @@ void place_node(const Scene& scene, int node, double seconds, ScenePose& posed);
 /// Every node's transform and visibility, and nothing else.
 ScenePose place_nodes(const Scene& scene, double seconds);
 
+/// no_index: the scene has no such camera. @param camera  index into ScenePose::cameras
+int find_camera_node(const Scene& scene, int camera);
+
 /// True where the instance's node is visible and its mesh present, at posed.seconds.
 bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance);
 

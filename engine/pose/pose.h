@@ -49,7 +49,6 @@ struct CameraValues {
     double half_height = 1.0;  ///< orthographic, m
     double shift_x = 0.0, shift_y = 0.0;  ///< in heights of the picture
     double near_plane = 1e-4;
-    glm::dvec2 shutter{0.0};
     double aperture = 0.0, focus_distance = 1.0;
     bool operator==(const CameraValues&) const = default;
 };

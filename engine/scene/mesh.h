@@ -47,7 +47,6 @@ struct PointCache {
 
 /// Displacements of every vertex of a mesh (glTF). Arrays are empty or as long as Mesh::positions.
 struct MorphTarget {
-    std::string name;
     std::vector<glm::vec3> positions;  ///< m, added
     std::vector<glm::vec3> normals;    ///< added
     bool operator==(const MorphTarget&) const = default;

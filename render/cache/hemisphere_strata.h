@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <numbers>
 
@@ -79,7 +80,7 @@ class CellNumbers {
 
     float number(std::size_t dimension, float by_row, float by_column, int row, int column) const {
         const float x = shifts_[dimension] + static_cast<float>(row) * by_row + static_cast<float>(column) * by_column;
-        return std::min(fraction(x), below_one);
+        return std::min(glm::fract(x), below_one);
     }
 
     std::array<float, 5> shifts_;

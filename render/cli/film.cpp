@@ -31,10 +31,6 @@ constexpr const char* encoder = "ffmpeg";
 constexpr const char* lock_ending = ".lock";
 constexpr std::int64_t fastest_gif = 50;  // frames a second: many players show delays below .02 s as .1 s
 
-[[noreturn]] void refuse(const std::string& film, const std::string& reason) {
-    throw InputError("", "--output", fmt::format("'{}': {}", printable(film, 400), reason));
-}
-
 fs::path folder_of(const SceneOptions& options) {
     return fs::path(options.output).parent_path();
 }
@@ -104,8 +100,10 @@ bool can_make_films() {
 FilmFolder choose_film(SceneOptions& options, const FrameRequest& request) {
     if (!names_film(options.output)) return FilmFolder();
     const fs::path film(options.output);
-    if (find_number_field(film.filename().string(), "--output")) refuse(options.output, "a film has no frame number");
-    if (request.frame && request.maps) refuse(options.output, "films cannot hold the channels of maps; write .exr");
+    if (find_number_field(film.filename().string(), "--output"))
+        refuse_pattern(options.output, "a film has no frame number");
+    if (request.frame && request.maps)
+        refuse_pattern(options.output, "films cannot hold the channels of maps; write .exr");
     if (!can_make_films()) {
         throw OutputError(printable(options.output, 4096),
                           "films are made by the program ffmpeg, which is not in PATH: install it (Debian: apt-get "
@@ -129,9 +127,10 @@ FrameRate film_rate(const SceneOptions& options, const std::vector<int>& frames,
     const std::int64_t common = std::gcd(scene.numerator / slower, denominator);
     const FrameRate rate{scene.numerator / slower / common, denominator / common};
     if (lower_extension(options.film) == ".gif" && rate.numerator > fastest_gif * rate.denominator) {
-        refuse(options.film, fmt::format("a GIF has at most {} frames a second, the film {}; choose every second frame "
-                                         "(--frames 1-100x2), or write .mp4",
-                                         fastest_gif, describe_rate(rate)));
+        refuse_pattern(options.film,
+                       fmt::format("a GIF has at most {} frames a second, the film {}; choose every second frame "
+                                   "(--frames 1-100x2), or write .mp4",
+                                   fastest_gif, describe_rate(rate)));
     }
     return rate;
 }

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <iostream>
 #include <map>
 #include <numeric>
-#include <ranges>
 #include <thread>
 #include <utility>
 

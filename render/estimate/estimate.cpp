@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "render/cache/gather.h"
 #include "render/estimate/sight_line.h"
@@ -17,11 +18,6 @@ constexpr double coarse_nodes = 300.0;  // about as many pixels are gathered fir
 constexpr int min_coarse_spacing = 8;   // pixels; closer, the noise of gathers would be finer than light itself
 constexpr int max_levels = 4;           // each halves the spacing
 constexpr float done = 0.999f;          // confidence at which no finer level is asked
-
-float smooth_step(float low, float high, float x) {
-    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t);
-}
 
 /// Weights of three nodes along one axis.
 struct Spline {
@@ -73,7 +69,7 @@ EstimateNodes::Interpolated EstimateNodes::interpolate(const DiffuseSurface& her
     for (int level = 0; level < levels && out.confidence < done; ++level) {
         const Interpolated found = interpolate_level(here, pixel, spacing(level), kind);
         if (found.confidence <= 0.0f) continue;
-        const float part = (1.0f - out.confidence) * smooth_step(0.1f, 0.5f, found.confidence);
+        const float part = (1.0f - out.confidence) * glm::smoothstep(0.1f, 0.5f, found.confidence);
         out.irradiance += found.irradiance * (part / found.confidence);
         out.confidence += part;
     }

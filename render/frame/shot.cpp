@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/pose/cage_level.h"
+#include "engine/pose/parts.h"
 #include "engine/rays/alpha_cutout.h"
 #include "render/surface/texture.h"
 
@@ -42,14 +43,6 @@ bool is_cut(const Scene& scene, std::int64_t frame) {
     return std::ranges::find(scene.film.cuts, frame) != scene.film.cuts.end();
 }
 
-/// @param camera  index into ScenePose::cameras
-glm::dvec2 read_shutter(const Scene& scene, int camera) {
-    for (const Node& node : scene.nodes) {
-        if (node.camera != no_index && camera-- == 0) return scene.cameras[node.camera].shutter;
-    }
-    return glm::dvec2(0.0);
-}
-
 }  // namespace
 
 Lens find_lens(const Scene& scene, const CameraValues& camera) {
@@ -82,7 +75,8 @@ Scene Shot::given_scene() const {
 }
 
 glm::dvec2 Shot::shutter(std::int64_t frame) const {
-    return read_shutter(scene, camera(frame));
+    const int node = find_camera_node(scene, camera(frame));
+    return node == no_index ? glm::dvec2(0.0) : scene.cameras[scene.nodes[node].camera].shutter;
 }
 
 std::optional<ShutterInterval> Shot::open_shutter(std::int64_t frame) const {

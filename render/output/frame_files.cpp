@@ -56,7 +56,7 @@ void add_cryptomatte(ChannelImage& file, const Image<Hit>& hits, const Scene& sc
         if (shown.empty() || shown.back() != path) shown.push_back(path);
         ids.push_back(cryptomatte_id(path));
     }
-    const auto at = [layer](const char* part) { return std::string(layer) + "00." + part; };
+    const auto at = [](const char* part) { return std::string(layer) + "00." + part; };
     add(file, at("r"), pick(hits, [&](const Hit& hit) { return hit.instance == no_index ? 0.0f : ids[hit.instance]; }));
     add(file, at("g"), pick(hits, [](const Hit& hit) { return hit.instance == no_index ? 0.0f : 1.0f; }));
     for (const char* part : {"b", "a"}) add(file, at(part), Image<float>(hits.width, hits.height));

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/python/bindings.h"
 #include "render/study/prepared_study.h"

@@ -23,12 +23,6 @@ std::array<double, 3> measure_move(const CameraValues& a, const CameraValues& b)
             std::abs(a.fov - b.fov) + std::abs(a.half_height - b.half_height)};
 }
 
-/// @param camera  index into ScenePose::cameras
-int find_camera_node(const Scene& scene, int camera) {
-    const auto looks = [&](const Node& node) { return node.camera != no_index && camera-- == 0; };
-    return static_cast<int>(std::ranges::find_if(scene.nodes, looks) - scene.nodes.begin());
-}
-
 /// Returns whether a move is a jump that takes time: what is left of it just before its end is little of it.
 bool is_crossed(const Scene& scene, int camera, std::int64_t cut) {
     const int node = find_camera_node(scene, camera);

@@ -1,7 +1,6 @@
 // Paintings computed point by point.
 
 #include <array>
-#include <complex>
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/texture_tools.h"

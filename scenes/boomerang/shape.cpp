@@ -43,7 +43,6 @@ class MiddleLine {
         }
         centre_ = moment / length;
     }
-    double length() const { return lengths_.back(); }
     /// @param s  -1 at one tip, 0 at the elbow, 1 at the other
     glm::dvec2 at(double s) const {
         const double wanted = 0.5 * (s + 1.0) * lengths_.back();

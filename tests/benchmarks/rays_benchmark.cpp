@@ -9,7 +9,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <numeric>

@@ -13,7 +13,6 @@
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "motion/image_motion.h"
-#include "motion/model_motion.h"
 #include "motion/reprojection.h"
 #include "motion/velocity.h"
 #include "perception/noise_threshold.h"
@@ -24,6 +23,7 @@
 #include "tests/benchmarks/thread_seconds.h"
 #include "tests/support/all_pixels.h"
 #include "tests/support/first_hits.h"
+#include "tests/support/model_motion.h"
 #include "tests/support/paths.h"
 
 namespace aleph {

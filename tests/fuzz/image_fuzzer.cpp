@@ -1,7 +1,6 @@
 // Any bytes as a texture: an InputError or a picture.
 
 #include <cstdint>
-#include <vector>
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"

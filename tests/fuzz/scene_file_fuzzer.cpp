@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <string_view>
 
 #include "engine/base/errors.h"
 #include "engine/pose/pose.h"

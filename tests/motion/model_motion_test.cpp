@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "motion/model_motion.h"
+#include "tests/support/model_motion.h"
 #include "tests/support/motion_truth.h"
 #include "tests/support/scenes/child_node.h"
 #include "tests/support/scenes/motion_scenes.h"

@@ -1,7 +1,7 @@
 // Reprojection of Q(u,v,t) where it is fragile. Expected values by hand or in long double.
 
-#include "motion/model_motion.h"
 #include "motion/velocity.h"
+#include "tests/support/model_motion.h"
 #include "tests/support/scenes/motion_scenes.h"
 #include "tests/support/test.h"
 

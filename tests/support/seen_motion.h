@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "motion/model_motion.h"
 #include "tests/support/first_hits.h"
+#include "tests/support/model_motion.h"
 
 namespace aleph {
 

@@ -1,7 +1,6 @@
 #include "render/cli/support/film_program.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/socket.h>
@@ -29,11 +28,6 @@ namespace fs = std::filesystem;
 
 constexpr int poll_milliseconds = 200;
 constexpr std::size_t errors_kept = 2000;  // bytes
-
-[[noreturn]] void fail(const fs::path& program, const char* what, int error) {
-    throw OutputError(printable(program.string(), 4096),
-                      fmt::format("{}: {}", what, std::generic_category().message(error)));
-}
 
 struct Ends {
     FileDescriptor ours, theirs;
@@ -81,7 +75,7 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     const int error = ::posix_spawn(&id, program.c_str(), &files, &attributes, argv.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
-    if (error != 0) fail(program, "cannot start the program", error);
+    if (error != 0) fail_output(program, "cannot start the program", error);
     return id;
 }
 
@@ -146,9 +140,9 @@ fs::path find_program(const std::string& name) {
 ProgramEnd run_fed(const fs::path& program, const std::vector<std::string>& arguments,
                    const std::function<Bytes()>& next, const std::function<void()>& check) {
     int sockets[2], pipes[2];
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) fail(program, "no socket", errno);
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) fail_output(program, "no socket", errno);
     Ends input{FileDescriptor(sockets[0]), FileDescriptor(sockets[1])};
-    if (::pipe2(pipes, O_CLOEXEC) != 0) fail(program, "no pipe", errno);
+    if (::pipe2(pipes, O_CLOEXEC) != 0) fail_output(program, "no pipe", errno);
     Ends errors{FileDescriptor(pipes[0]), FileDescriptor(pipes[1])};
     Process process(start(program, arguments, input.theirs.get(), errors.theirs.get()));
     input.theirs.close();

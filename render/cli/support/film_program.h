@@ -1,7 +1,6 @@
 #pragma once
 // Another program, started without a shell and fed through its standard input.
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>

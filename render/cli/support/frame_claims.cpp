@@ -1,7 +1,6 @@
 #include "render/cli/support/frame_claims.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -38,11 +37,6 @@ int set_lock(int fd, off_t byte, short kind, bool wait = false) {
         if (errno != EINTR) return errno == EACCES ? EAGAIN : errno;
     }
     return 0;
-}
-
-[[noreturn]] void fail_lock(const fs::path& file, const char* what, int error) {
-    throw OutputError(printable(file.string(), 4096),
-                      fmt::format("{}: {}", what, std::generic_category().message(error)));
 }
 
 std::string read_all(int fd) {
@@ -88,7 +82,7 @@ std::string identity_of(const ClaimedOutput& output) {
 bool FrameLocks::open() {
     for (;;) {
         lock_ = FileDescriptor(::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-        if (lock_.get() < 0) fail_lock(file_, "cannot create a file in this folder", errno);
+        if (lock_.get() < 0) fail_output(file_, "cannot create a file in this folder", errno);
         if (set_lock(lock_.get(), gate_byte, F_WRLCK, true) != 0) return false;
         // Another process may have removed the file before the lock was given.
         struct stat opened {
@@ -110,7 +104,7 @@ FrameLocks::FrameLocks(fs::path file, const std::string& identity) : file_(std::
         if (!write_all(lock_.get(), identity)) {
             const int error = errno;
             ::unlink(file_.c_str());
-            fail_lock(file_, "cannot write", error);
+            fail_output(file_, "cannot write", error);
         }
     } else if (read_all(lock_.get()) != identity) {
         const std::string folder = file_.has_parent_path() ? file_.parent_path().string() : ".";

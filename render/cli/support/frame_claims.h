@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,8 +24,6 @@ class FrameLocks {
     /// @throws OutputError if another process renders something else here, or if the file cannot be made
     FrameLocks(std::filesystem::path file, const std::string& identity);
     ~FrameLocks();
-    FrameLocks(const FrameLocks&) = delete;
-    FrameLocks& operator=(const FrameLocks&) = delete;
 
     /// Locks a frame. Returns whether no other process has it.
     bool lock(int frame);

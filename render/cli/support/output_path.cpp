@@ -21,10 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse_pattern(const std::string& pattern, const std::string& reason) {
-    throw InputError("", "--output", fmt::format("'{}': {}", printable(pattern, 400), reason));
-}
-
 std::optional<OutputFormat> find_format(const fs::path& path) {
     const std::string extension = lower_extension(path);
     constexpr const char* known[] = {".exr", ".png"};  // in the order of OutputFormat
@@ -79,6 +75,10 @@ fs::path written_path(const fs::path& path) {
 }
 
 }  // namespace
+
+void refuse_pattern(const std::string& pattern, const std::string& reason) {
+    throw InputError("", "--output", fmt::format("'{}': {}", printable(pattern, 400), reason));
+}
 
 bool names_film(const std::string& path) {
     const std::string extension = lower_extension(path);

@@ -13,6 +13,9 @@ bool names_film(const std::string& path);
 
 enum class OutputFormat { exr, png };
 
+/// Throws an InputError of --output that names the pattern.
+[[noreturn]] void refuse_pattern(const std::string& pattern, const std::string& reason);
+
 /// The file of one frame. A pattern is a file name with one run of '#', or one %d or %0Nd, in the last part of the
 /// path. A minus sign counts as a digit (frame -3 in #### is -003). A folder means `folder/<scene>.####.exr`, and an
 /// empty pattern the current folder. A pattern is a folder if it ends in '/', is an existing folder, or has no

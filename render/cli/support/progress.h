@@ -42,8 +42,6 @@ class Progress {
              std::function<double()> clock = {});
     /// Shows the last state and ends the line.
     ~Progress();
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
 
     /// @param done  of `total`; fractions are fine
     /// @param what  shown last, such as "frame 12: shade"

@@ -1,7 +1,6 @@
 #include "render/cli/support/statistics_file.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -78,10 +77,7 @@ StatisticsFile::Row StatisticsFile::append(const std::string& row) {
     if (rows_.get() < 0) rows_ = FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
     // The row before may have been cut, by a process that was killed.
     const std::string line = "\n" + Json::parse(row).dump();
-    if (rows_.get() < 0 || !rows_.write(line)) {
-        throw OutputError(printable(path.string(), 4096),
-                          fmt::format("cannot write: {}", std::generic_category().message(errno)));
-    }
+    if (rows_.get() < 0 || !rows_.write(line)) fail_output(path, "cannot write", errno);
     const off_t end = ::lseek(rows_.get(), 0, SEEK_CUR);  // of what was appended, whoever else appends
     return {end - static_cast<off_t>(line.size()) + 1, line.size() - 1};
 }

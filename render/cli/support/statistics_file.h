@@ -34,8 +34,6 @@ class StatisticsFile {
 
     /// Writes what is not written yet, as far as possible: the program has failed elsewhere and says so there.
     ~StatisticsFile();
-    StatisticsFile(const StatisticsFile&) = delete;
-    StatisticsFile& operator=(const StatisticsFile&) = delete;
 
     /// Notes a frame whose file is about to be written: a process that is killed then loses no row of a finished frame.
     /// @throws OutputError

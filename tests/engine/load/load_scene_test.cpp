@@ -5,7 +5,6 @@
 #include "engine/pose/camera_view.h"
 #include "engine/pose/pose.h"
 #include "tests/engine/load/fixture.h"
-#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {

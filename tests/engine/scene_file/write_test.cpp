@@ -212,7 +212,7 @@ TEST(SceneJsonMeshes, FloatsAreWrittenShort) {
 TEST(SceneJsonMeshes, MorphTargetsAndSkinsAreRefusedByName) {
     Scene scene;
     Mesh mesh = make_shape_mesh({}, no_index, "face");
-    mesh.deformation.targets.push_back({"smile", {}, {}});
+    mesh.deformation.targets.emplace_back();
     mesh.deformation.target_weights.emplace_back(0.0);
     scene.meshes.push_back(mesh);
     const Refusal found = find_refusal([&] { write_scene_text(scene, "out.json"); });

@@ -145,8 +145,8 @@ struct Gathers {
         RayTask task(stage.rays);
         std::vector<DirectSample> found;
         for (int i = 0; i < 800; ++i) {
-            const float x = fraction(static_cast<float>(i) * 0.75487767f),
-                        y = fraction(static_cast<float>(i) * 0.56984029f);
+            const float x = glm::fract(static_cast<float>(i) * 0.75487767f),
+                        y = glm::fract(static_cast<float>(i) * 0.56984029f);
             const SurfacePoint point =
                 i % 2 == 0 ? make_point({3.8f * x - 1.9f, -1.499f, 4.8f * y - 2.4f}, up)
                            : make_point({-1.999f, 2.8f * x - 1.4f, 4.8f * y - 2.4f}, {1.0f, 0.0f, 0.0f});

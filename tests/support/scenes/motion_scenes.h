@@ -6,13 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "engine/pose/posed_view.h"
 #include "engine/scene/scene.h"
-#include "motion/model_motion.h"
+#include "tests/support/model_motion.h"
 #include "tests/support/scenes/deforming_scenes.h"
 
 namespace aleph {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "engine/surface/shapes.h"
