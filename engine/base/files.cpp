@@ -50,7 +50,8 @@ Bytes read_regular_file(const fs::path& path, const std::string& file, const std
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     const std::string name = printable(path.filename().string());
-    if (!fs::exists(status)) throw InputError(file, place, fmt::format("file not found: {}", name));
+    if (!fs::exists(status))
+        throw InputError(file, place, place.empty() ? "file not found" : fmt::format("file not found: {}", name));
     // Only regular files: a folder reports absurd sizes, a device or pipe has no end.
     if (!fs::is_regular_file(status)) throw InputError(file, place, fmt::format("not a regular file: {}", name));
     // The size is that of the file that is open: another program may put a new one in its place.

@@ -68,6 +68,16 @@ std::vector<ChannelPair> match_all(const ChannelImage& a, const ChannelImage& b)
     return pairs;
 }
 
+/// The channels of both pictures, those with one prefix once: the names that --channels takes.
+std::vector<std::string> common_names(const ChannelImage& a, const ChannelImage& b) {
+    std::vector<std::string> names;
+    for (const Channel& channel : b.channels) {
+        const std::string name = printable(channel.name.substr(0, channel.name.find('.')));
+        if (a.find(channel.name) && std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    return names;
+}
+
 /// The channels that are compared, in the order of b.
 /// @param wanted  CompareSettings::channels
 std::vector<ChannelPair> match_channels(const ChannelImage& a, const ChannelImage& b,
@@ -86,7 +96,10 @@ std::vector<ChannelPair> match_channels(const ChannelImage& a, const ChannelImag
                 pairs.push_back({channel.name, in_a, &channel.values});
             }
         }
-        if (!found) throw InputError("", fmt::format("channel '{}'", printable(name)), "is not in both pictures");
+        if (!found)
+            throw InputError(
+                "", fmt::format("channel '{}'", printable(name)),
+                fmt::format("is not in both pictures; both have [{}]", fmt::join(common_names(a, b), ", ")));
     }
     return pairs;
 }
