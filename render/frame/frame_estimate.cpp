@@ -125,8 +125,14 @@ Image<float> blur_frame_estimate(const OpenFrame& frame, const SampleHits& cente
     const FrameScene& scene = frame.scene;
     const OpenLens open = find_open_lens(shot, frame.number, frame.plan);
     if (!open.shutter && !(open.lens.radius > 0.0)) return {};
-    const SharpEstimate estimate{scene.shading(), scene.posed().view,           centers,      sharp,
-                                 nodes,           shot.settings.guide.estimate, shot.exposure};
+    const SharpEstimate estimate{.shading = scene.shading(),
+                                 .view = scene.posed().view,
+                                 .centers = centers,
+                                 .picture = sharp,
+                                 .nodes = nodes,
+                                 .kind = shot.settings.guide.estimate,
+                                 .exposure = shot.exposure,
+                                 .lasts = !open.shutter || !frame.plan.input.shutter.light_changes};
     const auto look = [&](double place) -> SampleScene {
         if (open.shutter) return open_scene(frame, std::lerp(open.shutter->open, open.shutter->close, place));
         SampleScene still = scene.sample_scene();
@@ -211,6 +217,7 @@ struct Look {
         std::optional<glm::dvec2> at;
     };
     Still find_still(const Hit& hit, const SurfacePoint& point) const {
+        if (!sharp.lasts) return {};
         Still still{carry_point(sharp.shading, hit, point), {}};
         if (still.point) still.at = reader.project(*still.point);
         return still;
@@ -256,8 +263,9 @@ BlurredEstimate blur_estimate(const SharpEstimate& sharp, const std::function<Sa
                               RayCounts& counts) {
     const int width = sharp.view.width, height = sharp.view.height;
     const SharpReader reader(sharp);
-    const std::optional<NodeIrradiance> irradiance =
-        sharp.nodes != nullptr ? std::optional<NodeIrradiance>(*sharp.nodes) : std::nullopt;
+    std::optional<EstimateNodes> own_nodes;  // of one look, where the light does not last
+    std::optional<NodeIrradiance> irradiance;
+    if (sharp.nodes != nullptr) irradiance.emplace(*sharp.nodes);
     BlurredEstimate blurred{Image<Rgb>(width, height, Rgb(0.0f)), Image<float>(width, height, 0.0f)};
     Image<float> darkest(width, height, 1.0f);
     Image<Hit> hits(width, height);
@@ -272,6 +280,11 @@ BlurredEstimate blur_estimate(const SharpEstimate& sharp, const std::function<Sa
         };
         cast_rays(keyframe.lighting.rays, make_ray, Blend::cutout, hits);
         counts.primary += hits.size() + keyframe.rays_cast;
+        if (irradiance && !sharp.lasts) {
+            const LightingContext& lighting = keyframe.lighting;
+            const SampleHits centers = cast_centers(lighting.rays, keyframe.view, &counts.primary);
+            irradiance.emplace(own_nodes.emplace(gather_estimate(lighting, keyframe.view, centers, nullptr, counts)));
+        }
         const Look look{sharp, reader, irradiance ? &*irradiance : nullptr, keyframe};
         const auto exposure = static_cast<float>(sharp.exposure);
         const bool beside = keyframe.view.orthographic || keyframe.lens.radius > 0.0;

@@ -82,6 +82,7 @@ struct SharpEstimate {
     const EstimateNodes* nodes;  ///< for the indirect light; null if there is none
     EstimateKind kind;
     double exposure;
+    bool lasts;  ///< its light does, while the shutter is open (LightBreaks)
 };
 
 /// Times and places on the lens that a blurred estimate is the mean of. They are the same in all pixels, so that the
@@ -95,7 +96,8 @@ struct BlurredEstimate {
 };
 
 /// At each of its times, every pixel shows a surface. Its light is read from the sharp estimate where that shows the
-/// same point, and is computed elsewhere. So what does not move and is in focus keeps its values.
+/// same point, and is computed elsewhere. So what does not move and is in focus keeps its values, unless the light
+/// comes, goes or fades.
 /// @param look    the scene at a place of the shutter, in [0,1], valid until the next call
 BlurredEstimate blur_estimate(const SharpEstimate& sharp, const std::function<SampleScene(double place)>& look,
                               RayCounts& counts);

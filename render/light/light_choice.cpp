@@ -46,7 +46,7 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
 
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             const LightNumbers& numbers) {
-    const Receiver receiver{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()};
+    const Receiver receiver = make_receiver(lit);
     const auto scatter = [&](const LightSample& sample, float probability) -> ScatteredLight {
         if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
         return {make_shadow_ray(lit, sample),

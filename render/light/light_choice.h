@@ -18,6 +18,12 @@ struct LightingContext {
     const LightTree* seen = nullptr;
 };
 
+/// The receiver by which lights are chosen for a surface. It may refer to it.
+inline Receiver make_receiver(const LitSurface& lit) {
+    return {lit.point.ray_origin(), lit.point.normal, lit.material.has_glass(),
+            lit.material.is_gloss_alone() ? &lit : nullptr};
+}
+
 /// Light of one light that a surface scatters towards its viewer, before its shadow ray is cast.
 struct ScatteredLight {
     Ray shadow_ray;

@@ -4,9 +4,41 @@
 #include <cmath>
 #include <span>
 
+#include "render/surface/microfacets.h"
+#include "render/surface/scatter.h"
+
 namespace aleph {
 
 namespace {
+
+/// About how much of the light from a sphere gloss scatters to its viewer, over what it does of other light: the lobe
+/// towards the centre, wider by the sphere's size.
+/// @param offset  to the centre; 0: light from all around
+float look_through_lobe(const LitSurface& lit, const glm::vec3& offset, float radius) {
+    constexpr float least = 0.1f;  // lights beside a narrow lobe are told apart by their illuminance
+    const float distance = glm::length(offset);
+    const bool is_around = !(distance > radius);
+    const float size = is_around ? 1.0f : radius / distance;
+    const glm::vec3 sum = is_around ? glm::vec3(0.0f) : lit.view + lit.basis.to_local(offset / distance);
+    const float length = glm::length(sum);
+    const glm::vec3 half = length > 0.0f ? sum / length : glm::vec3(0.0f, 0.0f, 1.0f);
+    const glm::vec2 widths = lit.material.widths();
+    return least + ggx_d(glm::sqrt(widths * widths + 0.25f * size * size), half);
+}
+
+/// What the nodes of a group bring, as the receiver scatters it.
+LightReaches scattered_reach_of(const LightGroup& group, const Receiver& receiver) {
+    LightReaches reaches = reach_of(group, receiver);
+    if (receiver.gloss == nullptr) return reaches;
+    for (int i = 0; i < group.used; ++i) {
+        const glm::vec3 center(group.center.x[i], group.center.y[i], group.center.z[i]);
+        const float seen =
+            look_through_lobe(*receiver.gloss, center - group.nearby[i] * receiver.position, group.radius[i]);
+        reaches.bounds[i] *= seen;
+        reaches.estimates[i] *= seen;
+    }
+    return reaches;
+}
 
 /// A cut while it is refined.
 struct Candidates {
@@ -58,7 +90,7 @@ int find_brightest_group(const LightTree& tree, const Candidates& candidates) {
 Candidates find_candidates(const LightTree& tree, const Receiver& receiver) {
     Candidates candidates;
     const auto divide = [&](int place, const LightGroup& group) {
-        candidates.replace(place, group, reach_of(group, receiver));
+        candidates.replace(place, group, scattered_reach_of(group, receiver));
     };
     candidates.size = 1;
     divide(0, tree.groups.front());
@@ -90,7 +122,13 @@ LightCut take_all_lights(const LightSet& lights, const Receiver& receiver) {
     cut.size = lights.count();
     cut.has_all = true;
     static_assert(LightCut::few % LightBounds::step == 0 && LightCut::few <= LightCut::capacity);
-    bound_illuminances(lights.bounds, receiver, {cut.weights.data(), lights.bounds.strength.size()});
+    const LightBounds& bounds = lights.bounds;
+    bound_illuminances(bounds, receiver, {cut.weights.data(), bounds.strength.size()});
+    for (int i = 0; receiver.gloss != nullptr && cut.size > 1 && i < cut.size; ++i) {
+        const glm::vec3 center(bounds.x[i], bounds.y[i], bounds.z[i]);
+        cut.weights[i] *=
+            look_through_lobe(*receiver.gloss, center - bounds.nearby[i] * receiver.position, bounds.radius[i]);
+    }
     for (int i = 0; i < cut.size; ++i) cut.ends[i] = cut.total += cut.weights[i];
     return cut;
 }
@@ -124,7 +162,7 @@ LightPick pick_light(const LightCut& cut, const Receiver& receiver, float number
     int node = cut.has_all ? static_cast<int>(chosen) : cut.nodes[chosen];
     while (!cut.has_all && !cut.tree->is_light(node)) {
         const LightGroup& group = cut.tree->group(node);
-        const LightReaches reaches = reach_of(group, receiver);
+        const LightReaches reaches = scattered_reach_of(group, receiver);
         LightGroup::Values ends;
         float total = 0.0f;
         for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = total += reaches.estimates[i];

@@ -12,7 +12,7 @@ struct LightCut {
     int size = 0;
     bool has_all = false;                 ///< the nodes are all lights, and `nodes` is not set
     std::array<int, capacity> nodes;      ///< children of LightTree, in its order: neighbours are neighbours
-    std::array<float, capacity> weights;  ///< about the illuminance that each brings
+    std::array<float, capacity> weights;  ///< about the illuminance that each brings, or what gloss shows of it
     std::array<float, capacity> ends;     ///< sum of the weights up to and including each
     float total = 0.0f;                   ///< of the weights; infinite or not a number if a weight is
 };

@@ -10,6 +10,8 @@
 
 namespace aleph {
 
+struct LitSurface;
+
 /// One light, or several.
 struct LightNode {
     /// m, a sphere around the lights; of directional ones, around the unit vectors towards them. The environment has
@@ -35,6 +37,8 @@ struct Receiver {
     glm::vec3 position{0.0f};
     glm::vec3 normal{0.0f};  ///< unit
     bool behind = false;     ///< light from behind the surface counts as well
+    /// The surface if it has gloss alone: a light counts by what the lobe shows of it. Null: by its illuminance.
+    const LitSurface* gloss = nullptr;
 };
 
 /// Illuminance that eight nodes can bring to a surface without shadows.

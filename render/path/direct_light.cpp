@@ -41,7 +41,7 @@ class ChosenLights {
         : context_(context),
           lit_(lit),
           shares_(shares),
-          receiver_{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass()},
+          receiver_(make_receiver(lit)),
           cut_(find_light_cut(context.lights, receiver_, context.seen)) {}
 
     /// Light of one sample of `count`.

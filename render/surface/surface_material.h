@@ -71,6 +71,10 @@ struct SurfaceMaterial {
     bool is_glass_smooth() const { return is_mirror() || glass.ior_ratio == 1.0f; }
     /// Returns whether light passes it without a turn: a smooth sheet.
     bool passes_straight() const { return has_glass() && !glass.volume && is_glass_smooth(); }
+    /// Returns whether a rough gloss scatters all that it scatters.
+    bool is_gloss_alone() const {
+        return has_glossy() && !is_mirror() && !has_diffuse() && !has_coat() && !has_sheen() && !has_glass();
+    }
     /// GGX widths along the tangent and across it (KHR_materials_anisotropy), unless it is a mirror.
     glm::vec2 widths() const { return {stretched_width(), std::max(gloss.alpha, min_ggx_alpha)}; }
     /// Along the tangent.

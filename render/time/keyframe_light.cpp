@@ -17,8 +17,10 @@ constexpr int finest_tiles = 2;
 /// Returns whether linear interpolation between two keyframes may err too much: half way, if they differ by more than
 /// the accuracy, relative to their mean; nearer to one of them, if they differ by accordingly more, as the error of
 /// linear interpolation is 0 at both ends. Smooth light is taken to change by the same share everywhere between: it
-/// then lies below the line by an eighth of the square of that share, half way.
+/// then lies below the line by an eighth of the square of that share, half way. Where nothing moves, how far brightness
+/// is from linear is known, and light from 0 on is too.
 bool differ(BetweenKeys between, const Rgb& before, const Rgb& after, float weight, float accuracy) {
+    if (between == BetweenKeys::still || between == BetweenKeys::linear) return false;
     const float a = luminance(before), b = luminance(after), off = std::abs(a - b), mean = 0.5f * (a + b);
     const float error = between == BetweenKeys::smooth ? 0.125f * off * off : off * mean;
     return 4.0f * weight * (1.0f - weight) * error > accuracy * mean * mean;
@@ -132,7 +134,7 @@ std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float 
         if (between_ == BetweenKeys::still) return before ? before : after;
         return std::nullopt;
     }
-    if (between_ != BetweenKeys::still && differ(between_, *before, *after, weight_, accuracy)) return std::nullopt;
+    if (differ(between_, *before, *after, weight_, accuracy)) return std::nullopt;
     return *before * (1.0f - weight_) + *after * weight_;
 }
 

@@ -69,6 +69,7 @@ enum class BetweenKeys : std::uint8_t {
     anything,
     still,   ///< nothing but the camera changes: light that only one of them has holds at the other
     smooth,  ///< a bound of how far light is from linear is kept by others (shutter_light.h)
+    linear,  ///< the same, and nothing moves: lights brighten or dim
 };
 
 /// Light of the keyframes before and after a frame.

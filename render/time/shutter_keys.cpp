@@ -106,9 +106,10 @@ std::vector<KeySpan> divide(const std::vector<KeySpan>& parts, double length, co
 }  // namespace
 
 LightInSpan::LightInSpan(const ShutterSpan& span, double at, const ShadingScene& sample)
-    : between_(span.before, span.after, find_weight(span.open, span.close, at), BetweenKeys::smooth),
-      light_(span.before->at->shading, span.after ? span.after->at->shading : span.before->at->shading,
-             span.after ? static_cast<float>(find_weight(span.open, span.close, at)) : 0.0f, sample, &between_) {}
+    : light_(span.before->at->shading, span.after ? span.after->at->shading : span.before->at->shading,
+             span.after ? static_cast<float>(find_weight(span.open, span.close, at)) : 0.0f, sample, &between_),
+      between_(span.before, span.after, find_weight(span.open, span.close, at),
+               light_.has_movers() ? BetweenKeys::smooth : BetweenKeys::linear) {}
 
 const ShutterSpan* find_span(const std::vector<ShutterSpan>& spans, double at) {
     const auto holds = [at](const ShutterSpan& span) { return span.open <= at && at <= span.close; };

@@ -26,8 +26,8 @@ class LightInSpan {
     const ShutterLight& light() const { return light_; }
 
   private:
+    ShutterLight light_;  ///< reads `between_`
     BlendedLight between_;
-    ShutterLight light_;
 };
 
 /// Null between spans: nothing is known there.

@@ -21,6 +21,7 @@
 // first order cancels: for light that falls off as 1 / d^2, 3 ((1 - w) s_a^2 + w s_b^2) / d^2 is left, and 3 times
 // their distance from the straight line over d. How far brightness lies from linear is known exactly.
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -84,6 +85,10 @@ class ShutterLight {
 
     /// Returns whether light is that of the shutter's centre, and nothing but the camera differs at the sample's time.
     bool is_still() const { return at_center_ && keys_.front().movers.empty() && dimmed_ == 0.0f; }
+    /// Returns whether a thing or a light is elsewhere, turned or of another material at a time that is read.
+    bool has_movers() const {
+        return std::ranges::any_of(keys_, [](const Key& key) { return !key.movers.empty(); });
+    }
     /// Returns whether light of the shutter's centre is read.
     bool is_at_center() const { return at_center_; }
 

@@ -97,6 +97,50 @@ TEST(BlurredEstimate, WhatRestsKeepsItsValues) {
     EXPECT_GT(std::abs(open(width / 2 + 5, height / 2).x - closed(width / 2 + 5, height / 2).x), 0.05f);
 }
 
+/// A plate before a wall, and a lamp.
+Scene make_lamp_scene(const Track<double>& intensity, const glm::dvec2& shutter) {
+    Scene scene;
+    scene.film.exposure = 1.0;
+    const int grey = add_lambert(scene, glm::dvec3(0.6));
+    add_mesh(scene, make_quad(20.0, 20.0, grey), {0.0, 0.0, -1.0});
+    add_mesh(scene, make_quad(1.0, 1.0, grey), {0.5, 0.0, 0.0}, glm::angleAxis(1.0, glm::dvec3(0.0, 1.0, 0.0)));
+    add_light(scene, Light::Kind::point, glm::dvec3(40.0), {-1.0, 1.0, 1.0});
+    scene.lights[0].intensity = intensity;
+    add_flat_view(scene, 0.5 * height / pixels_per_metre, shutter);
+    return scene;
+}
+
+/// Dark up to the shutter's centre.
+Scene make_late_lamp() {
+    const double frame = 1.0 / frames_per_second;
+    return make_lamp_scene(keyed<double>({0.0, frame, 2.0 * frame}, {0.0, 0.0, 1.0}), {-0.5, 0.5});
+}
+
+/// With the threshold of darkness all pixels would take the most samples.
+TEST(BlurredEstimate, ShowsALampThatComesAfterTheCenter) {
+    RenderSettings settings = quick_settings(width, height);
+    settings.light.bounces = 1;
+    settings.cache.light_step = 0;
+    const auto estimate = [&](Scene scene) {
+        return Sequence(std::move(scene), settings).render(1, maps_only).estimate;
+    };
+    const Image<Rgb> open = estimate(make_late_lamp()),
+                     mean = estimate(make_lamp_scene(Track<double>(0.125), {0.0, 0.0}));
+    for (const auto [x, y] : all_pixels(width, height))
+        EXPECT_NEAR(open(x, y).x, mean(x, y).x, 1e-4f * mean(x, y).x) << x << " " << y;
+    EXPECT_GT(mean(width / 2, height / 2).x, 0.1f);
+}
+
+/// Nothing moves: between two times indirect light is as linear as the lamp.
+TEST(ShutterKeys, LightThatRisesFromDarknessIsRead) {
+    RenderSettings settings;
+    set_size(settings, width / 2, height / 2);
+    follow_error(settings, 1.0);
+    const auto cache = Sequence(make_late_lamp(), settings).render(1).statistics.counts.cache;
+    EXPECT_GT(cache.lookups, 1000);
+    EXPECT_GT(static_cast<double>(cache.hits), 0.9 * static_cast<double>(cache.lookups));
+}
+
 TEST(BlurredEstimate, ALensBlursByTheCircleOfConfusion) {
     Scene scene = make_moving_square({0.0, 0.0}, {0.0, 0.0});
     scene.cameras[0].aperture = 1.0;

@@ -207,6 +207,28 @@ TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
     }
 }
 
+TEST(PathLights, GlossChoosesTheLampsThatItShows) {
+    // A grid of lamps overhead, looked at one by one and by the tree. A narrow lobe shows one or two of them.
+    for (const int side : {4, 6}) {
+        Scene scene;
+        for (int i = 0; i < side * side; ++i)
+            add_lamp(scene, 0.2, glm::dvec3(5.0), {i % side - 0.5 * side, 2.0, i / side - 0.5 * side});
+        const Stage stage(std::move(scene));
+        const glm::vec3 view = glm::normalize(glm::vec3(-0.3f, 0.9f, 0.1f));
+        const ViewedSurface surface{make_point(glm::vec3(0.0f), up), make_metal(0.1f), view};
+        const double expected = estimate(stage, surface, 200'000, by_lobes(1)).mean();
+        for (const Estimator& estimator : {by_paths(0, 1), by_direct_samples(1)}) {
+            EXPECT_TRUE(holds([&](Trial& trial) {
+                const int count = trial.times(4000);
+                const Mean found = estimate(stage, surface, count, estimator, trial.seed);
+                EXPECT_NEAR(found.mean(), expected, 0.05 * expected);
+                const double relative = found.error() / found.mean();
+                EXPECT_LT(relative * relative * count, 1.0) << side;
+            }));
+        }
+    }
+}
+
 constexpr double alpha = 0.3;
 
 int add_blended(Scene& scene, double albedo, double emission = 0.0) {
