@@ -49,22 +49,22 @@ Bytes read_regular_file(const fs::path& path, const std::string& file, const std
     note_read_file(path);
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    const std::string name = printable(path.filename().string());
-    if (!fs::exists(status))
-        throw InputError(file, place, place.empty() ? "file not found" : fmt::format("file not found: {}", name));
+    // Without a place, `file` is the one that is read.
+    const std::string name = place.empty() ? "" : ": " + printable(path.filename().string());
+    if (!fs::exists(status)) throw InputError(file, place, "file not found" + name);
     // Only regular files: a folder reports absurd sizes, a device or pipe has no end.
-    if (!fs::is_regular_file(status)) throw InputError(file, place, fmt::format("not a regular file: {}", name));
+    if (!fs::is_regular_file(status)) throw InputError(file, place, "not a regular file" + name);
     // The size is that of the file that is open: another program may put a new one in its place.
     std::ifstream stream(path, std::ios::binary | std::ios::ate);
     const std::streamoff end = stream ? std::streamoff(stream.tellg()) : -1;
-    if (end < 0) throw InputError(file, place, fmt::format("cannot read {}", name));
+    if (end < 0) throw InputError(file, place, "cannot be read" + name);
     const std::uintmax_t size = static_cast<std::uintmax_t>(end);
     if (size > max_bytes)
-        throw InputError(file, place, fmt::format("{} has {} bytes, more than {}", name, size, max_bytes));
+        throw InputError(file, place, fmt::format("has {} bytes, more than {}{}", size, max_bytes, name));
     Bytes bytes(static_cast<std::size_t>(size));
     stream.seekg(0);
     stream.read(reinterpret_cast<char*>(bytes.data()), end);
-    if (stream.gcount() != end) throw InputError(file, place, fmt::format("cannot read {}", name));
+    if (stream.gcount() != end) throw InputError(file, place, "cannot be read" + name);
     return bytes;
 }
 

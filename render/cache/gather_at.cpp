@@ -36,7 +36,7 @@ RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface
 
 /// Standard error of a record, over that of the mean of samples. Records lie about two pixels apart: noise that is
 /// smooth over a pixel is 2.5 times as visible as that of single pixels at 60 cd/m2, and 2.9 times at 5 (castleCSF, as
-/// in NoiseVisibility). Those around make it less (IrradianceCache::finish).
+/// in NoiseVisibility). The records around make it less (IrradianceCache::finish).
 constexpr double record_noise = 0.5;
 
 /// Least radii beyond which a record's standard error is smaller in proportion: the farther records reach, the fewer

@@ -82,7 +82,7 @@ struct SharpEstimate {
     const EstimateNodes* nodes;  ///< for the indirect light; null if there is none
     EstimateKind kind;
     double exposure;
-    bool lasts;  ///< its light does, while the shutter is open (LightBreaks)
+    bool lasts;  ///< while the shutter is open, no light comes, goes or fades
 };
 
 /// Times and places on the lens that a blurred estimate is the mean of. They are the same in all pixels, so that the

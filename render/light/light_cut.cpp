@@ -124,12 +124,15 @@ LightCut take_all_lights(const LightSet& lights, const Receiver& receiver) {
     static_assert(LightCut::few % LightBounds::step == 0 && LightCut::few <= LightCut::capacity);
     const LightBounds& bounds = lights.bounds;
     bound_illuminances(bounds, receiver, {cut.weights.data(), bounds.strength.size()});
-    for (int i = 0; receiver.gloss != nullptr && cut.size > 1 && i < cut.size; ++i) {
-        const glm::vec3 center(bounds.x[i], bounds.y[i], bounds.z[i]);
-        cut.weights[i] *=
-            look_through_lobe(*receiver.gloss, center - bounds.nearby[i] * receiver.position, bounds.radius[i]);
+    const bool by_lobe = receiver.gloss != nullptr && cut.size > 1;
+    for (int i = 0; i < cut.size; ++i) {
+        if (by_lobe) {
+            const glm::vec3 center(bounds.x[i], bounds.y[i], bounds.z[i]);
+            cut.weights[i] *=
+                look_through_lobe(*receiver.gloss, center - bounds.nearby[i] * receiver.position, bounds.radius[i]);
+        }
+        cut.ends[i] = cut.total += cut.weights[i];
     }
-    for (int i = 0; i < cut.size; ++i) cut.ends[i] = cut.total += cut.weights[i];
     return cut;
 }
 

@@ -144,7 +144,7 @@ TEST(MotionBlur, MC27_IndirectLightOfAFadeIsThatOfItsMean) {
     still.nodes.pop_back();  // the box
     Scene fading = still;
     fading.lights[0].intensity.values = {0.0, 4.0};  // over a second, of which the shutter sees half
-    constexpr double accuracy = 0.05;  // at .2 records are 4 % too bright beside the plate, without a shutter too
+    constexpr double accuracy = 0.05;  // coarser records are too bright beside the plate, without a shutter too
     PictureMeans found, expected;
     for (std::uint32_t seed = 0; seed < 48; ++seed) {
         found.add(render_blurred(fading, Integrator::cache, seed, 16, accuracy));
