@@ -13,6 +13,7 @@ packages=(
   libopencv-video-dev  # optical flow for --motion flow: 6 MB to fetch, 34 installed
   libtinygltf-dev nlohmann-json3-dev libvalijson-dev   # scenes
   libglm-dev libtbb-dev libcli11-dev libfmt-dev
+  libjemalloc-dev      # memory in huge pages, for the program's speed
   libgtest-dev libgmock-dev                             # tests
   python3-dev pybind11-dev python3-numpy                # the Python module
   python3-pytest python3-matplotlib                     # its tests, and the plots of its notebooks
@@ -35,7 +36,7 @@ if ! command -v dpkg-query >/dev/null 2>&1; then
 This is not a Debian system, so nothing was installed. Please install, with your own package manager:
   a C++20 compiler, CMake 3.25, Ninja, Embree 3.13, OpenEXR 3.1, OpenImageIO 2.4, OpenSubdiv 3.5, tinygltf 2.7, nlohmann-json 3.11,
   valijson 1.0, GLM .9.9.8, oneTBB 2021, CLI11 2.1, fmt 9, GoogleTest 1.12, pybind11 2.9 and Python 3.11 for the
-  Python module, ffmpeg, and for --motion flow the module video of OpenCV 4,
+  Python module, ffmpeg, for --motion flow the module video of OpenCV 4, for speed jemalloc 5,
 then configure by hand: cmake -S . -B build -G Ninja && ninja -C build
 TEXT
   if command -v cmake >/dev/null 2>&1 && command -v ninja >/dev/null 2>&1; then exit 0; fi
