@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "engine/base/flush_denormals.h"
 
@@ -43,6 +45,21 @@ void parallel_each(std::size_t count, std::size_t grain, const Visit& visit) {
     parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) visit(i);
     });
+}
+
+/// Calls visit(i) for each i below count, on any thread. The exception of the lowest i reaches the caller.
+template <class Visit>
+void parallel_in_order(std::size_t count, const Visit& visit) {
+    std::vector<std::exception_ptr> errors(count);
+    parallel_each(count, 1, [&](std::size_t i) {
+        try {
+            visit(i);
+        } catch (...) {
+            errors[i] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& error : errors)
+        if (error) std::rethrow_exception(error);
 }
 
 /// Rows that one thread takes at a time where a row is quick work.

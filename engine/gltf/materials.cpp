@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "engine/gltf/reader.h"
 #include "engine/gltf/validate/material_table.h"
 #include "engine/image/image_file.h"
@@ -14,19 +15,16 @@ namespace {
 
 /// Bytes of decoded pixels in one file.
 constexpr std::uint64_t max_pixel_bytes = std::uint64_t{2} << 30;
+/// Images that are read one by one, decoded in parallel and then counted.
+constexpr std::size_t images_at_once = 16;
 
-SceneImage read_image(const GltfReader& reader, std::size_t index) {
+void decode_image(const GltfReader& reader, std::size_t index, const Bytes& encoded, SceneImage& image) {
     const std::string place = fmt::format("/images/{}", index);
-    SceneImage image;
-    image.name = reader.source.document["images"][index].value("name", fmt::format("image{}", index));
-    const Bytes encoded = load_encoded_image(reader.source, index, image.path);
     try {
         image.bytes = decode_texture(encoded, place).bytes;
     } catch (const InputError& error) {
-        if (error.file() == reader.source.file) throw;
         throw InputError(reader.source.file, place, error.reason());
     }
-    return image;
 }
 
 Wrap wrap_of(int mode) {
@@ -48,12 +46,14 @@ const nlohmann::json* find_owner(const nlohmann::json& material, const char* nam
     return found == material.end() ? nullptr : &*found;
 }
 
-/// Reads materials. Factors out of range are clamped, with a warning. Images that textures use are decoded once.
+/// Reads materials. Factors out of range are clamped, with a warning. Images that textures use are read at the end,
+/// each once.
 class MaterialReader {
   public:
     explicit MaterialReader(GltfReader& reader) : reader_(reader), image_of_(reader.source.count("images"), no_index) {}
 
     Material read(std::size_t index);
+    void read_images();
 
   private:
     double clamped(double value, const GltfFactor& factor);
@@ -62,21 +62,42 @@ class MaterialReader {
     int use_image(std::size_t index);
 
     GltfReader& reader_;
-    std::string place_;          ///< of the material that is read
-    std::vector<int> image_of_;  ///< glTF image -> scene image, no_index until needed
-    std::uint64_t pixel_bytes_ = 0;
+    std::string place_;              ///< of the material that is read
+    std::vector<int> image_of_;      ///< glTF image -> scene image, no_index until needed
+    std::vector<std::size_t> used_;  ///< glTF images, in the order of the part's
 };
 
 int MaterialReader::use_image(std::size_t index) {
-    if (image_of_[index] != no_index) return image_of_[index];
-    SceneImage image = read_image(reader_, index);
-    pixel_bytes_ += image.bytes.size() * sizeof(glm::u8vec4);
-    if (pixel_bytes_ > max_pixel_bytes) {
-        throw InputError(reader_.source.file, fmt::format("/images/{}", index),
-                         fmt::format("the file's images decode to more than {} bytes", max_pixel_bytes));
+    if (image_of_[index] == no_index) {
+        image_of_[index] = static_cast<int>(used_.size());
+        used_.push_back(index);
     }
-    reader_.part.images.push_back(std::move(image));
-    return image_of_[index] = static_cast<int>(reader_.part.images.size()) - 1;
+    return image_of_[index];
+}
+
+void MaterialReader::read_images() {
+    std::vector<SceneImage>& images = reader_.part.images;
+    const GltfSource& source = reader_.source;
+    std::uint64_t bytes = 0;
+    std::vector<Bytes> encoded;
+    for (std::size_t begin = 0; begin < used_.size(); begin += images_at_once) {
+        encoded.clear();
+        for (std::size_t i = begin; i < std::min(begin + images_at_once, used_.size()); ++i) {
+            SceneImage& image = images.emplace_back();
+            image.name = source.document["images"][used_[i]].value("name", fmt::format("image{}", used_[i]));
+            encoded.push_back(load_encoded_image(source, used_[i], image.path));
+        }
+        parallel_in_order(encoded.size(), [&](std::size_t i) {
+            decode_image(reader_, used_[begin + i], encoded[i], images[begin + i]);
+        });
+        for (std::size_t i = begin; i < images.size(); ++i) {
+            bytes += images[i].bytes.size() * sizeof(glm::u8vec4);
+            if (bytes > max_pixel_bytes) {
+                throw InputError(source.file, fmt::format("/images/{}", used_[i]),
+                                 fmt::format("the file's images decode to more than {} bytes", max_pixel_bytes));
+            }
+        }
+    }
 }
 
 TextureRef MaterialReader::read_texture(const nlohmann::json& info) {
@@ -158,6 +179,7 @@ void read_materials(GltfReader& reader) {
         reader.part.materials.push_back(materials.read(i));
         if (reader.source.model.materials[i].occlusionTexture.index >= 0) ++with_occlusion;
     }
+    materials.read_images();
     if (with_occlusion > 0) {
         reader.warn("materials", fmt::format("occlusion textures ({}) are not used", with_occlusion));
     }

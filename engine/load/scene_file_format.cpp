@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <system_error>
 
@@ -11,6 +12,7 @@
 #include "engine/base/color.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "engine/base/parallel.h"
 #include "engine/image/image_file.h"
 #include "engine/load/format_rows.h"
 #include "engine/pose/pose.h"
@@ -21,6 +23,8 @@ namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t images_at_once = 16;  // whose encoded bytes are in memory
 
 /// Materials have no values below 0: those, and what is not finite, count as 0.
 /// @return texels that were changed
@@ -54,30 +58,39 @@ void warn_of_infinite_light(const SceneImage& image, std::vector<std::string>& w
                     image.path, infinite, image.floats.size()));
 }
 
-void load_images(SceneText& text, const fs::path& folder, const std::string& file) {
-    for (std::size_t i = 0; i < text.scene.images.size(); ++i) {
-        SceneImage& image = text.scene.images[i];
-        const std::string& place = text.image_places[i];
-        check_regular_file(folder / image.path, file, place);
-        try {
-            DecodedTexture decoded = decode_texture(read_regular_file(folder / image.path, file, place), image.path);
-            image.bytes = std::move(decoded.bytes);
-            image.floats = std::move(decoded.floats);
-            if (static_cast<int>(i) == text.scene.environment.image) {
-                warn_of_infinite_light(image, text.scene.source.warnings);
-                continue;
-            }
-            divide_by_alpha(image.floats);
-            if (const std::size_t changed = clean_texels(image.floats); changed > 0) {
-                text.scene.source.warnings.push_back(
-                    fmt::format("{}: {} texels of {} are below 0, NaN or infinite there, and count as 0", image.path,
-                                changed, image.floats.size()));
-            }
-        } catch (const InputError& error) {
-            if (error.file() == file) throw;
-            throw InputError(file, place, fmt::format("{}: {}", error.file(), error.reason()));
-        }
+/// @param warnings  what of the picture does not count
+void load_image(SceneImage& image, const Bytes& encoded, bool is_environment, std::vector<std::string>& warnings) {
+    DecodedTexture decoded = decode_texture(encoded, image.path);
+    image.bytes = std::move(decoded.bytes);
+    image.floats = std::move(decoded.floats);
+    if (is_environment) return warn_of_infinite_light(image, warnings);
+    divide_by_alpha(image.floats);
+    if (const std::size_t changed = clean_texels(image.floats); changed > 0) {
+        warnings.push_back(fmt::format("{}: {} texels of {} are below 0, NaN or infinite there, and count as 0",
+                                       image.path, changed, image.floats.size()));
     }
+}
+
+/// Images [begin, end): read one by one, and decoded in parallel.
+void load_images(SceneText& text, const LoadRequest& request, std::size_t begin, std::size_t end) {
+    std::vector<SceneImage>& images = text.scene.images;
+    std::vector<Bytes> encoded(end - begin);
+    std::vector<std::vector<std::string>> warnings(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+        const fs::path path = request.path.parent_path() / images[i].path;
+        check_regular_file(path, request.file, text.image_places[i]);
+        encoded[i - begin] = read_regular_file(path, request.file, text.image_places[i]);
+    }
+    parallel_in_order(end - begin, [&](std::size_t i) {
+        const bool is_environment = static_cast<int>(begin + i) == text.scene.environment.image;
+        try {
+            load_image(images[begin + i], encoded[i], is_environment, warnings[i]);
+        } catch (const InputError& error) {
+            throw InputError(request.file, text.image_places[begin + i],
+                             fmt::format("{}: {}", error.file(), error.reason()));
+        }
+    });
+    for (auto& own : warnings) std::ranges::move(own, std::back_inserter(text.scene.source.warnings));
 }
 
 bool is_texture(const Scene& scene, int image) {
@@ -155,7 +168,8 @@ Scene load_files_of(SceneText text, const LoadRequest& request) {
         require_format(request.formats, FormatUse::include, path, file, place);
         check_regular_file(folder / path, file, place);
     }
-    load_images(text, folder, file);
+    for (std::size_t i = 0; i < scene.images.size(); i += images_at_once)
+        load_images(text, request, i, std::min(i + images_at_once, scene.images.size()));
     make_environment_linear(scene);
     load_includes(scene, text.include_places, request);
     check_cameras(scene, file);

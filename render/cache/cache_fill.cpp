@@ -24,6 +24,8 @@ constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
 /// Gathers between two reports of progress.
 constexpr std::size_t checkpoint_gathers = 256;  // with a checkpoint, whatever the number of threads
 constexpr std::size_t thread_gathers = 64;       // per thread
+/// Candidates per thread whose reviews are made before any of them is accepted: some are made in vain.
+constexpr std::size_t thread_reviews = 8;
 
 /// A pixel whose sample is not covered yet.
 struct Candidate {
@@ -86,27 +88,53 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
     return uncovered;
 }
 
+bool may_cover(const IrradianceCache& accepted, CacheQuery query) {
+    query.accuracy *= waiting_reach;
+    return accepted.covers(query);
+}
+
+/// What the records so far tell about a candidate. Not made for those that will probably wait.
+struct Review {
+    bool is_made = false;
+    std::optional<ExpectedRecord> expected;
+};
+
+std::vector<Review> review(const IrradianceCache& cache, const IrradianceCache& accepted,
+                           std::span<const Candidate> candidates, float max_radius) {
+    std::vector<Review> reviews(candidates.size());
+    parallel_each(reviews.size(), 4, [&](std::size_t i) {
+        if (!may_cover(accepted, candidates[i].query))
+            reviews[i] = {true, cache.expect(candidates[i].query, max_radius)};
+    });
+    return reviews;
+}
+
 /// Takes those candidates out of `waiting` whose records are computed in this round. The others wait, because the
 /// record of an accepted candidate may cover them. A record's radius is not known before its gather: the bound that
 /// neighbour clamping sets is expected.
 std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const IndirectContext& context,
                                          const FillPlaces& places, std::vector<Candidate>& waiting) {
-    IrradianceCache expected = make_cache(context.lighting.shading);
+    IrradianceCache records = make_cache(context.lighting.shading);
     std::vector<Candidate> accepted, later;
-    for (Candidate& candidate : waiting) {
-        CacheQuery nearly = candidate.query;
-        nearly.accuracy *= waiting_reach;
-        if (expected.covers(nearly)) {
+    std::vector<Review> reviews;
+    const std::size_t size = thread_reviews * static_cast<std::size_t>(thread_count());
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+        if (i % size == 0)
+            reviews = review(cache, records, std::span(waiting).subspan(i, std::min(size, waiting.size() - i)),
+                             context.max_radius);
+        Candidate& candidate = waiting[i];
+        if (may_cover(records, candidate.query)) {
             later.push_back(candidate);
             continue;
         }
-        const auto known = cache.expect(candidate.query, context.max_radius);
+        const Review& own = reviews[i % size];
+        const auto known = own.is_made ? own.expected : cache.expect(candidate.query, context.max_radius);
         const float radius = known ? known->radius : context.max_radius;
-        expected.insert({.position = candidate.query.position,
-                         .radius = std::max(radius, candidate.bounds.min),
-                         .normal = candidate.query.normal,
-                         .min_radius = candidate.bounds.min,
-                         .accuracy = candidate.query.accuracy});
+        records.insert({.position = candidate.query.position,
+                        .radius = std::max(radius, candidate.bounds.min),
+                        .normal = candidate.query.normal,
+                        .min_radius = candidate.bounds.min,
+                        .accuracy = candidate.query.accuracy});
         const float reflected = places.points(candidate.x, candidate.y).reflected;
         candidate.rays = places.rays > 0 ? choose_rays_for_noise(known ? known->ray_variance : 0.0f, places.noise,
                                                                  places.rays, places.most_rays)

@@ -1,10 +1,13 @@
 #include "render/cache/direct_grid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 
+#include "engine/base/parallel.h"
 #include "engine/base/sampling.h"
 #include "render/cache/gather.h"
 
@@ -71,9 +74,18 @@ void DirectGrid::grow() {
     std::vector<Cell> old(2 * cells_.size());
     old.swap(cells_);
     mask_ = cells_.size() - 1;
-    for (const Cell& cell : old) {
-        if (cell.key != 0) place_of(cell.key) = cell;
-    }
+    // Where a cell lies depends on which is first; what is found does not.
+    parallel_each(old.size(), 4096, [&](std::size_t i) {
+        const Cell& cell = old[i];
+        if (cell.key == 0) return;
+        std::uint64_t at = cell.key & mask_, none = 0;
+        for (; !std::atomic_ref(cells_[at].key).compare_exchange_strong(none, cell.key); none = 0)
+            at = next_place(at, cell.key);
+        Cell& place = cells_[at];
+        std::tie(place.sum, place.count) = std::tie(cell.sum, cell.count);
+        std::tie(place.multi_bounce_sum, place.multi_bounce_count) =
+            std::tie(cell.multi_bounce_sum, cell.multi_bounce_count);
+    });
 }
 
 std::vector<DirectGrid::Cell> DirectGrid::save() const {

@@ -59,7 +59,7 @@ class DirectGrid {
     /// A cell with a count of 0 if there is none.
     const Cell& find(std::uint64_t key) const {
         std::uint64_t i = key & mask_;
-        while (cells_[i].key != 0 && cells_[i].key != key) i = (i + (key >> 40 | 1)) & mask_;
+        while (cells_[i].key != 0 && cells_[i].key != key) i = next_place(i, key);
         return cells_[i];
     }
     /// Fetches the cell's place in memory, for a find soon afterwards.
@@ -73,6 +73,7 @@ class DirectGrid {
     void restore(const std::vector<Cell>& cells);
 
   private:
+    std::uint64_t next_place(std::uint64_t i, std::uint64_t key) const { return (i + (key >> 40 | 1)) & mask_; }
     Cell& place_of(std::uint64_t key);
     void grow();
 

@@ -24,6 +24,7 @@ constexpr float smoothing_reach = 2.0f, max_noise_difference = 2.5f;
 /// Rare light is shared within this multiple of the least radius: with 12 pixels, three degrees at 31 pixels per
 /// degree. Shared among fewer records it would be a faint spot, and still be seen.
 constexpr float sharing_reach = 8.0f, sharing_cosine = 0.5f;
+constexpr std::size_t sharing_records = 1024;  // whose shares are found in parallel before they are added in order
 
 /// A record is expected to be like those within this multiple of their reach.
 constexpr float expecting_reach = 4.0f;
@@ -186,27 +187,36 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
     return smooth;
 }
 
+std::vector<IrradianceCache::Share> IrradianceCache::find_shares(std::size_t kept, std::size_t from) const {
+    const IrradianceRecord& record = records_[from];
+    std::vector<Share> shares;
+    if (record.rare == Rgb(0.0f)) return shares;
+    const float reach = sharing_reach * record.min_radius;
+    float sum = 0.0f;
+    index_.visit([&](const RecordIndex::Cell& cell) { return cell.distance_to(record.position) < reach; },
+                 [&](int j) {
+                     const IrradianceRecord& to = records_[j];
+                     const bool is_near = glm::distance(record.position, to.position) < reach;
+                     const bool is_alike = glm::dot(record.normal, to.normal) > sharing_cosine;
+                     if (j < static_cast<int>(kept) || !is_near || !is_alike) return true;
+                     shares.push_back({j, luminance(to.irradiance)});
+                     sum += shares.back().share;
+                     return true;
+                 });
+    const float even = 1.0f / static_cast<float>(shares.size());  // it is among them itself
+    for (Share& each : shares) each.share = sum > 0.0f ? each.share / sum : even;
+    return shares;
+}
+
 void IrradianceCache::share_rare_light(std::size_t kept, std::vector<IrradianceRecord>& smooth) const {
-    std::vector<std::pair<int, float>> around;  // record, and its own light
-    for (std::size_t i = kept; i < records_.size(); ++i) {
-        const IrradianceRecord& from = records_[i];
-        if (from.rare == Rgb(0.0f)) continue;
-        const float reach = sharing_reach * from.min_radius;
-        around.clear();
-        float sum = 0.0f;
-        index_.visit([&](const RecordIndex::Cell& cell) { return cell.distance_to(from.position) < reach; },
-                     [&](int j) {
-                         const IrradianceRecord& to = records_[j];
-                         const bool is_near = glm::distance(from.position, to.position) < reach;
-                         const bool is_alike = glm::dot(from.normal, to.normal) > sharing_cosine;
-                         if (j < static_cast<int>(kept) || !is_near || !is_alike) return true;
-                         around.emplace_back(j, luminance(to.irradiance));
-                         sum += around.back().second;
-                         return true;
-                     });
-        const float even = 1.0f / static_cast<float>(around.size());  // it is among them itself
-        for (const auto& [j, light] : around) smooth[j].irradiance += from.rare * (sum > 0.0f ? light / sum : even);
-        smooth[i].rare = Rgb(0.0f);
+    std::vector<std::vector<Share>> shares;
+    for (std::size_t begin = kept; begin < records_.size(); begin += sharing_records) {
+        shares.assign(std::min(sharing_records, records_.size() - begin), {});
+        parallel_each(shares.size(), 16, [&](std::size_t i) { shares[i] = find_shares(kept, begin + i); });
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            for (const auto& [to, share] : shares[i]) smooth[to].irradiance += records_[begin + i].rare * share;
+            smooth[begin + i].rare = Rgb(0.0f);
+        }
     }
 }
 
@@ -238,8 +248,11 @@ void IrradianceCache::prepare() {
     lists_.clear();
     float strictest = 1.0f;
     for (const IrradianceRecord& record : records_) strictest = std::min(strictest, record.accuracy);
+    std::vector<float> accuracies;
     for (float accuracy = shade_reach * std::max(strictest, least_list); accuracy < list_step; accuracy *= list_step)
-        lists_.emplace_back(records_, std::min(accuracy, 1.0f));
+        accuracies.push_back(std::min(accuracy, 1.0f));
+    lists_.resize(accuracies.size());
+    parallel_each(lists_.size(), 1, [&](std::size_t i) { lists_[i] = RecordLists(records_, accuracies[i]); });
 }
 
 bool IrradianceCache::covers(const CacheQuery& query) const {

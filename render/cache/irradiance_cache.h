@@ -111,6 +111,12 @@ class IrradianceCache {
     void clamp_to_neighbours(IrradianceRecord& record);
     void compare_with_neighbours(IrradianceRecord& record);
     IrradianceRecord smoothed(const IrradianceRecord& record) const;
+    /// What a record gets of another's rare light.
+    struct Share {
+        int to;
+        float share;
+    };
+    std::vector<Share> find_shares(std::size_t kept, std::size_t from) const;
     void share_rare_light(std::size_t kept, std::vector<IrradianceRecord>& smooth) const;
 
     std::vector<IrradianceRecord> records_;

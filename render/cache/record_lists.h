@@ -12,6 +12,7 @@ namespace aleph {
 
 class RecordLists {
   public:
+    RecordLists() = default;
     /// @param accuracy  largest alpha of the look-ups
     RecordLists(std::span<const IrradianceRecord> records, float accuracy);
 
@@ -55,7 +56,7 @@ class RecordLists {
     static unsigned find_errors(const Block& block, const glm::vec3& position, const glm::vec3& normal, float accuracy,
                                 float (&errors)[lanes]);
 
-    float accuracy_;
+    float accuracy_ = 0.0f;
     glm::vec3 center_{0.0f};
     float half_size_ = 0.0f;  ///< of the cube around all that records reach
     std::vector<Cell> cells_{Cell{}};

@@ -253,6 +253,7 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     check_threads(options.threads);
     PreparedScene prepared;
     {
+        const ThreadLimit limit(find_threads(options.threads));
         const LoadedFiles files{.watch = options.watch};
         prepared.scene = load_scene(options.scene, options.limits);
         prepared.read = files.read.paths();
