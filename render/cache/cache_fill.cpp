@@ -191,12 +191,11 @@ std::vector<Gathered> gather_in_pieces(const IndirectContext& context, const Fil
                                        RayCounts& counts) {
     const std::size_t size =
         checkpoint != nullptr ? checkpoint_gathers : thread_gathers * static_cast<std::size_t>(thread_count());
-    if (checkpoint != nullptr && context.direct != nullptr)
-        checkpoint->set_shared_light([direct = context.direct] {
-            ByteWriter out;
-            out.add(direct->save());
-            return out.take();
-        });
+    const auto find_light = [&context] {
+        ByteWriter out;
+        if (context.direct != nullptr) out.add(context.direct->save());
+        return out.take();
+    };
     std::vector<Gathered> all(candidates.size());
     for (std::size_t begin = 0; begin < all.size(); begin += size) {
         const std::span<Gathered> piece = std::span(all).subspan(begin, std::min(size, all.size() - begin));
@@ -215,7 +214,7 @@ std::vector<Gathered> gather_in_pieces(const IndirectContext& context, const Fil
         counts += own;
         if (checkpoint != nullptr) {
             checkpoint->add_gathers(save_gathers(piece, own));
-            checkpoint->offer();
+            checkpoint->offer({}, find_light);
         }
         if (context.progress) context.progress(0.0, "fill");
     }

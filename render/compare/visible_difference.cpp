@@ -179,12 +179,13 @@ VisibleMaps VisibleDifference::measure(std::size_t index) const {
             const BandShape& shape = shapes_[b];
             const auto filter = [&](const std::array<Bands, visual_channels> Frame::*signals) {
                 BandWindow window{{}, {}, {}, tracks, shape.signal_level, static_cast<int>(reach)};
-                const auto signal = [&](std::size_t i) { return &(frames_[i].*signals)[c][b]; };
+                const auto signal = [&](std::size_t i) {
+                    return BandFrame{&(frames_[i].*signals)[c][b], &frames_[i].background[shape.signal_level]};
+                };
                 window.current = signal(index);
                 for (std::size_t i = index + 1; i < end; ++i) window.next.push_back(signal(i));
                 for (std::size_t i = index; i-- > first;) window.previous.push_back(signal(i));
-                return filter_band(window, filters_[c * shapes_.size() + b], velocity,
-                                   frame.background[shape.signal_level]);
+                return filter_band(window, filters_[c * shapes_.size() + b], velocity);
             };
             const SignalParts parts = filter(&Frame::error);
             const Image<float> elevation =

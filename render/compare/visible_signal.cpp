@@ -36,6 +36,11 @@ float sample(const Image<float>& image, float x, float y) {
     return sum;
 }
 
+float nearest(const Image<float>& image, float x, float y) {
+    return image(std::clamp(static_cast<int>(std::lround(x)), 0, image.width - 1),
+                 std::clamp(static_cast<int>(std::lround(y)), 0, image.height - 1));
+}
+
 /// The errors of one pixel along its track: values[reach] is the current frame's.
 struct Track {
     std::array<float, most_frames> values;
@@ -74,20 +79,21 @@ Image<float> image_velocity(const MotionMaps& motion, const SurfaceTracks& track
     return velocity;
 }
 
-SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, const Image<float>& velocity,
-                        const Image<float>& background) {
-    const int width = window.current->width, height = window.current->height, reach = window.reach;
+SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, const Image<float>& velocity) {
+    const Image<float>&current = *window.current.error, &background = *window.current.background;
+    const int width = current.width, height = current.height, reach = window.reach;
     const float scale = std::ldexp(1.0f, -window.level);
     SignalParts parts{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height)};
-    const auto look_up = [&](Track& track, int side, const std::vector<const Image<float>*>& errors,
-                             const std::vector<TrackImage>& tracks, std::size_t pixel) {
+    const auto look_up = [&](Track& track, int side, const std::vector<BandFrame>& frames,
+                             const std::vector<TrackImage>& tracks, std::size_t pixel, float adapted) {
         for (int k = 1; k <= reach; ++k) {
             const auto of = static_cast<std::size_t>(k - 1);
             const int at = reach + side * k;
-            track.known[at] = of < errors.size() && !std::isnan(tracks[of].pixels[pixel].x);
+            track.known[at] = of < frames.size() && !std::isnan(tracks[of].pixels[pixel].x);
             if (!track.known[at]) continue;
             const glm::vec2 p = tracks[of].pixels[pixel] * scale;
-            track.values[at] = sample(*errors[of], p.x, p.y);
+            const float there = std::max(adapted, nearest(*frames[of].background, p.x, p.y));
+            track.values[at] = sample(*frames[of].error, p.x, p.y) * (adapted / there);
         }
     };
     parallel_rows(height, 8, [&](int begin, int end) {
@@ -97,11 +103,11 @@ SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, c
             for (int x = 0; x < width; ++x) {
                 const std::size_t pixel = velocity.index(x << window.level, y << window.level),
                                   i = background.index(x, y);
-                track.values[reach] = window.current->pixels[i];
-                look_up(track, 1, window.next, window.tracks.after, pixel);
-                look_up(track, -1, window.previous, window.tracks.before, pixel);
-                fill_gaps(track, reach);
                 const float adapted = std::max(darkest, background.pixels[i]);
+                track.values[reach] = current.pixels[i];
+                look_up(track, 1, window.next, window.tracks.after, pixel, adapted);
+                look_up(track, -1, window.previous, window.tracks.before, pixel, adapted);
+                fill_gaps(track, reach);
                 const float sensitivity = filter.evaluate(adapted, velocity.pixels[pixel], weights.data());
                 float all = weights[0] * track.values[reach], mean = track.values[reach];
                 for (int k = 1; k <= reach; ++k) {

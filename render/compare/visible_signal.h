@@ -10,13 +10,19 @@ namespace aleph {
 /// to the frame before; else 0.
 Image<float> image_velocity(const MotionMaps& motion, const SurfaceTracks& tracks, const ViewingSettings& settings);
 
+/// A band of one frame.
+struct BandFrame {
+    const Image<float>* error;
+    const Image<float>* background;  ///< cd/m2 that the eye is adapted to
+};
+
 /// The errors of a band in the frames around, and where its pixels are in them.
 struct BandWindow {
-    const Image<float>* current;
-    std::vector<const Image<float>*> next, previous;  ///< from the nearest on
-    const SurfaceTracks& tracks;                      ///< at least as many
-    int level = 0;                                    ///< of the band
-    int reach = 0;                                    ///< of the filter
+    BandFrame current;
+    std::vector<BandFrame> next, previous;  ///< from the nearest on
+    const SurfaceTracks& tracks;            ///< at least as many
+    int level = 0;                          ///< of the band
+    int reach = 0;                          ///< of the filter
 };
 
 /// Signals in just visible differences before masking, of a band's size.
@@ -27,10 +33,10 @@ struct SignalParts {
 
 /// Filters the errors over time along the tracks. Where a track ends before the window does, the frames on the other
 /// side of the current one stand for those that are missing, and beyond both ends the last one that is known.
-/// @param velocity    of the picture's pixels, deg/s
-/// @param background  cd/m2, of the band's size
-SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, const Image<float>& velocity,
-                        const Image<float>& background);
+/// An error in a frame that is brighter than the current one counts by its contrast there: the eye is adapted to that
+/// frame when it sees the error.
+/// @param velocity  of the picture's pixels, deg/s
+SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, const Image<float>& velocity);
 
 /// How many times contrast that both pictures have raises the threshold, 1 and up: contrast masking within a channel,
 /// (1 + w (k M)^q)^(1/p), with the constants of ColorVideoVDP 0.5.4 (Mantiuk et al. 2024).

@@ -62,7 +62,6 @@ FrameCheckpoint::FrameCheckpoint(std::filesystem::path file, std::string identit
 void FrameCheckpoint::begin_fill(const std::string& name) {
     fill_ = &fills_[name];
     next_ = round_ = 0;
-    find_light_ = {};
 }
 
 void FrameCheckpoint::add_gathers(Gathers gathers) {
@@ -74,14 +73,14 @@ void FrameCheckpoint::end_round() {
     for (; round_ < next_; ++round_) fill_->gathers[round_].found = {};
 }
 
-void FrameCheckpoint::offer(const std::function<std::string()>& find_samples) {
+void FrameCheckpoint::offer(const FindState& find_samples, const FindState& find_light) {
     if (!is_due_()) return;
     ByteWriter out;
     out.add_text(identity_);
     out.add(fills_.size());
     for (const auto& [name, fill] : fills_) {
         out.add_text(name);
-        out.add_text(&fill == fill_ && find_light_ ? find_light_() : fill.light);
+        out.add_text(&fill == fill_ && find_light ? find_light() : fill.light);
         out.add(fill.gathers.size());
         for (const auto& [results, found] : fill.gathers) {
             out.add_text(results);

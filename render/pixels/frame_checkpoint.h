@@ -114,16 +114,17 @@ class FrameCheckpoint {
 
     /// The light that gathers shared when the earlier process wrote the file: once; empty afterwards.
     std::string take_shared_light() { return std::exchange(fill_->light, {}); }
-    /// Sets how this state is found. Called when the file is written, until another fill begins.
-    void set_shared_light(std::function<std::string()> find) { find_light_ = std::move(find); }
 
     /// The samples of the earlier process, once; empty: none.
     std::string take_samples() { return std::exchange(samples_, {}); }
 
+    using FindState = std::function<std::string()>;  ///< called when the file is written
+
     /// Writes the state if that is due, with what is left of the earlier process. Called after each piece of work.
     /// @param find_samples  may be empty: samples have not begun
+    /// @param find_light    the light that gathers share; may be empty: the fill has ended, or shares none
     /// @throws OutputError
-    void offer(const std::function<std::string()>& find_samples = {});
+    void offer(const FindState& find_samples, const FindState& find_light = {});
 
   private:
     struct Fill {
@@ -140,7 +141,6 @@ class FrameCheckpoint {
     std::size_t next_ = 0;   ///< of its gathers
     std::size_t round_ = 0;  ///< the first of the present round
     std::string samples_;
-    std::function<std::string()> find_light_;
 };
 
 /// Shows the picture so far while a frame is made; functions may be empty.

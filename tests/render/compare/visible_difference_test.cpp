@@ -110,6 +110,18 @@ TEST(VisibleDifference, NothingIsSeenInTheBlackFarFromAnError) {
     }
 }
 
+/// A lamp comes on, or goes: both pictures are black in the frames on its other side.
+TEST(VisibleDifference, NothingIsSeenInBlackFramesBesideAnError) {
+    const int reach = filter_reach({});
+    const Image<Rgb> black(width, height), exact = picture_of(flat), wrong = picture_of(grating(2.0, threshold(2.0)));
+    for (const bool comes : {true, false}) {
+        const auto switched = [&](const Image<Rgb>& lit) {
+            return [&, comes](int frame) { return (comes ? frame > reach : frame < reach) ? lit : black; };
+        };
+        EXPECT_LT(show(switched(wrong), switched(exact)).seen, 1.0) << comes;
+    }
+}
+
 TEST(VisibleDifference, ValuesThatAreNotFiniteAreSeen) {
     Image<Rgb> broken = picture_of(flat);
     broken(10, 20).y = float_nan;

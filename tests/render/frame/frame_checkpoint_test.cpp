@@ -136,6 +136,10 @@ TEST(FrameCheckpoint, OU07_LightThatComesBeforeTheFrameIsKept) {
             return Sequence(scene, settings).render(15, {.checkpoint = from}).shaded.color.pixels;
         };
         EXPECT_TRUE(finish(&kept) == finish(nullptr));
+        FrameCheckpoint always(folder / "samples", "frame", [] { return true; });
+        EXPECT_TRUE(finish(&always) == finish(nullptr)) << "written among the samples, too";
+        FrameCheckpoint samples(folder / "samples", "frame", [] { return false; });
+        EXPECT_TRUE(finish(&samples) == finish(nullptr)) << "after the last sample";
     }
 }
 
