@@ -31,11 +31,14 @@ struct Lighting {
     GatherScratch& scratch;
 
     float weight(std::size_t ray) const { return scratch.aims > 0 ? scratch.weights[ray] : 1.0f; }
-    /// sr, that a ray represents: where rays are aimed, less. Cells towards the horizon are 1 / cosine larger.
-    float solid_angle(std::size_t ray) const {
+    /// sr, of the cell of the hemisphere that holds the ray: 1 / cosine larger towards the horizon. Textures are
+    /// filtered by it, also where rays are aimed: less filtered where they are bright, they would be too bright.
+    float cell_solid_angle(std::size_t ray) const {
         const float cosine = std::max(glm::dot(normal, scratch.rays[ray].direction), min_ray_cosine);
-        return weight(ray) * pi / (static_cast<float>(strata.count()) * cosine);
+        return pi / (static_cast<float>(strata.count()) * cosine);
     }
+    /// sr, that a ray represents: where rays are aimed, less.
+    float solid_angle(std::size_t ray) const { return weight(ray) * cell_solid_angle(ray); }
     /// Numbers for a light at what this ray hit.
     LightNumbers light_numbers(std::size_t ray) const {
         const auto& [cell, row, column] = scratch.places[ray];
@@ -125,7 +128,7 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     const glm::vec3& direction = scratch.rays[i].direction;
     const SurfacePoint met = make_surface_point(shading, scratch.hits[i], direction);
     const RayFootprint footprint =
-        make_cone_footprint(met, direction, scratch.hits[i].distance, lighting.solid_angle(i));
+        make_cone_footprint(met, direction, scratch.hits[i].distance, lighting.cell_solid_angle(i));
     ViewedSurface surface = view_surface(shading, met, -direction, footprint);
     blur_caustics(shading, surface);
     const LitSurface lit(surface);
@@ -157,7 +160,7 @@ void note_plain_hit(const Lighting& lighting, std::size_t i) {
     GatherScratch& scratch = lighting.scratch;
     const ShadingScene& shading = lighting.context.shading;
     const Hit& hit = scratch.hits[i];
-    const float solid_angle = lighting.solid_angle(i);
+    const float solid_angle = lighting.cell_solid_angle(i);
     LambertHit met = make_lambert_hit(shading, scratch.rays[i], hit, scratch.normals[i], solid_angle);
     met.albedo *= transmit(lighting.context.around.attenuation_inside(), hit.distance);
     if (met.albedo == Rgb(0.0f)) return;

@@ -148,6 +148,47 @@ TEST(AimedRays, DoNotStandForAllSharedLight) {
     }
 }
 
+/// A wall of dark and bright squares, a lamp in front of it.
+Scene make_lit_squares() {
+    constexpr int squares = 15, texels = 8;  // along each side; of a square's side
+    Scene scene;
+    SceneImage image{.bytes = Image<glm::u8vec4>(squares * texels, squares * texels)};
+    for (const auto [x, y] : all_pixels(image.bytes.width, image.bytes.height)) {
+        const bool bright = (x / texels + y / texels) % 2 == 0;
+        image.bytes(x, y) = bright ? glm::u8vec4(255) : glm::u8vec4(0, 0, 0, 255);
+    }
+    scene.images.push_back(image);
+    const int wall = add_lambert(scene, glm::dvec3(1.0));
+    scene.materials[wall].textures[TextureSlot::base_color] = {.image = 0};
+    add_mesh(scene, make_quad(3.0, 3.0, wall));
+    add_lamp(scene, 0.5f * ShadedLamp::side, glm::dvec3(100.0), {0.03, 0.05, 0.6},
+             glm::angleAxis(pi, glm::dvec3(0.0, 1.0, 0.0)));
+    return scene;
+}
+
+/// Rays are aimed at the bright squares. Were textures filtered less there than beside them, squares would be as bright
+/// as they are, and the dark ones between them half as bright.
+TEST(AimedRays, KeepTheMeanOfTextures) {
+    Gathering gathering(make_lit_squares());
+    RayCounts counts;
+    const BrightSurfaces surfaces = find_bright(gathering.stage, make_floor_places(-1.0f), counts);
+    ASSERT_FALSE(surfaces.empty());
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        Mean with, without;
+        for (std::uint32_t run = 0; run < trial.times(512u); ++run) {
+            const SurfacePoint point = make_point({1.0f, 0.2f, 2.0f}, glm::vec3(0.0f, 0.0f, -1.0f));
+            const std::uint32_t seed = run + trial.seed;
+            const auto gather = [&](std::uint32_t number, const BrightSurfaces* bright) {
+                return gathering.gather(point, {choose_strata(128), {number, 0, 0, 0}}, {.bright = bright})
+                    .irradiance.x;
+            };
+            with.add(gather(seed, &surfaces));
+            without.add(gather(seed + 50000, nullptr));
+        }
+        trial.near(with, without, 0.01 * without.mean());
+    }));
+}
+
 /// Samples whose irradiance no record knows aim as well. The noise of single pictures is compared to that of paths,
 /// which do not.
 TEST(AimedRays, OfSamplesAgreeWithThePathTracer) {
