@@ -37,8 +37,8 @@ aleph::Scene make_scene() {
     aleph::Node wall;
     wall.name = "wall";
     wall.meshes = {0};
-    wall.transform.translation.sampling = {.kind = aleph::TimeSampling::Kind::acyclic, .times = {0.0, 10.0 / 30.0}};
-    wall.transform.translation.values = {{0.0, 0.0, -distance}, {10.0 * step, 5.0 * step, -distance}};
+    wall.transform.translation =
+        aleph::Track<glm::dvec3>({0.0, 10.0 / 30.0}, {{0.0, 0.0, -distance}, {10.0 * step, 5.0 * step, -distance}});
     scene.nodes.push_back(wall);
 
     aleph::Camera camera;

@@ -59,11 +59,11 @@ TEST(Deform, OnlyShownMeshesAreFilled) {
     Scene scene = make_sheet_scene();
     add_cache(scene, 0, {0.0, 1.0},
               [](const glm::vec3& p, std::size_t s) { return p * (1.0f + static_cast<float>(s)); });
-    scene.nodes[0].visible = keyed<double>({0.0, 1.0}, {0.0, 1.0});
+    scene.nodes[0].visible = Track<double>({0.0, 1.0}, {0.0, 1.0});
     EXPECT_TRUE(pose(scene, 0.5).meshes[0].positions.empty());
     EXPECT_FALSE(pose(scene, 1.0).meshes[0].positions.empty());
     scene.nodes[0].visible = 1.0;
-    scene.meshes[0].present = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
+    scene.meshes[0].present = Track<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
     EXPECT_FALSE(pose(scene, 0.5).meshes[0].positions.empty());
     EXPECT_TRUE(pose(scene, 1.0).meshes[0].positions.empty());
     ScenePose posed = pose(scene, 0.5);
@@ -172,7 +172,7 @@ TEST(Deform, MorphTargetsAddUp) {
     mesh.deformation.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 2.0f, 0.0f));
     mesh.deformation.targets[0].normals.assign(mesh.positions.size(), glm::vec3(2.0f, 0.0f, 0.0f));
     mesh.deformation.targets[1].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, -4.0f));
-    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0}), Track<double>(0.25)};
+    mesh.deformation.target_weights = {Track<double>({0.0, 1.0}, {0.0, 1.0}), Track<double>(0.25)};
     const PosedMesh posed = pose(scene, 0.5).meshes[0];
     EXPECT_EQ(posed.positions[0], glm::dvec3(mesh.positions[0]) + glm::dvec3(0.0, 1.0, -1.0));
     expect_near(posed.normals[0], glm::normalize(glm::dvec3(1.0, 0.0, 1.0)), 1e-7);
@@ -183,7 +183,7 @@ TEST(Deform, MorphedMeshesStandUnderSeveralNodes) {
     Mesh& mesh = scene.meshes[0];
     mesh.deformation.targets.resize(1);
     mesh.deformation.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 2.0f, 0.0f));
-    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
+    mesh.deformation.target_weights = {Track<double>({0.0, 1.0}, {0.0, 1.0})};
     scene.nodes.push_back(scene.nodes[0]);
     for (const std::size_t hidden : {0, 1}) {
         scene.nodes[hidden].visible = 0.0;

@@ -4,7 +4,6 @@
 #include "render/light/light_cut.h"
 #include "render/light/seen_light_tree.h"
 #include "tests/support/all_pixels.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/path_estimates.h"
 #include "tests/support/test.h"
 
@@ -72,13 +71,13 @@ Scene make_crowd_scene(const std::vector<CrowdLight>& lights, CrowdKind kind) {
         scene.cameras[0].shutter = {0.0, 0.5};
         const int patch = add_mesh(scene, make_quad(0.3, 0.3, 0), {}, z_to_up);  // of the floor
         scene.nodes[patch].transform.translation =
-            keyed<glm::dvec3>({0.0, 10.0 / crowd_fps}, {{-0.2, 5e-4, 0.0}, {0.2, 5e-4, 0.0}});
+            Track<glm::dvec3>({0.0, 10.0 / crowd_fps}, {{-0.2, 5e-4, 0.0}, {0.2, 5e-4, 0.0}});
     }
     scene.cameras[0].half_height = 0.5 * crowd_height * crowd_pixel;
     for (const CrowdLight& light : lights) {
         add_light(scene, Light::Kind::point, glm::dvec3(light.intensity), light.at);
         if (kind == CrowdKind::moving)
-            scene.nodes.back().transform.translation = keyed<glm::dvec3>({0.0, 10.0 / crowd_fps}, {light.at, light.to});
+            scene.nodes.back().transform.translation = Track<glm::dvec3>({0.0, 10.0 / crowd_fps}, {light.at, light.to});
     }
     return scene;
 }
