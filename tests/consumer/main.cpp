@@ -103,6 +103,20 @@ int main() {
     const double elevation = contrast_sensitivity(peak, velocity) / std::max(contrast_sensitivity(0.25, velocity), 1.0);
     expect_near("aleph of the wall", output.perception.aleph(40, 30), elevation, 1e-3 * elevation);
 
+    // The instrument sees nothing in a picture beside itself, and stripes that are beside them.
+    const aleph::ChannelImage maps = aleph::make_frame_image(output, true, scene, settings, sequence.exposure());
+    const aleph::Image<aleph::Rgb>& plain = output.shaded.color;
+    aleph::Image<aleph::Rgb> striped = plain;
+    for (std::size_t i = 0; i < striped.size(); ++i) striped.pixels[i] *= i / 4 % 2 == 0 ? 2.0f : 1.0f;
+    const auto seen = [&](const aleph::Image<aleph::Rgb>& picture) {
+        aleph::SequenceComparison comparison({});
+        comparison.add(3, aleph::make_color_image(picture), aleph::make_color_image(plain), {.visible = &maps});
+        comparison.finish();
+        return comparison.summary().visible->seen;
+    };
+    expect_near("seen in the same picture, %", seen(plain), 0.0, 0.0);
+    expect_near("seen in stripes, %", seen(striped), 100.0, 0.0);
+
     // A study of the same wall from a file: what shows its emission has no noise.
     aleph::save_scene(scene, "wall.json");
     constexpr const char* study = R"({"scenes": [{"scene": "wall.json", "frames": "3"}], "size": "16x12",
