@@ -8,6 +8,13 @@
 namespace aleph {
 namespace {
 
+TEST(Scene, ElementsAreFoundByTheirNames) {
+    Scene scene;
+    for (const char* name : {"lamp", "ball", "ball"}) scene.nodes.emplace_back().name = name;
+    EXPECT_EQ(find_named(scene.nodes, "ball"), 1);
+    expect_refusal([&] { find_named(scene.nodes, "bal"); }, "", "bal", "no element");
+}
+
 /// Cubic keys within a range lead out of it between them.
 TEST(Pose, ConesThatOvershootStayWithinAQuarterTurn) {
     Scene scene;
