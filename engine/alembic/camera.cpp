@@ -45,9 +45,7 @@ Track<double> make_fov_track(const AlembicSamples& samples, const std::vector<st
     if (track.values.size() == 1) return track;
     constexpr int pieces = 4;
     constexpr double step = 1e-4;  // of an interval
-    track = {};
-    track.interpolation = Interpolation::cubic;
-    track.sampling.kind = TimeSampling::Kind::acyclic;
+    track = Track<double>({}, {}, Interpolation::cubic);
     double arriving = 0.0;
     for (std::size_t i = 0; i + 1 < cores.size(); ++i) {
         const double begin = samples.time(i), interval = samples.time(i + 1) - begin;

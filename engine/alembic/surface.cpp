@@ -103,9 +103,7 @@ void read_point_cache(AlembicReader& reader, int object, const Sampled& points, 
 
 /// A run is shown from its begin to that of the next one.
 Track<double> make_presence(const std::vector<SurfaceRun>& runs, std::size_t run) {
-    Track<double> track;
-    track.interpolation = Interpolation::step;
-    track.sampling.kind = TimeSampling::Kind::acyclic;
+    Track<double> track({}, {}, Interpolation::step);
     const auto add = [&](double time, double value) {
         track.sampling.times.push_back(time);
         track.values.push_back(value);

@@ -38,10 +38,7 @@ bool clamp_keys(GltfKeys& keys, double low, double high, bool takes_zero = false
 template <class T, class Make>
 Track<T> make_track(GltfReader& reader, const GltfKeys& keys, const std::string& place, const Make& make) {
     reader.accessors.charge(keys.times.size() * sizeof(double) + keys.rows() * sizeof(T), place);
-    Track<T> track;
-    track.sampling.kind = TimeSampling::Kind::acyclic;
-    track.sampling.times = keys.times;
-    track.interpolation = keys.interpolation;
+    Track<T> track(keys.times, {}, keys.interpolation);
     track.values.reserve(keys.rows());
     for (std::size_t i = 0; i < keys.rows(); ++i) track.values.push_back(make(&keys.values[i * keys.row], i));
     return track;

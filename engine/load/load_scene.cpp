@@ -16,9 +16,7 @@ void set_timing(const FileTiming& timing, Scene& scene) {
     if (!timing.first) return;
     Scene ends;  // a scene with two keys: frame_range turns their times into frames
     ends.film.frame_rate = scene.film.frame_rate;
-    ends.nodes.emplace_back().visible.values = {1.0, 0.0};
-    ends.nodes.back().visible.sampling.kind = TimeSampling::Kind::acyclic;
-    ends.nodes.back().visible.sampling.times = {*timing.first, *timing.last};
+    ends.nodes.emplace_back().visible = Track<double>({*timing.first, *timing.last}, {1.0, 0.0});
     scene.film.range = frame_range(ends);
 }
 

@@ -26,8 +26,7 @@ void key_frames(Scene& scene) {
         if (count > most_keys - keys)
             throw InputError(scene.source.file, "", "a key at every frame: more than 4 million keys");
         keys += count;
-        Track<decltype(value(0.0))> track;
-        track.sampling.kind = TimeSampling::Kind::acyclic;
+        Track<decltype(value(0.0))> track({}, {});
         for (std::int64_t frame = range.first; frame <= range.last; ++frame) {
             track.sampling.times.push_back(scene.film.frame_rate.seconds_of(frame));
             track.values.push_back(value(track.sampling.times.back()));

@@ -3,6 +3,7 @@
 // track over time; pose() (engine/pose/pose.h) evaluates it. Right-handed, y up, metres, seconds; angles in radians;
 // colours linear Rec.709; light units unscaled (candela, lux, nits).
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
@@ -15,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/base/errors.h"
 #include "engine/base/frame_rate.h"
 #include "engine/base/index.h"
 #include "engine/base/viewing.h"
@@ -192,6 +194,15 @@ struct Scene {
 
     bool operator==(const Scene&) const = default;
 };
+
+/// Index of the first of the nodes, meshes, materials, lights or cameras that has a name.
+/// @throws InputError if none has it
+template <class Element>
+int find_named(const std::vector<Element>& elements, const std::string& name) {
+    const auto found = std::ranges::find(elements, name, &Element::name);
+    if (found == elements.end()) throw InputError("", name, "no element of this kind has the name");
+    return static_cast<int>(found - elements.begin());
+}
 
 /// The node that stands for the space of the file that a node comes from: what does not inherit from its parent is in
 /// that space. no_index: the world.

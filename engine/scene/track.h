@@ -5,6 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/time_sampling.h"
@@ -27,6 +28,11 @@ struct Track {
 
     Track() = default;
     Track(const T& constant) : values{constant} {}  // implicit, for `node.transform.scale = dvec3(2)`
+    /// Keys at these times, s.
+    Track(std::vector<double> times, std::vector<T> keys, Interpolation how = Interpolation::linear)
+        : sampling{TimeSampling::Kind::acyclic, 0.0, 1.0, std::move(times)},
+          interpolation(how),
+          values(std::move(keys)) {}
 
     /// Keys, not values: a cubic key has three values.
     std::size_t key_count() const { return interpolation == Interpolation::cubic ? values.size() / 3 : values.size(); }

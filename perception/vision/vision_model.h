@@ -55,8 +55,7 @@ class ElevationRow {
 /// Makes the elevations of a row of some width.
 using ElevationRowMaker = std::function<std::unique_ptr<ElevationRow>(int width)>;
 
-/// A model of vision: how much contrast, and how much luminance, goes unnoticed. All functions depend on their
-/// arguments only.
+/// A model of vision: thresholds of contrast and of luminance. All functions depend on their arguments only.
 class VisionModel {
   public:
     virtual ~VisionModel() = default;
@@ -73,7 +72,8 @@ class VisionModel {
     /// Returns true if elevations depend on ViewingConditions::persistence.
     virtual bool uses_persistence() const { return false; }
 
-    /// The elevation f of rows of pixels: how many times the least visible contrast goes unnoticed, [1, highest_aleph].
+    /// Threshold elevation f of rows of pixels: the factor by which the least visible contrast is raised, [1,
+    /// highest_aleph].
     /// @param rho  frequencies of the bands, cycles per degree
     virtual ElevationRowMaker make_rows(const std::array<double, band_count>& rho, const Presentation& shown) const = 0;
 

@@ -82,8 +82,8 @@ void bind_lights_and_cameras(py::module_& module) {
     add_field(camera, "orthographic", "True: half_height counts, and not fov.", &Camera::orthographic);
     add_track<&Camera::fov>(camera, "fov", "Degrees, vertical.", degree);
     add_track<&Camera::half_height>(camera, "half_height", "Metres, of an orthographic view.");
-    add_track<&Camera::shift_x>(camera, "shift_x", "Heights of the picture.");
-    add_track<&Camera::shift_y>(camera, "shift_y", "Heights of the picture.");
+    add_track<&Camera::shift_x>(camera, "shift_x", "Shift of the lens to the right, heights of the picture.");
+    add_track<&Camera::shift_y>(camera, "shift_y", "The same upwards.");
     add_track<&Camera::aperture>(camera, "aperture", "Radius of the lens, metres.");
     add_track<&Camera::focus_distance>(camera, "focus_distance", "Metres.");
     camera.def_property(

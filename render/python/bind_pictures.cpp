@@ -113,10 +113,12 @@ py::dict find_seen(const py::sequence& a, const py::sequence& b, const py::seque
             fmt::format("{}, {} and {} frames: expected three lists of one length", a.size(), b.size(), maps.size()));
     SequenceComparison comparison({}, cuts);
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const ChannelImage channels = frame_channels(py::object(maps[i]).cast<const Frame&>());
-        comparison.add(py::object(maps[i]).attr("number").cast<std::int64_t>(),
-                       take_picture(a[i], fmt::format("a[{}]", i)), take_picture(b[i], fmt::format("b[{}]", i)),
-                       {.threshold = nullptr, .visible = &channels});
+        const py::object map = maps[i];
+        if (!py::isinstance<Frame>(map))
+            throw InputError("", fmt::format("maps[{}]", i), "expected a Frame of the reference, with its maps");
+        const ChannelImage channels = frame_channels(map.cast<const Frame&>());
+        comparison.add(map.attr("number").cast<std::int64_t>(), take_picture(a[i], fmt::format("a[{}]", i)),
+                       take_picture(b[i], fmt::format("b[{}]", i)), {.threshold = nullptr, .visible = &channels});
     }
     comparison.finish();
     const VisibleShares shares = comparison.summary().visible.value();
@@ -137,8 +139,8 @@ void bind_pictures(py::module_& module) {
 
 images: a sequence of arrays (h, w, 3), linear floats with exposure (white = 1) or sRGB bytes.
 fps: frames per second, as Scene.fps.
-motion: None: found by comparing pictures, by optical flow where this was built with it; else an array (h, w, 2) for each image: pixels to the next one, x right,
-y down, NaN where there is no counterpart.
+motion: None: found by comparing pictures, by optical flow where this was built with it; else an array (h, w, 2) for
+each image: pixels to the next one, x right, y down, NaN where there is no counterpart.
 cuts: indices of images that begin a new shot.
 settings: as of aleph.render, such as vision="castle".
 Returns a list of Frames without a picture.)");

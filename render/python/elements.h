@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/base/errors.h"
+#include "engine/json/close_names.h"
 #include "engine/scene/place.h"
 #include "engine/scene/scene.h"
 #include "render/python/track_values.h"
@@ -54,7 +55,11 @@ template <class E>
 std::size_t find_element(const Elements<E>& all, const std::string& name) {
     const std::vector<E>& list = all.scene.get()->*all.list;
     const auto found = std::ranges::find(list, name, &E::name);
-    if (found == list.end()) throw py::key_error(fmt::format("there is no {} '{}'", all.kind, name));
+    if (found == list.end()) {
+        std::vector<std::string> known;
+        for (const E& element : list) known.push_back(element.name);
+        throw py::key_error(fmt::format("there is no {} '{}'{}", all.kind, name, suggestion(name, known)));
+    }
     return static_cast<std::size_t>(found - list.begin());
 }
 
@@ -78,7 +83,8 @@ py::class_<Element<E>> bind_elements(py::module_& module, const char* name, cons
         .def("__getitem__",
              [](const Elements<E>& all, py::ssize_t index) {
                  const auto size = static_cast<py::ssize_t>(all.size());
-                 if (index < -size || index >= size) throw py::index_error();
+                 if (index < -size || index >= size)
+                     throw py::index_error(fmt::format("there is no {} {}; the scene has {}", all.kind, index, size));
                  return all.at(static_cast<std::size_t>(index < 0 ? index + size : index));
              })
         .def("__getitem__",

@@ -47,39 +47,46 @@ void add_pictures(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
     add_map<float, &FrameOutput::shaded, &ShadedFrame::color>(frame, "color", "Linear RGB with exposure, (h, w, 3).");
     add_map<float, &FrameOutput::estimate>(frame, "estimate",
                                            "The quick estimate that the model of vision sees, (h, w, 3).");
-    add_map<float, &FrameOutput::shaded, &ShadedFrame::samples>(frame, "samples", "Samples of each pixel.");
+    add_map<float, &FrameOutput::shaded, &ShadedFrame::samples>(frame, "samples", "Number of samples of each pixel.");
     add_map<float, &FrameOutput::shaded, &ShadedFrame::errors, &ErrorMaps::total>(
         frame, "error", "Estimated standard error, in visible thresholds.");
     add_map<float, &FrameOutput::shaded, &ShadedFrame::variance>(
-        frame, "variance", "Of the mean luminance, with exposure; of traced paths.");
+        frame, "variance",
+        "Variance of a pixel's luminance (that of the mean of its samples), with exposure; by `integrator=\"path\"`.");
     add_map<float, &FrameOutput::surface, &SurfaceMaps::depth>(frame, "depth", "Planar, metres; 1e30 for background.");
     add_map<float, &FrameOutput::surface, &SurfaceMaps::normal>(frame, "normal",
                                                                 "World space, towards the viewer, (h, w, 3).");
-    add_map<float, &FrameOutput::surface, &SurfaceMaps::albedo>(frame, "albedo",
-                                                                "Base of what is reflected, (h, w, 3).");
+    add_map<float, &FrameOutput::surface, &SurfaceMaps::albedo>(
+        frame, "albedo", "Share of light that the surface scatters, (h, w, 3), 0 to 1; 0 for background.");
 }
 
 void add_motion(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
     add_map<double, &FrameOutput::motion, &MotionField::displacement>(
-        frame, "motion", "To the next frame, pixels, x right, y down, (h, w, 2).");
+        frame, "motion",
+        "Displacement to the next frame, pixels, x right, y down, (h, w, 2). In the shot's last frame and after an "
+        "edit "
+        "that from the frame before to this one.");
     add_map<std::int8_t, &FrameOutput::motion, &MotionField::validity>(
         frame, "motion_valid",
-        "1: valid; 0: background; -1: behind the camera; -2: leaves the picture; -3: no counterpart; -4: hidden "
+        "Codes: 1: valid; 0: background; -1: behind the camera; -2: leaves the picture; -3: no counterpart; -4: hidden "
         "there.");
     add_map<double, &FrameOutput::backward, &MotionField::displacement>(frame, "backward",
-                                                                        "To the frame before, as `motion`.");
+                                                                        "Displacement to the frame before, as "
+                                                                        "`motion`; None after an edit.");
     add_map<std::int8_t, &FrameOutput::backward, &MotionField::validity>(frame, "backward_valid", "As `motion_valid`.");
     add_map<float, &FrameOutput::velocity>(frame, "velocity", "Image velocity, degrees per second.");
 }
 
 void add_perception(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
     add_map<float, &FrameOutput::perception, &PerceptionMaps::aleph>(
-        frame, "aleph", "The Aleph map: how many times the least visible contrast goes unnoticed.");
+        frame, "aleph",
+        "The Aleph map: threshold elevation, the factor by which the least visible contrast is raised; 1 to 250.");
     add_map<float, &FrameOutput::limits, &ErrorLimits::threshold>(
         frame, "threshold", "Least visible luminance difference that lasts, cd/m2.");
     add_map<float, &FrameOutput::limits, &ErrorLimits::threshold_noise>(
         frame, "threshold_noise", "Standard deviation of noise of single pixels that goes unseen, cd/m2.");
-    add_map<float, &FrameOutput::limits, &ErrorLimits::alpha>(frame, "accuracy", "Ambient accuracy of cached light.");
+    add_map<float, &FrameOutput::limits, &ErrorLimits::alpha>(
+        frame, "accuracy", "Ambient accuracy of cached light: its relative error, 0 to 1; smaller takes longer.");
     add_map<float, &FrameOutput::perception, &PerceptionMaps::saliency>(frame, "saliency",
                                                                         "Where viewers look, 0 to 1.");
     add_map<float, &FrameOutput::perception, &PerceptionMaps::retinal_velocity>(frame, "retinal_velocity",
@@ -118,7 +125,7 @@ void bind_frames(py::module_& module) {
             "plan", [](const py::object& self) -> py::object { return self.attr("statistics")["plan"]; },
             "The effects plan: for each effect its decision, reason and bound.")
         .def("save", &save, py::arg("path"),
-             "Writes the picture as .png, or the picture and all maps as .exr (`aleph maps --help` has the "
+             "Writes the picture as .png (sRGB), or the picture and all maps as .exr (`aleph maps --help` has the "
              "channels).")
         .def("__repr__",
              [](const Frame& f) { return "<aleph.Frame " + std::to_string(f.output.statistics.frame) + ">"; });

@@ -59,8 +59,8 @@ PYBIND11_MODULE(_aleph, module) {
                py::arg("threshold") = py::none(),
                R"(Adds a model of vision, which settings and studies then name: vision="NAME".
 
-elevation(frequency, retinal, tracked, luminance): how many times the least visible contrast goes unnoticed, 1 to 250,
-for arrays of pixels; frequency in cycles per degree, velocities on the retina and of what the eye follows in degrees
+elevation(frequency, retinal, tracked, luminance): threshold elevation, the factor by which the least visible contrast
+is raised, 1 to 250, for arrays of pixels; frequency in cycles per degree, velocities on the retina and of what the eye follows in degrees
 per second, luminance in cd/m2.
 threshold(luminance): the least visible difference, cd/m2; None: the thesis's.
 A model of the same name that was added before is replaced. Results that a study keeps are found by the name: give

@@ -125,7 +125,8 @@ class PythonRule : public StoppingRule {
 /// A setting's value: a bool, a number, text, or a sequence (a size, or a list of names).
 /// @throws InputError naming the key
 SettingValue to_setting(const std::string& key, const py::handle& value) {
-    if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
+    if (py::isinstance<py::bool_>(value) || py::isinstance(value, py::module_::import("numpy").attr("bool_")))
+        return py::bool_(py::reinterpret_borrow<py::object>(value)).cast<bool>();
     if (py::isinstance<py::str>(value)) return value.cast<std::string>();
     if (py::isinstance<py::sequence>(value)) {
         std::vector<std::string> parts;

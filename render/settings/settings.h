@@ -131,7 +131,8 @@ struct EffectSettings {
 
 struct RenderSettings {
     std::uint32_t seed = 0;
-    /// Error that is asked for, in visible thresholds; 0: none is, and the other settings stand for themselves.
+    /// Error that is asked for, in visible thresholds; 0: none. Set by follow_error(settings, E), which also sets the
+    /// samples and the accuracy that keep to it: the number alone changes neither.
     double error = 0.0;
     PictureSettings picture{};
     PerceptionSettings perception{};

@@ -154,8 +154,7 @@ void add_tall_clock(Scene& scene, const AntiqueMaterials& materials) {
     clock.add_shape("clock_cornice", box({0.52, 0.05, 0.36}), wood, {0.0, 2.005, 0.0});
     clock.add_shape("clock_cornice_top", box({0.47, 0.07, 0.32}), wood, {0.0, 2.06, 0.0});
     clock.add_shape("clock_bonnet", cylinder(0.17, 0.24, 64), wood, {0.0, 2.08, 0.0}, turn(x_axis, 90.0));
-    const auto dial = std::ranges::find(scene.materials, "dial", &Material::name) - scene.materials.begin();
-    clock.add_shape("clock_dial", quad(0.32, 0.32), static_cast<int>(dial), {0.0, 1.74, 0.133});
+    clock.add_shape("clock_dial", quad(0.32, 0.32), find_named(scene.materials, "dial"), {0.0, 1.74, 0.133});
     clock.add_shape("clock_bezel", torus(0.165, 0.014, 64), materials.brass, {0.0, 1.74, 0.134}, turn(x_axis, 90.0));
 }
 

@@ -117,13 +117,7 @@ void add_boomerang(Scene& scene) {
 /// the wall moves by about one pixel per frame at 640x480.
 void add_camera(Scene& scene) {
     const std::vector<double> times = {0.0, boomerang_still_until / 30.0, to_millionth(boomerang_last_frame / 30.0)};
-    const auto hold_and_go = [&](auto from, auto to) {
-        Track<decltype(from)> track;
-        track.sampling.kind = TimeSampling::Kind::acyclic;
-        track.sampling.times = times;
-        track.values = {from, from, to};
-        return track;
-    };
+    const auto hold_and_go = [&](auto from, auto to) { return Track<decltype(from)>(times, {from, from, to}); };
     const int dolly = add_node(scene, "camera_dolly");
     scene.nodes.back().transform.translation = hold_and_go(glm::dvec3(-0.12, 1.5, 3.2), glm::dvec3(0.1, 1.47, 3.14));
     const int pan = add_node(scene, "camera_pan", dolly);

@@ -34,9 +34,7 @@ struct MotionKey {
 
 template <class T>
 Track<T> cubic_track(const std::vector<MotionKey<T>>& keys) {
-    Track<T> track;
-    track.interpolation = Interpolation::cubic;
-    track.sampling.kind = TimeSampling::Kind::acyclic;
+    Track<T> track({}, {}, Interpolation::cubic);
     for (const MotionKey<T>& key : keys) {
         track.sampling.times.push_back(key.seconds);
         for (const T& value : {key.before, key.value, key.after}) track.values.push_back(to_millionth(value));
@@ -63,11 +61,7 @@ Track<T> eased_track(const std::vector<double>& seconds, const std::vector<T>& v
 /// Constant velocity: two keys.
 template <class T>
 Track<T> even_track(double from, double to, const T& first, const T& last) {
-    Track<T> track;
-    track.sampling.kind = TimeSampling::Kind::acyclic;
-    track.sampling.times = {from, to};
-    track.values = {to_millionth(first), to_millionth(last)};
-    return track;
+    return {{from, to}, {to_millionth(first), to_millionth(last)}};
 }
 
 }  // namespace aleph

@@ -19,7 +19,6 @@
 #include "render/surface/texture.h"
 #include "tests/benchmarks/thread_seconds.h"
 #include "tests/support/first_hits.h"
-#include "tests/support/keyed_track.h"
 
 namespace aleph {
 namespace {
@@ -43,8 +42,8 @@ Scene make_field(int objects) {
         const glm::dvec3 at(2.0 * (i % columns), i == 0 ? 9.0 : 0.0, 2.0 * (i / columns));
         node.transform.translation = at;
         if (i % (objects / movers) == 5) {
-            node.transform.translation = keyed<glm::dvec3>({0.0, 10.0}, {at, at + glm::dvec3(0.0, 3.0, 0.0)});
-            const Track<double> angle = keyed<double>({0.0, 10.0}, {0.0, i < objects / movers ? 900.0 : 9.0});
+            node.transform.translation = Track<glm::dvec3>({0.0, 10.0}, {at, at + glm::dvec3(0.0, 3.0, 0.0)});
+            const Track<double> angle = Track<double>({0.0, 10.0}, {0.0, i < objects / movers ? 900.0 : 9.0});
             node.transform.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, angle};
         }
         scene.nodes.push_back(node);

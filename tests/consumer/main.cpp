@@ -37,8 +37,8 @@ aleph::Scene make_scene() {
     aleph::Node wall;
     wall.name = "wall";
     wall.meshes = {0};
-    wall.transform.translation.sampling = {.kind = aleph::TimeSampling::Kind::acyclic, .times = {0.0, 10.0 / 30.0}};
-    wall.transform.translation.values = {{0.0, 0.0, -distance}, {10.0 * step, 5.0 * step, -distance}};
+    wall.transform.translation =
+        aleph::Track<glm::dvec3>({0.0, 10.0 / 30.0}, {{0.0, 0.0, -distance}, {10.0 * step, 5.0 * step, -distance}});
     scene.nodes.push_back(wall);
 
     aleph::Camera camera;
@@ -102,6 +102,20 @@ int main() {
     const double peak = 45.9 / (1.7 * velocity + 2.0) / (2.0 * std::numbers::pi * 0.67);
     const double elevation = contrast_sensitivity(peak, velocity) / std::max(contrast_sensitivity(0.25, velocity), 1.0);
     expect_near("aleph of the wall", output.perception.aleph(40, 30), elevation, 1e-3 * elevation);
+
+    // The instrument sees nothing in a picture beside itself, and stripes that are beside them.
+    const aleph::ChannelImage maps = aleph::make_frame_image(output, true, scene, settings, sequence.exposure());
+    const aleph::Image<aleph::Rgb>& plain = output.shaded.color;
+    aleph::Image<aleph::Rgb> striped = plain;
+    for (std::size_t i = 0; i < striped.size(); ++i) striped.pixels[i] *= i / 4 % 2 == 0 ? 2.0f : 1.0f;
+    const auto seen = [&](const aleph::Image<aleph::Rgb>& picture) {
+        aleph::SequenceComparison comparison({});
+        comparison.add(3, aleph::make_color_image(picture), aleph::make_color_image(plain), {.visible = &maps});
+        comparison.finish();
+        return comparison.summary().visible->seen;
+    };
+    expect_near("seen in the same picture, %", seen(plain), 0.0, 0.0);
+    expect_near("seen in stripes, %", seen(striped), 100.0, 0.0);
 
     // A study of the same wall from a file: what shows its emission has no noise.
     aleph::save_scene(scene, "wall.json");

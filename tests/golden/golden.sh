@@ -2,7 +2,8 @@
 # Golden images: small pictures of several scenes (images.txt), equal in every value. A change must be reviewed.
 #   tests/golden/golden.sh check [name]     renders them into build/golden and compares them with the references here;
 #                                           then checks the cache against path-traced pictures (references.sh)
-#   tests/golden/golden.sh review [name]    prints a page of the last check: new, reference, difference, numbers
+#   tests/golden/golden.sh review [name]    draws the images of the last check: new, reference, difference of each
+#                                           layer that differs; with the numbers beside them
 #   tests/golden/golden.sh accept [name]    checks, then makes the new pictures the references
 # BUILD is the build folder, if it is not `build`.
 set -euo pipefail
@@ -15,7 +16,7 @@ out=$build/golden
 aleph=$build/aleph
 
 usage() {
-  sed -n '2,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
   exit 2
 }
 
@@ -58,26 +59,42 @@ compare() {
   return "$code"
 }
 
-# One page of the named images.
-write_page() {
-  "$build/golden_page" "$out" "$here" "$@"
-  echo "$out/review.html"
+# Draws $out/NAME.review.png: new and reference, where they are colours, and the difference of every layer that differs; and
+# writes the numbers to $out/NAME.txt: draw NAME LAYER...
+draw() {
+  local name=$1 new=$out/$1.exr reference=$here/$1.exr layer picture panels=()
+  shift
+  if [ "$1" = R ]; then
+    panels=("new=$new")
+    [ ! -e "$reference" ] || panels+=("reference=$reference")
+    set -- R,G,B
+  fi
+  if [ -e "$reference" ]; then
+    "$aleph" compare "$new" "$reference" >"$out/$name.txt" 2>&1 || true
+    for layer; do
+      picture=$out/$name.${layer//,/}.png
+      ! "$aleph" compare "$new" "$reference" --channels "$layer" --diff "$picture" >/dev/null 2>&1 || continue
+      [ ! -e "$picture" ] || panels+=("difference of ${layer//,/}; white: the largest=$picture")
+    done
+  fi
+  [ ${#panels[@]} = 0 ] || "$build/study_sheet" "${panels[@]}" -o "$out/$name.review.png" --columns 3 --width 420
+  ls "$out/$name".review.png "$out/$name".txt 2>/dev/null || true
 }
 
 action=${1:-}
 only=${2:-}
 case $action in check | review | accept) ;; *) usage ;; esac
 [ $# -le 2 ] || usage
-for program in aleph select_channels golden_page; do
+for program in aleph select_channels study_sheet; do
   [ -x "$build/$program" ] || { echo "golden.sh: $build/$program is not built" >&2; exit 1; }
 done
 
 mkdir -p "$out"
 if [ "$action" != review ]; then
-  rm -f "$out"/*.exr "$out"/*.json "$out"/*.png "$out"/*.html
+  rm -f "$out"/*.exr "$out"/*.json "$out"/*.png "$out"/*.txt
   printf '%-14s %-10s %10s %10s %13s %10s\n' image verdict max RMS 'relative MSE' 'beyond, %'
 fi
-names=()
+count=0
 differing=()
 while IFS='|' read -r name scene options channels; do
   case $name in '#'* | '') continue ;; esac
@@ -86,24 +103,26 @@ while IFS='|' read -r name scene options channels; do
   [ -z "$only" ] || [ "$only" = "$name" ] || continue
   if [ "$action" != review ]; then
     render "$name" "$scene" "$options" "$channels" </dev/null
-    compare "$name" || differing+=("$name")
+    compare "$name" || differing+=("$name $channels")
+  elif [ -e "$out/$name.exr" ]; then
+    # shellcheck disable=SC2086  # names of layers
+    draw "$name" $channels
   fi
   if [ "$action" = accept ]; then cp "$out/$name.exr" "$here/$name.exr"; fi
-  [ ! -e "$out/$name.exr" ] || names+=("$name")
+  [ ! -e "$out/$name.exr" ] || count=$((count + 1))
 done <"$here/images.txt"
-[ ${#names[@]} -gt 0 ] || { echo "golden.sh: there is no image '$only', or none is rendered yet" >&2; exit 2; }
+[ "$count" -gt 0 ] || { echo "golden.sh: there is no image '$only', or none is rendered yet" >&2; exit 2; }
 
-if [ "$action" = review ]; then
-  write_page "${names[@]}"
-  exit
-fi
+[ "$action" != review ] || exit 0
 if [ "$action" = accept ]; then
   echo "Accepted. Commit tests/golden/*.exr with the reason for the change."
   exit
 fi
 code=0
 if [ ${#differing[@]} -gt 0 ]; then
-  printf 'Look at %s\nIf the change is right: tests/golden/golden.sh accept\n' "$(write_page "${differing[@]}")" >&2
+  # shellcheck disable=SC2086  # a name, and names of layers
+  for image in "${differing[@]}"; do draw $image; done >&2
+  echo "Look at these. If the change is right: tests/golden/golden.sh accept" >&2
   code=1
 fi
 if [ -z "$only" ] && compgen -G "$here/references/*.exr" >/dev/null; then

@@ -2,7 +2,6 @@
 // small lamp, a lamp that shines in one frame. What the display shows is compared with path tracing, block by block.
 
 #include "render/frame/sequence.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -86,7 +85,7 @@ Scene make_flash(Dice& dice) {
     for (const double frame : {0.0, flash_frame - 0.5, flash_frame - 0.4, flash_frame + 0.4, flash_frame + 0.5}) {
         times.push_back(frame / frame_rate);
     }
-    scene.materials.back().glow.strength = keyed<double>(times, {0.0, 0.0, strength, strength, 0.0});
+    scene.materials.back().glow.strength = Track<double>(times, {0.0, 0.0, strength, strength, 0.0});
     return scene;
 }
 

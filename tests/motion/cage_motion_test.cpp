@@ -1,6 +1,5 @@
 // Motion of deforming cages against the closed form of their limit surface (a bicubic B-spline over regular faces).
 #include "tests/support/allocations.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/cage_scenes.h"
 #include "tests/support/seen_motion.h"
 #include "tests/support/test.h"
@@ -73,7 +72,7 @@ TEST(CageMotion, FastTurnsTakeNoMoreMemory) {
         Scene scene = make_cage_scene(test, {test.points, later}, 5);
         scene.nodes[1].transform.translation = glm::dvec3(0.0, 0.0, 6.0);
         AxisRotation& turn = scene.nodes[0].transform.axis_rotation.emplace();
-        turn.angle = keyed<double>({0.0, 1.0}, {0.0, turns * 60.0 * std::numbers::pi});
+        turn.angle = Track<double>({0.0, 1.0}, {0.0, turns * 60.0 * std::numbers::pi});
         return count_allocations([&] { compute_motion(scene); }).peak;
     };
     EXPECT_LT(static_cast<double>(peak_of(20.0)), 1.1 * static_cast<double>(peak_of(1.0)));

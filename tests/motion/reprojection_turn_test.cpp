@@ -36,7 +36,7 @@ TEST(ReprojectionTurn, RP07_RotationBeyondAHalfTurnPerFrame) {
 Track<glm::dquat> make_full_turn() {
     std::vector<glm::dquat> turns;
     for (int i = 0; i <= 4; ++i) turns.push_back(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1)));
-    return keyed({0.0, 0.25, 0.5, 0.75, 1.0}, turns);
+    return Track({0.0, 0.25, 0.5, 0.75, 1.0}, turns);
 }
 
 /// The same bits at both times, although it moves between them.
@@ -108,7 +108,7 @@ TEST(ReprojectionTurn, RP07_UnevenSpin) {
     const double turn = 2.0 * std::numbers::pi;
     scene.nodes[0].transform.axis_rotation = AxisRotation{
         {0.0, 0.0, 1.0},
-        keyed<double>({0.0, 1.0}, {0.0, 0.0, 0.0, 2.0 * turn, turn, 0.0}, Interpolation::cubic)};  // turn t^2
+        Track<double>({0.0, 1.0}, {0.0, 0.0, 0.0, 2.0 * turn, turn, 0.0}, Interpolation::cubic)};  // turn t^2
     EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
     const std::vector<double> times = subdivide(scene);
     double previous = 0.0;

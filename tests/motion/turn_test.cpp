@@ -45,7 +45,7 @@ TEST(Turn, AllOperationsThatTurnAddUp) {
 TEST(Turn, ASplineSwingsBeyondItsKeys) {
     // Equal keys at 0 and 1 s, and an angle of 10 (t - t^2) between: to 2.5 and back.
     const AxisRotation swing{{0.0, 0.0, 1.0},
-                             keyed<double>({0.0, 1.0}, {0.0, 0.0, 10.0, -10.0, 0.0, 0.0}, Interpolation::cubic)};
+                             Track<double>({0.0, 1.0}, {0.0, 0.0, 10.0, -10.0, 0.0, 0.0}, Interpolation::cubic)};
     EXPECT_NEAR(turn_of({.axis_rotation = swing}, -0.7, 1.3), 5.0, 1e-12);
     EXPECT_NEAR(turn_of({.axis_rotation = swing}, 0.25, 0.75), 1.25, 1e-12);
 }
@@ -84,7 +84,7 @@ TEST(Turn, WhatCameraAndObjectShareDoesNotCount) {
     scene.nodes[arm].inherits = 0.0;  // the object does
     expect(0.3 + 1.04, 0.04, 1.04);
     // Let go during the span: counts as carried.
-    scene.nodes[arm].inherits = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
+    scene.nodes[arm].inherits = Track<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
     expect(0.3 + 0.04, 0.04, 1.04);
     scene.nodes[arm].inherits.values = {0.0, 1.0};
     expect(0.3 + 0.04, 0.04, 1.04);

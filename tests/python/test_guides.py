@@ -120,6 +120,8 @@ def test_seen(ball):
     assert 5 < shares["seen"] <= 100 and shares["lasting"] > 0 and shares["noticed"] >= 0
     with pytest.raises(aleph.InputError):
         aleph.seen(frames, frames[1:], frames)
+    with pytest.raises(aleph.InputError, match=r"maps\[0\]: expected a Frame"):
+        aleph.seen(frames, frames, brighter)
 
 
 def test_study_gives_columns(cornell, tmp_path):
@@ -135,14 +137,26 @@ def test_study_gives_columns(cornell, tmp_path):
     assert [again[name] for name in kept] == [table[name] for name in kept]
 
 
+def test_settings_are_numbers_of_numpy_too(ball):
+    plain = aleph.render(ball, 0, size=(8, 8), spp=2, neutral_opponent=True)
+    numpy = aleph.render(ball, np.int64(0), size=np.array([8, 8]), spp=np.int64(2), neutral_opponent=np.bool_(True))
+    assert np.array_equal(plain.aleph, numpy.aleph)
+
+
 def test_a_study_takes_no_arguments_of_a_scene(cornell):
     study = {"scenes": [{"scene": str(cornell), "frames": "1"}], "size": "8x6", "sweep": {"spp": [1]},
              "reference": {"passes": 2, "spp": 1}}
     assert aleph.study(study)["variant"] == ["spp=1"]
     with pytest.raises(TypeError):
         aleph.study(study, frames=[2])
+    for arguments in {"sweep": {"spp": [2]}}, {"size": (16, 12)}:
+        with pytest.raises(TypeError, match="a study has these itself"):
+            aleph.study(study, **arguments)
     with pytest.raises(TypeError, match="a scene file needs sweep, variants or pictures"):
         aleph.study(cornell, frames=[2])
+    for scene in aleph.load(cornell), aleph.load(cornell).to_dict():
+        with pytest.raises(TypeError, match="Scene.save writes one"):
+            aleph.study(scene, sweep={"spp": [1]})
 
 
 def test_study_of_an_added_vision(cornell):

@@ -13,9 +13,9 @@ def test_elements_by_name_and_index(ball):
     assert "ball" in ball.nodes and "cube" not in ball.nodes
     assert ball.nodes["ball"].meshes[0].material.name == "red"
     assert ball.lights[0].kind == "directional" and ball.lights[0].intensity == 3
-    with pytest.raises(KeyError, match="cube"):
-        ball.nodes["cube"]
-    with pytest.raises(IndexError):
+    with pytest.raises(KeyError, match="no node .*bal.*; did you mean \"ball\""):
+        ball.nodes["bal"]
+    with pytest.raises(IndexError, match="no node 3; the scene has 3"):
         ball.nodes[3]
 
 

@@ -12,7 +12,7 @@ std::string top_of(const Scene& scene, int node) {
 }
 
 int find_ball_node(const Scene& scene, std::size_t number) {
-    return find_node(scene, fmt::format("ball_{}", number));
+    return find_named(scene.nodes, fmt::format("ball_{}", number));
 }
 
 std::size_t count_triangles(const Scene& scene) {
@@ -49,7 +49,7 @@ TEST(ArtGallery, HasTheContentsThatTheThesisAsksFor) {
     EXPECT_GE(tori, 3);
     EXPECT_GE(lathes, 8);
     // Fourteen pictures with different textures.
-    const int pictures = find_node(scene, "pictures");
+    const int pictures = find_named(scene.nodes, "pictures");
     std::set<int> shown;
     for (const Instance& instance : list_instances(scene)) {
         const Node& node = scene.nodes[instance.node];

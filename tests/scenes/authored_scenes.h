@@ -22,13 +22,6 @@ inline const Scene& loaded(const std::string& name) {
     return cache[name];
 }
 
-inline int find_node(const Scene& scene, const std::string& name) {
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].name == name) return static_cast<int>(i);
-    ADD_FAILURE() << "no node " << name;
-    return 0;
-}
-
 inline glm::dvec3 origin_of(const ScenePose& frame, int node) {
     return frame.world[node][3];
 }

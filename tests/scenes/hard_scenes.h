@@ -35,12 +35,7 @@ struct HardScene {
     explicit HardScene(const std::string& name)
         : scene(load_scene(hard_scenes_folder() / (name + ".json"))), sequence(scene, small_settings()) {}
     FrameOutput render(std::int64_t frame) { return render_hard(sequence, frame); }
-    int node(const std::string& name) const {
-        for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-            if (scene.nodes[i].name == name) return static_cast<int>(i);
-        ADD_FAILURE() << "no node " << name;
-        return 0;
-    }
+    int node(const std::string& name) const { return find_named(scene.nodes, name); }
     ScenePose posed(double frame) const { return pose(scene, frame / scene.film.frame_rate.per_second()); }
     glm::dmat4 world(const std::string& name, double frame) const { return posed(frame).world[node(name)]; }
     /// Pixels whose first hit is on the node called `name`.

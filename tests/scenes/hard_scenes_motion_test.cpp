@@ -99,9 +99,8 @@ TEST(HardScenes, RP14_DeformingMovesAsRigid) {
     Scene rigid = hard.scene;
     Mesh& mesh = rigid.meshes[rigid.nodes[hard.node("thing")].meshes.front()];
     mesh.deformation.points = no_index;
-    Node& node = rigid.nodes[hard.node("thing")];
-    node.transform.translation.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 2.0 / 30.0}};
-    node.transform.translation.values = {{0.0, 0.5, 0.0}, {0.5, 0.5, 0.0}};
+    rigid.nodes[hard.node("thing")].transform.translation =
+        Track<glm::dvec3>({0.0, 2.0 / 30.0}, {{0.0, 0.5, 0.0}, {0.5, 0.5, 0.0}});
     const FrameOutput output = hard.render(0);
     const FrameOutput expected = render_hard(rigid, 0);
     for (const std::size_t i : hard.seen_on(output, "thing")) {

@@ -46,8 +46,7 @@ TEST(MaterialScenes, GoldIsGold) {
 TEST(MaterialScenes, TheBallBehindTheCameraIsSeenInTheMirrorOnly) {
     Scene scene = load_material_scene("mirror");
     const Image<Rgb> with = render_small(scene, 64);
-    const auto is_ball = [](const Node& node) { return node.name == "ball behind the camera"; };
-    std::ranges::find_if(scene.nodes, is_ball)->visible = 0.0;
+    scene.nodes[find_named(scene.nodes, "ball behind the camera")].visible = 0.0;
     const Image<Rgb> without = render_small(scene, 64);
     float bluest = 0.0f;
     int x_of = 0, y_of = 0;
@@ -89,8 +88,7 @@ TEST(MaterialScenes, TheNormalMapChangesTheLightOnTheWall) {
 TEST(MaterialScenes, TheCurtainStopsHalfOfTheLamp) {
     Scene scene = load_material_scene("curtain");
     const Rgb behind = mean_of(render_small(scene, 256), 23, 25, 16, 18);
-    const auto is_curtain = [](const Node& node) { return node.name == "curtain"; };
-    std::ranges::find_if(scene.nodes, is_curtain)->visible = 0.0;
+    scene.nodes[find_named(scene.nodes, "curtain")].visible = 0.0;
     const Rgb open = mean_of(render_small(scene, 256), 23, 25, 16, 18);
     EXPECT_NEAR(luminance(behind) / luminance(open), 0.5, 0.03);
 }

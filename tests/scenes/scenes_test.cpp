@@ -53,7 +53,7 @@ TEST(CornellScene, LoadsAndMoves) {
     const Scene& scene = loaded("cornell");
     EXPECT_TRUE(scene.source.warnings.empty());
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 59}));
-    const int sphere = find_node(scene, "sphere"), block = find_node(scene, "tall_block");
+    const int sphere = find_named(scene.nodes, "sphere"), block = find_named(scene.nodes, "tall_block");
     const double top = 1.65, radius = 0.45;
     // Free fall: y = y0 - g t^2 / 2 up to the first contact on frame 15.
     for (int frame = 0; frame <= 15; ++frame) {

@@ -30,12 +30,9 @@ Track<double> make_presence(const std::vector<const Track<double>*>& tracks, con
     times.insert(times.end(), sampled.smooth.begin(), sampled.smooth.end());
     sort_and_unite(times);
     if (times.empty()) return Track<double>(value(0.0) ? 1.0 : 0.0);
-    Track<double> made;
-    made.sampling.kind = TimeSampling::Kind::acyclic;
-    made.sampling.times = times;
-    made.interpolation = Interpolation::step;
-    for (const double t : times) made.values.push_back(value(t) ? 1.0 : 0.0);
-    return made;
+    std::vector<double> values;
+    for (const double t : times) values.push_back(value(t) ? 1.0 : 0.0);
+    return {std::move(times), std::move(values), Interpolation::step};
 }
 
 class NodeWriter {

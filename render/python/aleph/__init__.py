@@ -59,8 +59,11 @@ def study(scene, frames="", sweep=None, *, variants=None, pictures=None, size=(3
     folder: keeps the pictures and finished runs; None: they are thrown away.
     Returns a Table with one row for each variant and frame.
     """
-    one = isinstance(scene, dict) or not (sweep or variants or pictures)
-    if one and (frames or settings or reference or metrics or viewers or seeds != 1):
+    if isinstance(scene, Scene) or isinstance(scene, dict) and "aleph" in scene:
+        raise TypeError("a study reads its scene from a file: Scene.save writes one")
+    chosen = sweep or variants or pictures
+    one = isinstance(scene, dict) or not chosen
+    if one and (frames or chosen or settings or reference or metrics or viewers or seeds != 1 or size != (320, 240)):
         raise TypeError("a study has these itself; a scene file needs sweep, variants or pictures beside them")
     if one:
         asked = scene if isinstance(scene, dict) else _os.fspath(scene)

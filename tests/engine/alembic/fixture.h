@@ -38,9 +38,7 @@ inline int find_node(const Scene& scene, const std::string& path) {
 }
 
 inline const Node& node_named(const Scene& scene, const std::string& name) {
-    const auto found = std::ranges::find(scene.nodes, name, &Node::name);
-    if (found == scene.nodes.end()) throw std::out_of_range("no node " + name);
-    return *found;
+    return scene.nodes[find_named(scene.nodes, name)];
 }
 
 inline const Mesh& mesh_of(const Scene& scene, const std::string& node, std::size_t i = 0) {

@@ -50,9 +50,7 @@ TEST_P(GltfPoses, EveryNodeByItsName) {
         for (std::size_t i = 0; i < expected.size(); ++i) {
             const std::string& own = raw.model.nodes[i].name;
             const std::string node_name = own.empty() ? std::string("node").append(std::to_string(i)) : own;
-            const auto node = std::ranges::find(scene.nodes, node_name, &Node::name);
-            ASSERT_NE(node, scene.nodes.end()) << node_name;
-            const glm::dmat4& found = frame.world[node - scene.nodes.begin()];
+            const glm::dmat4& found = frame.world[find_named(scene.nodes, node_name)];
             for (int k = 0; k < 16; ++k) {
                 const double size = std::max(1.0, std::abs(expected[i][k / 4][k % 4]));
                 EXPECT_NEAR(found[k / 4][k % 4], expected[i][k / 4][k % 4], pose_tolerance * size)

@@ -1,7 +1,6 @@
 // The writer of .glb: meshes that deform, what is hidden, materials over time, textures, what is lost.
 #include "engine/surface/limit_surface.h"
 #include "tests/engine/gltf/exported.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scenes/cage_scenes.h"
 #include "tests/support/scenes/deforming_scenes.h"
@@ -56,7 +55,7 @@ TEST(GltfWriteElements, BothSizesOfAnOrthographicViewMove) {
     Camera camera;
     camera.name = "view";
     camera.orthographic = true;
-    camera.half_height = keyed<double>({0.0, 2.0}, {1.0, 4.0});
+    camera.half_height = Track<double>({0.0, 2.0}, {1.0, 4.0});
     scene.cameras.push_back(camera);
     Node node;
     node.name = "eye";
@@ -106,16 +105,16 @@ TEST(GltfWriteElements, HiddenNodesAndWhatIsShownBelowThem) {
     Scene scene = make_sheet_scene(1);
     scene.meshes.push_back(make_sheet(2));
     scene.meshes.push_back(make_sheet(3));
-    scene.meshes[1].present = keyed<double>({0.1, 0.7}, {0.0, 1.0}, Interpolation::nearest);
+    scene.meshes[1].present = Track<double>({0.1, 0.7}, {0.0, 1.0}, Interpolation::nearest);
     scene.nodes.resize(3);
     scene.nodes[0].meshes = {0, 1};
-    scene.nodes[0].visible = keyed<double>({0.0, 0.3, 0.6}, {1.0, 0.0, 1.0}, Interpolation::step);
+    scene.nodes[0].visible = Track<double>({0.0, 0.3, 0.6}, {1.0, 0.0, 1.0}, Interpolation::step);
     scene.nodes[1] = {.name = "below", .parent = 0, .meshes = {2}};
     scene.nodes[2] = {.name = "lamp", .parent = 1, .light = 0};
     scene.lights.resize(1);
     const std::vector<double> times = times_between(0.0, 1.0);
     expect_same_points(Exported(scene, "write_hidden"), times, 1e-6);
-    scene.nodes[1].visible = keyed<double>({0.0, 0.45}, {2.0, 1.0}, Interpolation::step);
+    scene.nodes[1].visible = Track<double>({0.0, 0.45}, {2.0, 1.0}, Interpolation::step);
     const Exported files(scene, "write_shown_below");
     expect_same_points(files, times, 1e-6);
     for (const double t : times)
@@ -126,10 +125,10 @@ TEST(GltfWriteElements, MaterialsOverTime) {
     Scene scene = make_sheet_scene();
     Material material;
     material.name = "all";
-    const auto track = [](double from, double to) { return keyed<double>({0.0, 0.7, 1.0}, {from, to, from}); };
-    material.base_color = keyed<glm::dvec3>({0.0, 0.5}, {{0.1, 0.2, 0.3}, {1.0, 0.5, 0.0}});
-    material.opacity.alpha = keyed<double>({0.25, 0.75}, {1.0, 0.5}, Interpolation::step);
-    material.glow.color = keyed<glm::dvec3>({0.0, 1.0}, {{5.0, 2.0, 0.0}, {0.0, 20.0, 1.0}});
+    const auto track = [](double from, double to) { return Track<double>({0.0, 0.7, 1.0}, {from, to, from}); };
+    material.base_color = Track<glm::dvec3>({0.0, 0.5}, {{0.1, 0.2, 0.3}, {1.0, 0.5, 0.0}});
+    material.opacity.alpha = Track<double>({0.25, 0.75}, {1.0, 0.5}, Interpolation::step);
+    material.glow.color = Track<glm::dvec3>({0.0, 1.0}, {{5.0, 2.0, 0.0}, {0.0, 20.0, 1.0}});
     material.glow.strength = track(0.5, 3.0);
     material.gloss = {.metallic = track(0.0, 1.0),
                       .roughness = track(0.2, 0.9),
@@ -142,7 +141,7 @@ TEST(GltfWriteElements, MaterialsOverTime) {
                       .attenuation_color = Track(glm::dvec3(0.5))};
     material.layers = {.clearcoat = track(0.0, 1.0),
                        .clearcoat_roughness = track(0.3, 0.4),
-                       .sheen_color = keyed<glm::dvec3>({0.0, 1.0}, {{0, 0, 0}, {1, 0.5, 0.25}}),
+                       .sheen_color = Track<glm::dvec3>({0.0, 1.0}, {{0, 0, 0}, {1, 0.5, 0.25}}),
                        .sheen_roughness = track(0.1, 0.9),
                        .anisotropy = track(0.0, 0.7),
                        .anisotropy_rotation = track(-1.0, 7.0)};

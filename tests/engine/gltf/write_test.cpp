@@ -2,7 +2,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/engine/gltf/exported.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scenes/deforming_scenes.h"
@@ -36,10 +35,10 @@ TEST(GltfWrite, KeysOfEachInterpolation) {
     for (const Interpolation how : {Interpolation::step, Interpolation::linear, Interpolation::nearest}) {
         Scene scene = make_two_nodes();
         LocalTransform& upper = scene.nodes[0].transform;
-        upper.translation = keyed<glm::dvec3>(exact_times, {{1, 2, 3}, {4, 5, 7}, {4, 5, 7}, {0, 1, -1}}, how);
-        upper.scale = keyed<glm::dvec3>(exact_times, {{1, 1, 1}, {2, 1, 1}, {1, -0.5, 1}, {1, 1, 1}}, how);
+        upper.translation = Track<glm::dvec3>(exact_times, {{1, 2, 3}, {4, 5, 7}, {4, 5, 7}, {0, 1, -1}}, how);
+        upper.scale = Track<glm::dvec3>(exact_times, {{1, 1, 1}, {2, 1, 1}, {1, -0.5, 1}, {1, 1, 1}}, how);
         scene.nodes[1].transform.rotation =
-            keyed<glm::dquat>(exact_times, {{1, 0, 0, 0}, {0.6, 0.8, 0, 0}, {0, 0, 1, 0}, {-0.6, 0, 0, 0.8}}, how);
+            Track<glm::dquat>(exact_times, {{1, 0, 0, 0}, {0.6, 0.8, 0, 0}, {0, 0, 1, 0}, {-0.6, 0, 0, 0.8}}, how);
         const Exported files(scene, "write_" + std::to_string(static_cast<int>(how)));
         EXPECT_LT(difference_of(files, 8), 5e-7) << static_cast<int>(how);
         EXPECT_EQ(files.after.nodes.size(), 2u + 1u) << "the camera that is added, and no other";
@@ -48,11 +47,11 @@ TEST(GltfWrite, KeysOfEachInterpolation) {
 
 TEST(GltfWrite, CubicKeysStayCubic) {
     Scene scene = make_two_nodes();
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>(
+    scene.nodes[0].transform.translation = Track<glm::dvec3>(
         {0.0, 0.5, 1.0},
         {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 0}, {0, 0, 3}, {0, 0, 0}, {2, 0, 0}, {0, 0, 0}},
         Interpolation::cubic);
-    scene.nodes[1].transform.rotation = keyed<glm::dquat>(
+    scene.nodes[1].transform.rotation = Track<glm::dquat>(
         {0.0, 1.0}, {{0, 0, 0, 0}, {2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}, {0, 0, 0, 3}, {0, 0, 0, 0}},
         Interpolation::cubic);
     const Exported files(scene, "write_cubic");
@@ -70,7 +69,7 @@ TEST(GltfWrite, StepsHoldAtTheirOwnFrames) {
         times.push_back(frame / 30.0);
         values.emplace_back(frame, 0, 0);
     }
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>(times, values, Interpolation::step);
+    scene.nodes[0].transform.translation = Track<glm::dvec3>(times, values, Interpolation::step);
     const Exported files(scene, "write_steps");
     for (int frame = 0; frame <= 30; ++frame) EXPECT_EQ(files.world_difference(frame / 30.0, 1.0), 0.0) << frame;
 }
@@ -78,7 +77,7 @@ TEST(GltfWrite, StepsHoldAtTheirOwnFrames) {
 TEST(GltfWrite, WhatRestsKeepsItsBits) {
     Scene scene = make_two_nodes();
     scene.nodes[0].transform.translation =
-        keyed<glm::dvec3>({0.1, 0.3, 0.7, 0.9}, {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {5, 0, 0}});
+        Track<glm::dvec3>({0.1, 0.3, 0.7, 0.9}, {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {5, 0, 0}});
     const Exported files(scene, "write_rests");
     const auto at = [&](double t) { return pose(files.after, t).world[files.nodes_after[0]][3].x; };
     EXPECT_EQ(at(0.4), 1.0);
@@ -101,7 +100,7 @@ TEST(GltfWrite, MatricesWithShearTakeTwoNodes) {
     EXPECT_EQ(constant.after.nodes[1].name, "upper.shear");
     glm::dmat4 moved = turned;
     moved[3] = glm::dvec4(1.0, 2.0, 3.0, 1.0);
-    scene.nodes[0].transform.matrix = keyed<glm::dmat4>({0.0, 1.0}, {turned, glm::dmat4(moved)});
+    scene.nodes[0].transform.matrix = Track<glm::dmat4>({0.0, 1.0}, {turned, glm::dmat4(moved)});
     const Exported keys(scene, "write_shear_keys");
     EXPECT_LT(difference_of(keys, 1), 1e-6);
 }
@@ -110,7 +109,7 @@ TEST(GltfWrite, MatricesWithoutShearStayWithTheirKeys) {
     Scene scene = make_two_nodes();
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), 2.9, glm::dvec3(1, 0, 0));
     scene.nodes[0].transform.matrix =
-        keyed<glm::dmat4>({0.0, 1.0}, {scaling({1, 2, -3}), turned * scaling({2, 1, -1})});
+        Track<glm::dmat4>({0.0, 1.0}, {scaling({1, 2, -3}), turned * scaling({2, 1, -1})});
     const Exported files(scene, "write_matrices");
     EXPECT_LT(difference_of(files, 8), 2e-6);
     EXPECT_LE(files.after.nodes[files.nodes_after[0]].transform.rotation.key_count(), 3u);
@@ -121,7 +120,7 @@ TEST(GltfWrite, FlatMatricesAndScalesThroughZero) {
     const glm::dvec3 whole(1, 1, 1);
     for (const auto& [from, to] :
          {std::pair{glm::dvec3(1, 1, 0), glm::dvec3(0, 1, 0)}, {whole, {-1, 1, 1}}, {whole, {0, 0, 0}}}) {
-        scene.nodes[0].transform.matrix = keyed<glm::dmat4>({0.0, 1.0}, {scaling(from), scaling(to)});
+        scene.nodes[0].transform.matrix = Track<glm::dmat4>({0.0, 1.0}, {scaling(from), scaling(to)});
         EXPECT_LT(difference_of(Exported(scene, "write_flat"), 1), 1e-6);
     }
 }
@@ -136,7 +135,7 @@ TEST(GltfWrite, OperationsAndInheritance) {
         {0, 0, 0, 0, 1, 1, 1, 0, /**/ 1, 2, 3, 0.5, 1, 2, 1, 1, /**/ 0, 1, 0, 1, 2, 1, 1, 2},
     };
     scene.nodes[1].transform.translation = glm::dvec3(0.5, 0.25, 0.0);
-    scene.nodes[1].inherits = keyed<double>({0.0, 0.4, 0.8}, {1.0, 0.0, 1.0}, Interpolation::step);
+    scene.nodes[1].inherits = Track<double>({0.0, 0.4, 0.8}, {1.0, 0.0, 1.0}, Interpolation::step);
     const Exported files(scene, "write_operations");
     EXPECT_LT(difference_of(files, 1), 1e-6);
     EXPECT_LT(difference_of(files, 4), 3e-3) << "between frames";
@@ -148,10 +147,10 @@ TEST(GltfWrite, MotionBeforeZeroIsLeftOut) {
     Scene scene = make_two_nodes();
     scene.film.range = FrameRange{-30, 30};
     scene.nodes[0].transform.translation =
-        keyed<glm::dvec3>({-1.0, -0.5, 0.25, 0.5}, {{0, 0, 0}, {4, 0, 0}, {1, 0, 0}, {0, 0, 1}});
+        Track<glm::dvec3>({-1.0, -0.5, 0.25, 0.5}, {{0, 0, 0}, {4, 0, 0}, {1, 0, 0}, {0, 0, 1}});
     scene.nodes[1].transform.scale =
-        keyed<glm::dvec3>({-1.0, -0.5, 0.5}, {{1, 1, 1}, {2, 2, 2}, {3, 3, 3}}, Interpolation::step);
-    scene.nodes[1].transform.axis_rotation = {{0, 0, 1}, keyed<double>({-2.0, 0.5}, {-9.0, 1.0})};
+        Track<glm::dvec3>({-1.0, -0.5, 0.5}, {{1, 1, 1}, {2, 2, 2}, {3, 3, 3}}, Interpolation::step);
+    scene.nodes[1].transform.axis_rotation = {{0, 0, 1}, Track<double>({-2.0, 0.5}, {-9.0, 1.0})};
     EXPECT_LT(difference_of(Exported(scene, "write_before"), 8), 2e-6);
 }
 
@@ -175,7 +174,7 @@ TEST(GltfWrite, LongRangesAreRefusedBeforeTheyTakeMemory) {
         OperationStack{{OperationStack::Kind::rotate_y}, {TimeSampling::Kind::uniform, 0.0, ages, {}}, {0.0, 1.0}};
     EXPECT_NE(refused(scene).find("shorten the range"), std::string::npos) << refused(scene);
     scene = make_two_nodes();
-    scene.nodes[0].transform.axis_rotation = {{0, 1, 0}, keyed<double>({0.0, 1.0}, {0.0, 1e12})};
+    scene.nodes[0].transform.axis_rotation = {{0, 1, 0}, Track<double>({0.0, 1.0}, {0.0, 1e12})};
     EXPECT_LT(difference_of(Exported(scene, "write_spin"), 1), 1e-3) << "the frames alone";
     EXPECT_FALSE(std::filesystem::exists(round_trip_folder / "never.glb"));
 }
@@ -186,12 +185,12 @@ TEST(GltfWrite, WhatChangedBeforeZeroKeepsItsLastValue) {
     scene.materials.resize(1);
     scene.meshes[0].material = 0;
     const std::vector<double> early{-2.0, -1.0};
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>(early, {{0, 0, 0}, {1, 2, 3}});
-    scene.nodes[0].transform.scale = keyed<glm::dvec3>({-2.0, 0.0, 1.0}, {{0.1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
-    scene.nodes[1].transform.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, keyed<double>(early, {0.0, 1.5})};
-    scene.nodes[1].visible = keyed<double>(early, {0.0, 1.0}, Interpolation::step);
-    scene.materials[0].base_color = keyed<glm::dvec3>(early, {{1, 0, 0}, {0, 1, 0}});
-    scene.lights.push_back({.intensity = keyed<double>(early, {0.0, 5.0})});
+    scene.nodes[0].transform.translation = Track<glm::dvec3>(early, {{0, 0, 0}, {1, 2, 3}});
+    scene.nodes[0].transform.scale = Track<glm::dvec3>({-2.0, 0.0, 1.0}, {{0.1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
+    scene.nodes[1].transform.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, Track<double>(early, {0.0, 1.5})};
+    scene.nodes[1].visible = Track<double>(early, {0.0, 1.0}, Interpolation::step);
+    scene.materials[0].base_color = Track<glm::dvec3>(early, {{1, 0, 0}, {0, 1, 0}});
+    scene.lights.push_back({.intensity = Track<double>(early, {0.0, 5.0})});
     scene.nodes[1].light = static_cast<int>(scene.lights.size()) - 1;
     const Exported files(scene, "write_early");
     EXPECT_LT(difference_of(files, 1), 1e-6);
@@ -206,11 +205,11 @@ TEST(GltfWrite, UnlimitedRangesAndDistancesAreRead) {
     Scene scene = make_two_nodes();
     scene.materials.resize(1);
     scene.meshes[0].material = 0;
-    scene.lights.push_back({.range = keyed<double>({0.0, 1.0}, {0.0, 10.0}, Interpolation::step)});
+    scene.lights.push_back({.range = Track<double>({0.0, 1.0}, {0.0, 10.0}, Interpolation::step)});
     scene.nodes[1].light = static_cast<int>(scene.lights.size()) - 1;
     scene.materials[0].glass = {.transmission = 1.0,
                                 .thickness = 1.0,
-                                .attenuation_distance = keyed<double>({0.0, 1.0}, {0.0, 3.0}, Interpolation::step)};
+                                .attenuation_distance = Track<double>({0.0, 1.0}, {0.0, 3.0}, Interpolation::step)};
     const Exported files(scene, "write_unlimited");
     EXPECT_GT(pose(files.after, 0.5).lights[0].range, 1e6f);
     EXPECT_GT(pose(files.after, 0.5).materials[0].glass.attenuation_distance, 1e6f);

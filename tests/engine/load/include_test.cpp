@@ -61,10 +61,7 @@ TEST_F(IncludeOptions, ScaleAndAxisApplyToTheWholeFile) {
         const Scene scene =
             load(std::string(R"({"file": "two.gltf", "animation": "right", "scale": 0.5, "up": ")") + up + "\"}");
         const ScenePose posed = pose(scene, 1.0);
-        for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-            if (scene.nodes[i].name == "mover") return glm::dvec3(posed.world[i] * glm::dvec4(point, 1.0));
-        }
-        return glm::dvec3(1e9);
+        return glm::dvec3(posed.world[find_named(scene.nodes, "mover")] * glm::dvec4(point, 1.0));
     };
     const auto expect_near = [](const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::length(a - b), 1e-12); };
     expect_near(place("y", {0, 1, 0}), {5.0, 0.5, 0.0});

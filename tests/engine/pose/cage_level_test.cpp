@@ -83,21 +83,16 @@ TEST(CageLevel, FlatAndStraightFacesStayWhole) {
 TEST(CageLevel, NearestFrameOfTheShotDecidesForAll) {
     Scene scene = make_sheet(0.0);
     scene.film.range = FrameRange{0, 100};
-    Track<glm::dvec3>& path = scene.nodes[1].transform.translation;
-    path.sampling.kind = TimeSampling::Kind::acyclic;
-    path.sampling.times = {0.0, 50.0 / 30.0, 100.0 / 30.0};
-    path.values = {{0.0, 0.0, 40.0}, {0.0, 0.0, 1.0}, {0.0, 0.0, 40.0}};
+    scene.nodes[1].transform.translation =
+        Track<glm::dvec3>({0.0, 50.0 / 30.0, 100.0 / 30.0}, {{0.0, 0.0, 40.0}, {0.0, 0.0, 1.0}, {0.0, 0.0, 40.0}});
     EXPECT_EQ(level_of(scene), level_of(make_sheet(1.0)));
     scene.film.range = FrameRange{0, 10};
     EXPECT_LT(level_of(scene), level_of(make_sheet(1.0)));
 }
 
 Track<glm::dvec3> make_path(std::vector<double> frames, std::vector<glm::dvec3> places) {
-    Track<glm::dvec3> path;
-    path.sampling.kind = TimeSampling::Kind::acyclic;
-    for (const double frame : frames) path.sampling.times.push_back(frame / 30.0);
-    path.values = std::move(places);
-    return path;
+    for (double& time : frames) time /= 30.0;
+    return {std::move(frames), std::move(places)};
 }
 
 TEST(CageLevel, PassesOfAFewFramesCount) {
@@ -115,10 +110,7 @@ TEST(CageLevel, PassesOfAFewFramesCount) {
     // It is there for a moment only, and once it passes out of view.
     Scene shown = make_sheet(1.0);
     shown.film.range = FrameRange{0, 640};
-    shown.nodes[0].visible = Track<double>();
-    shown.nodes[0].visible.interpolation = Interpolation::step;
-    shown.nodes[0].visible.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 325.0 / 30.0, 326.0 / 30.0}};
-    shown.nodes[0].visible.values = {0.0, 1.0, 0.0};
+    shown.nodes[0].visible = Track<double>({0.0, 325.0 / 30.0, 326.0 / 30.0}, {0.0, 1.0, 0.0}, Interpolation::step);
     EXPECT_EQ(level_of(shown), level_of(make_sheet(1.0)));
     scene.nodes[0].visible = 0.0;
     EXPECT_EQ(level_of(scene), 0);

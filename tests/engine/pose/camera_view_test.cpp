@@ -3,7 +3,6 @@
 #include "engine/pose/camera_view.h"
 #include "engine/pose/posed_view.h"
 #include "engine/scene/transforms.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -27,7 +26,7 @@ TEST(CameraView, AFieldOfViewThatOvershootsIsRefusedWithTheNameOfItsCamera) {
     Scene scene;
     scene.source.file = "s.json";
     scene.cameras.push_back(
-        {.fov = keyed<double>({0.0, 1.0}, {0.0, 1.0, 20.0, -20.0, 1.0, 0.0}, Interpolation::cubic)});
+        {.fov = Track<double>({0.0, 1.0}, {0.0, 1.0, 20.0, -20.0, 1.0, 0.0}, Interpolation::cubic)});
     scene.nodes.push_back({.name = "zoom", .camera = 0});
     EXPECT_NO_THROW(make_posed_view(scene, 0.0, 0, 8, 6));
     const Refusal refusal = find_refusal([&] { make_posed_view(scene, 0.5, 0, 8, 6); });

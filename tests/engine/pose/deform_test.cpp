@@ -59,11 +59,11 @@ TEST(Deform, OnlyShownMeshesAreFilled) {
     Scene scene = make_sheet_scene();
     add_cache(scene, 0, {0.0, 1.0},
               [](const glm::vec3& p, std::size_t s) { return p * (1.0f + static_cast<float>(s)); });
-    scene.nodes[0].visible = keyed<double>({0.0, 1.0}, {0.0, 1.0});
+    scene.nodes[0].visible = Track<double>({0.0, 1.0}, {0.0, 1.0});
     EXPECT_TRUE(pose(scene, 0.5).meshes[0].positions.empty());
     EXPECT_FALSE(pose(scene, 1.0).meshes[0].positions.empty());
     scene.nodes[0].visible = 1.0;
-    scene.meshes[0].present = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
+    scene.meshes[0].present = Track<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
     EXPECT_FALSE(pose(scene, 0.5).meshes[0].positions.empty());
     EXPECT_TRUE(pose(scene, 1.0).meshes[0].positions.empty());
     ScenePose posed = pose(scene, 0.5);
@@ -73,22 +73,26 @@ TEST(Deform, OnlyShownMeshesAreFilled) {
     EXPECT_FALSE(posed.meshes[0].positions.empty());
 }
 
-TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
-    Scene scene;
-    scene.nodes.resize(1);
-    scene.nodes[0].meshes = {0};
-    Mesh mesh;  // a hinge of two squares; the points of its axis are shared, the vertices are not
+/// A node with a hinge: two squares, with vertices of their own on its axis.
+Scene make_hinge() {
+    Scene scene = make_sheet_scene();
+    Mesh mesh;
     mesh.positions = {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
     mesh.triangles = {{2, 0, 1}, {2, 1, 3}, {4, 6, 7}, {4, 7, 5}};
-    mesh.deformation.vertex_points = {0, 1, 2, 3, 0, 1, 4, 5};
     mesh.normals.assign(8, glm::vec3(0.0f, 0.0f, 1.0f));
     scene.meshes = {mesh};
+    return scene;
+}
+
+TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
+    Scene scene = make_hinge();
+    scene.meshes[0].deformation.vertex_points = {0, 1, 2, 3, 0, 1, 4, 5};  // the points of the axis are shared
+    scene.meshes[0].deformation.points = 0;
     PointCache cache;
     cache.sampling.period = 1.0;
     cache.positions = {{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {1, 0, 0}, {1, 1, 0}},
                        {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 1}, {0, 1, 1}}};
     scene.point_caches = {cache};
-    scene.meshes[0].deformation.points = 0;
     const ScenePose smooth = pose(scene, 1.0);  // the right square stands up and faces -x
     expect_near(smooth.meshes[0].normals[2], {0.0, 0.0, 1.0}, 1e-6);
     expect_near(smooth.meshes[0].normals[6], {-1.0, 0.0, 0.0}, 1e-6);
@@ -105,16 +109,10 @@ TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
 
 /// The hinge's axis is a seam of the texture: its vertices are listed twice, and are points of their own.
 TEST(Deform, NormalsStaySmoothAcrossSeams) {
-    Scene scene;
-    scene.nodes.resize(1);
-    scene.nodes[0].meshes = {0};
-    Mesh mesh;
-    mesh.positions = {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
-    mesh.triangles = {{2, 0, 1}, {2, 1, 3}, {4, 6, 7}, {4, 7, 5}};
-    mesh.normals.assign(8, glm::vec3(0.0f, 0.0f, 1.0f));
-    mesh.positions[4].x = -1e-8f;  // as computed from an angle of a full turn
-    mesh.normals[4].x = 1e-7f;
-    scene.meshes = {mesh};
+    Scene scene = make_hinge();
+    scene.meshes[0].positions[4].x = -1e-8f;  // as computed from an angle of a full turn
+    scene.meshes[0].normals[4].x = 1e-7f;
+    const Mesh mesh = scene.meshes[0];
     const auto stand_up = [](const glm::vec3& p, std::size_t sample) {
         return sample == 1 && p.x > 0.0f ? glm::vec3(0.0f, p.y, 1.0f) : p;
     };
@@ -172,7 +170,7 @@ TEST(Deform, MorphTargetsAddUp) {
     mesh.deformation.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 2.0f, 0.0f));
     mesh.deformation.targets[0].normals.assign(mesh.positions.size(), glm::vec3(2.0f, 0.0f, 0.0f));
     mesh.deformation.targets[1].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, -4.0f));
-    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0}), Track<double>(0.25)};
+    mesh.deformation.target_weights = {Track<double>({0.0, 1.0}, {0.0, 1.0}), Track<double>(0.25)};
     const PosedMesh posed = pose(scene, 0.5).meshes[0];
     EXPECT_EQ(posed.positions[0], glm::dvec3(mesh.positions[0]) + glm::dvec3(0.0, 1.0, -1.0));
     expect_near(posed.normals[0], glm::normalize(glm::dvec3(1.0, 0.0, 1.0)), 1e-7);
@@ -183,7 +181,7 @@ TEST(Deform, MorphedMeshesStandUnderSeveralNodes) {
     Mesh& mesh = scene.meshes[0];
     mesh.deformation.targets.resize(1);
     mesh.deformation.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 2.0f, 0.0f));
-    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
+    mesh.deformation.target_weights = {Track<double>({0.0, 1.0}, {0.0, 1.0})};
     scene.nodes.push_back(scene.nodes[0]);
     for (const std::size_t hidden : {0, 1}) {
         scene.nodes[hidden].visible = 0.0;

@@ -43,7 +43,7 @@ TEST(Deforming, RP14_MovingAllVerticesIsMovingTheObject) {
     Scene deforming = make_sheet_scene(), rigid = make_sheet_scene();
     add_cache(deforming, 0, {0.0, 1.0},
               [&](const glm::vec3& p, std::size_t sample) { return p + shift * static_cast<float>(sample); });
-    rigid.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(shift)});
+    rigid.nodes[0].transform.translation = Track<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(shift)});
     add_camera(deforming);
     add_camera(rigid);
     for (const double from : {0.0, 0.3}) {
@@ -85,9 +85,9 @@ TEST(Deforming, RP15_NoMotionAcrossAChangeOfTopology) {
     Scene scene = make_sheet_scene(4);
     scene.meshes.push_back(make_sheet(7));  // the surface from 1 s on
     scene.nodes[0].meshes = {0, 1};
-    scene.meshes[0].present = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
-    scene.meshes[1].present = keyed<double>({0.0, 1.0}, {0.0, 1.0}, Interpolation::step);
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, 2.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+    scene.meshes[0].present = Track<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
+    scene.meshes[1].present = Track<double>({0.0, 1.0}, {0.0, 1.0}, Interpolation::step);
+    scene.nodes[0].transform.translation = Track<glm::dvec3>({0.0, 2.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
     add_camera(scene);
     const Observed across = observe(scene, 0.9, 1.1), before = observe(scene, 0.5, 0.9),
                    after = observe(scene, 1.0, 1.5);
@@ -108,7 +108,7 @@ TEST(Deforming, RP15_NoMotionAcrossAChangeOfTopology) {
 
 TEST(Deforming, SkinnedPointsTurnWithTheirJoint) {
     Scene scene = make_skin_scene();
-    Track<double> angle = keyed<double>({0.0, 1.0}, {0.0, std::numbers::pi / 2.0});
+    Track<double> angle = Track<double>({0.0, 1.0}, {0.0, std::numbers::pi / 2.0});
     scene.nodes[2].transform.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, angle};
     add_camera(scene);
     const double from = 0.1, to = 0.25;  // 13.5 degrees
@@ -143,7 +143,7 @@ TEST(Deforming, KF19_SkinsOnNodesOfTinyAndHugeScale) {
 TEST(Deforming, RP07_PathsOfTurningJointsAreArcs) {
     Scene scene = make_skin_scene();
     scene.nodes[2].transform.axis_rotation =
-        AxisRotation{{0.0, 0.0, 1.0}, keyed<double>({0.0, 1.0}, {0.0, 2.0 * std::numbers::pi})};
+        AxisRotation{{0.0, 0.0, 1.0}, Track<double>({0.0, 1.0}, {0.0, 2.0 * std::numbers::pi})};
     add_camera(scene);
     const Observed seen = observe(scene, 0.0, 1.0);  // once around
     std::size_t checked = 0;
@@ -170,7 +170,7 @@ TEST(Deforming, MorphedPointsMoveByTheirTargets) {
     mesh.deformation.targets.resize(1);
     for (const glm::vec3& p : mesh.positions)
         mesh.deformation.targets[0].positions.emplace_back(p.y, 0.5f * p.x, p.x * p.y);
-    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
+    mesh.deformation.target_weights = {Track<double>({0.0, 1.0}, {0.0, 1.0})};
     add_camera(scene);
     const Observed seen = observe(scene, 0.25, 0.5);
     const auto at = [](double weight) {

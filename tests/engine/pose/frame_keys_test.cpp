@@ -2,7 +2,6 @@
 
 #include "engine/pose/frame_keys.h"
 #include "engine/pose/pose.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -14,15 +13,15 @@ Scene make_moving_scene() {
     scene.film.range = FrameRange{-2, 30};
     Node& flyer = scene.nodes.emplace_back();
     flyer.name = "flyer";
-    flyer.transform.translation = keyed<glm::dvec3>(
+    flyer.transform.translation = Track<glm::dvec3>(
         {0.0, 1.0}, {{0, 0, 0}, {0, 1, 0}, {1, 5, 0}, {1, -5, 0}, {1, 1, 0}, {0, 0, 0}}, Interpolation::cubic);
-    flyer.transform.rotation = keyed<glm::dquat>({0.0, 1.0}, {glm::dquat(1, 0, 0, 0), glm::dquat(0, 1, 0, 0)});
+    flyer.transform.rotation = Track<glm::dquat>({0.0, 1.0}, {glm::dquat(1, 0, 0, 0), glm::dquat(0, 1, 0, 0)});
     Node& wheel = scene.nodes.emplace_back();
     wheel.name = "wheel";
     wheel.parent = 0;
-    wheel.transform.axis_rotation = AxisRotation{{0, 0.6, 0.8}, keyed<double>({0.0, 1.0}, {0.0, 100.0})};
-    wheel.transform.translation = keyed<glm::dvec3>({0.0, 0.7}, {{0, 0, 0}, {3, 0, 0}});
-    wheel.transform.scale = keyed<glm::dvec3>({0.0, 0.5}, {{1, 1, 1}, {2, 1, 1}}, Interpolation::step);
+    wheel.transform.axis_rotation = AxisRotation{{0, 0.6, 0.8}, Track<double>({0.0, 1.0}, {0.0, 100.0})};
+    wheel.transform.translation = Track<glm::dvec3>({0.0, 0.7}, {{0, 0, 0}, {3, 0, 0}});
+    wheel.transform.scale = Track<glm::dvec3>({0.0, 0.5}, {{1, 1, 1}, {2, 1, 1}}, Interpolation::step);
     return scene;
 }
 

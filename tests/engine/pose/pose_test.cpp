@@ -2,12 +2,18 @@
 
 #include "engine/pose/pose.h"
 #include "engine/pose/plan.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/child_node.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
+
+TEST(Scene, ElementsAreFoundByTheirNames) {
+    Scene scene;
+    for (const char* name : {"lamp", "ball", "ball"}) scene.nodes.emplace_back().name = name;
+    EXPECT_EQ(find_named(scene.nodes, "ball"), 1);
+    expect_refusal([&] { find_named(scene.nodes, "bal"); }, "", "bal", "no element");
+}
 
 /// Cubic keys within a range lead out of it between them.
 TEST(Pose, ConesThatOvershootStayWithinAQuarterTurn) {
@@ -15,8 +21,8 @@ TEST(Pose, ConesThatOvershootStayWithinAQuarterTurn) {
     scene.lights.resize(1);
     scene.nodes.resize(1);
     scene.nodes[0].light = 0;
-    scene.lights[0].outer_cone = keyed<double>({0.0, 1.0}, {0.0, 0.7, 70.0, -70.0, 0.7, 0.0}, Interpolation::cubic);
-    scene.lights[0].inner_cone = keyed<double>({0.0, 1.0}, {0.0, 0.7, -70.0, 70.0, 0.7, 0.0}, Interpolation::cubic);
+    scene.lights[0].outer_cone = Track<double>({0.0, 1.0}, {0.0, 0.7, 70.0, -70.0, 0.7, 0.0}, Interpolation::cubic);
+    scene.lights[0].inner_cone = Track<double>({0.0, 1.0}, {0.0, 0.7, -70.0, 70.0, 0.7, 0.0}, Interpolation::cubic);
     EXPECT_EQ(pose(scene, 0.5).lights[0].outer_cone, pi / 2.0);
     EXPECT_EQ(pose(scene, 0.5).lights[0].inner_cone, 0.0);
 }
@@ -44,7 +50,7 @@ TEST(Pose, MatrixStandsForTheWholeTransform) {
 TEST(Pose, AxisRotationSpinsMoreThanOnce) {
     Scene scene;
     scene.nodes.push_back(child_of(no_index));
-    AxisRotation spin{.axis = {0.0, 2.0, 0.0}, .angle = keyed<double>({0.0, 1.0}, {0.0, 4.0 * pi})};
+    AxisRotation spin{.axis = {0.0, 2.0, 0.0}, .angle = Track<double>({0.0, 1.0}, {0.0, 4.0 * pi})};
     scene.nodes[0].transform.axis_rotation = spin;
     for (double t = 0.0; t <= 1.0; t += 0.0625)
         expect_near(pose(scene, t).world[0][0], {std::cos(4.0 * pi * t), 0.0, -std::sin(4.0 * pi * t)}, 1e-13);
@@ -53,8 +59,8 @@ TEST(Pose, AxisRotationSpinsMoreThanOnce) {
 TEST(Pose, VisibilityIsSteppedAndInherited) {
     Scene scene;
     scene.nodes = {child_of(no_index), child_of(0), child_of(1), child_of(no_index)};
-    scene.nodes[1].visible = keyed<double>({0.0, 1.0, 2.0}, {1.0, 0.0, 1.0}, Interpolation::linear);
-    scene.nodes[2].visible = keyed<double>({0.0, 3.0}, {0, 1, 0, 0, 0, 0}, Interpolation::cubic);
+    scene.nodes[1].visible = Track<double>({0.0, 1.0, 2.0}, {1.0, 0.0, 1.0}, Interpolation::linear);
+    scene.nodes[2].visible = Track<double>({0.0, 3.0}, {0, 1, 0, 0, 0, 0}, Interpolation::cubic);
     EXPECT_EQ(pose(scene, 0.5).visible, (std::vector<std::uint8_t>{1, 1, 1, 1}));
     EXPECT_EQ(pose(scene, 1.0).visible, (std::vector<std::uint8_t>{1, 0, 0, 1}));
     EXPECT_EQ(pose(scene, 1.5).visible, (std::vector<std::uint8_t>{1, 0, 0, 1}));
@@ -68,7 +74,7 @@ TEST(Pose, InstancesAreTheSameAtEveryTime) {
     scene.meshes.resize(3);
     scene.nodes[0].meshes = {2};
     scene.nodes[2].meshes = {1, 0};
-    scene.nodes[2].visible = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    scene.nodes[2].visible = Track<double>({0.0, 1.0}, {1.0, 0.0});
     const std::vector<Instance> expected{{0, 2}, {2, 1}, {2, 0}};
     EXPECT_EQ(list_instances(scene), expected);
     EXPECT_EQ(pose(scene, 5.0).instances, expected);
@@ -78,7 +84,7 @@ TEST(Pose, LightsShineAlongMinusZWithoutTheirScale) {
     Scene scene;
     Light light{.kind = Light::Kind::directional,
                 .color = glm::dvec3(1.0, 0.5, 0.25),
-                .intensity = keyed<double>({0.0, 1.0}, {10.0, 20.0})};
+                .intensity = Track<double>({0.0, 1.0}, {10.0, 20.0})};
     scene.lights = {light};
     scene.nodes = {child_of(no_index, {1.0, 2.0, 3.0}), child_of(no_index)};
     scene.nodes[0].transform.rotation = glm::angleAxis(-pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));  // -z to -y
@@ -121,15 +127,15 @@ TEST(Pose, CamerasAreOrthonormalWhateverTheScale) {
 }
 
 TEST(Pose, MaterialsStayInRangeWhereCubicKeysOvershoot) {
-    const auto overshoot = keyed<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic);
-    const auto below = keyed<double>({0.0, 1.0}, {0.0, 0.0, -9.0, 9.0, 0.0, 0.0}, Interpolation::cubic);
+    const auto overshoot = Track<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic);
+    const auto below = Track<double>({0.0, 1.0}, {0.0, 0.0, -9.0, 9.0, 0.0, 0.0}, Interpolation::cubic);
     Scene scene;
     Material material{.glow = {.color = glm::dvec3(1.0, 2.0, 3.0), .strength = 4.0}};
     material.glass.thickness = material.glass.attenuation_distance = below;
     material.gloss.roughness = material.layers.clearcoat = material.layers.clearcoat_roughness =
         material.layers.sheen_roughness = material.layers.anisotropy = overshoot;
     material.layers.anisotropy_rotation = below;
-    material.glass.attenuation_color = material.layers.sheen_color = keyed<glm::dvec3>(
+    material.glass.attenuation_color = material.layers.sheen_color = Track<glm::dvec3>(
         {0.0, 1.0}, {{0, 0, 0}, {1, 0, 0.5}, {9, -9, 0}, {-9, 9, 0}, {1, 0, 0.5}, {0, 0, 0}}, Interpolation::cubic);
     scene.materials = {material};
     const auto [color, alpha, emission, gloss, glass, layers] = pose(scene, 0.5).materials[0];
@@ -149,12 +155,12 @@ TEST(Pose, MaterialsStayInRangeWhereCubicKeysOvershoot) {
 TEST(Pose, TheEnvironmentTurnsByQuaternionsOrAboutAnAxis) {
     Scene scene;
     scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
-    scene.environment.rotation = keyed<glm::dquat>(
+    scene.environment.rotation = Track<glm::dquat>(
         {0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::angleAxis(pi / 2.0, glm::dvec3(0.0, 0.0, 1.0))});
     EXPECT_TRUE(is_world_animated(scene));
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 30}));
     expect_near(pose(scene, 0.5).environment_rotation[0], {std::sqrt(0.5), std::sqrt(0.5), 0.0}, 1e-14);
-    scene.environment.axis_rotation = AxisRotation{{0.0, 2.0, 0.0}, keyed<double>({0.0, 2.0}, {0.0, 4.0 * pi})};
+    scene.environment.axis_rotation = AxisRotation{{0.0, 2.0, 0.0}, Track<double>({0.0, 2.0}, {0.0, 4.0 * pi})};
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 60}));
     const PosePlan plan = make_pose_plan(scene);
     ScenePose updated = pose(scene, 0.0);
@@ -171,15 +177,15 @@ TEST(FrameRange, SpansTheKeysRoundedInwards) {
     Scene scene;
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 0}));
     scene.nodes = {child_of(no_index)};
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>({3.0}, {glm::dvec3(0.0)});  // one key is no animation
+    scene.nodes[0].transform.translation = Track<glm::dvec3>({3.0}, {glm::dvec3(0.0)});  // one key is no animation
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 0}));
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.05, 1.05}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    scene.nodes[0].transform.translation = Track<glm::dvec3>({0.05, 1.05}, {glm::dvec3(0.0), glm::dvec3(1.0)});
     EXPECT_EQ(frame_range(scene), (FrameRange{2, 31}));  // 1.5 to 31.5
     scene.cameras.resize(1);
-    scene.cameras[0].fov = keyed<double>({-1.0, 0.0}, {1.0, 1.0});
+    scene.cameras[0].fov = Track<double>({-1.0, 0.0}, {1.0, 1.0});
     EXPECT_EQ(frame_range(scene), (FrameRange{-30, 31}));
     scene.materials.resize(1);
-    scene.materials[0].gloss.ior = keyed<double>({0.0, 4.0}, {1.0, 1.0});
+    scene.materials[0].gloss.ior = Track<double>({0.0, 4.0}, {1.0, 1.0});
     EXPECT_EQ(frame_range(scene), (FrameRange{-30, 120}));
     scene.film.range = FrameRange{5, 6};
     EXPECT_EQ(frame_range(scene), (FrameRange{5, 6}));
@@ -211,12 +217,12 @@ TEST(FrameRange, TakesTheNoiseOfSinglePrecisionTimes) {
     scene.nodes = {child_of(no_index)};
     for (int first = 1; first < 2000; first += 7) {
         const double begin = static_cast<float>(first) / 30.0f, end = static_cast<float>(first + 50) / 30.0f;
-        scene.nodes[0].visible = keyed<double>({begin, end}, {1.0, 0.0});
+        scene.nodes[0].visible = Track<double>({begin, end}, {1.0, 0.0});
         ASSERT_EQ(frame_range(scene), (FrameRange{first, first + 50}));
     }
-    scene.nodes[0].visible = keyed<double>({0.01, 0.02}, {1.0, 0.0});  // between two frames
+    scene.nodes[0].visible = Track<double>({0.01, 0.02}, {1.0, 0.0});  // between two frames
     EXPECT_EQ(frame_range(scene), (FrameRange{1, 1}));
-    scene.nodes[0].visible = keyed<double>({-1e300, 1e300}, {1.0, 0.0});
+    scene.nodes[0].visible = Track<double>({-1e300, 1e300}, {1.0, 0.0});
     EXPECT_LT(frame_range(scene).first, -1'000'000'000'000);
 }
 
@@ -244,7 +250,7 @@ TEST(FindCamera, ByNodeThenByCameraThenTheScenesChoice) {
 }
 
 TEST(IsWorldAnimated, CamerasDoNotCount) {
-    const auto moving = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    const auto moving = Track<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0)});
     Scene scene;
     scene.meshes.resize(1);
     scene.cameras.resize(1);
@@ -254,7 +260,7 @@ TEST(IsWorldAnimated, CamerasDoNotCount) {
     scene.nodes[3].camera = 0;
     EXPECT_FALSE(is_world_animated(scene));
     scene.nodes[2].transform.translation = moving;  // the camera's rig
-    scene.cameras[0].fov = keyed<double>({0.0, 1.0}, {1.0, 2.0});
+    scene.cameras[0].fov = Track<double>({0.0, 1.0}, {1.0, 2.0});
     EXPECT_FALSE(is_world_animated(scene));
 
     const auto animated_with = [&](const std::function<void(Scene&)>& change) {
@@ -262,7 +268,7 @@ TEST(IsWorldAnimated, CamerasDoNotCount) {
         change(other);
         return is_world_animated(other);
     };
-    const auto fading = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    const auto fading = Track<double>({0.0, 1.0}, {1.0, 0.0});
     EXPECT_TRUE(animated_with([](Scene& s) { s.nodes[3].light = 0; })) << "a lamp on the rig";
     EXPECT_TRUE(animated_with([&](Scene& s) { s.nodes[0].transform.translation = moving; }));
     EXPECT_TRUE(animated_with([&](Scene& s) { s.nodes[1].visible = fading; }));

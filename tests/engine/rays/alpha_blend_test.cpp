@@ -278,7 +278,7 @@ TEST(AlphaBlend, OnlySurfacesThatLetRaysPassCount) {
     Scene scene = make_blended(1.0, 1);
     EXPECT_FALSE(has_blended(scene));
     EXPECT_FALSE(has_cutout(scene, scene.meshes[0]));
-    scene.materials[0].opacity.alpha = keyed<double>({0.0, 1.0}, {1.0, 0.5});
+    scene.materials[0].opacity.alpha = Track<double>({0.0, 1.0}, {1.0, 0.5});
     EXPECT_TRUE(has_blended(scene));
     scene.nodes[0].meshes.clear();  // not drawn
     EXPECT_FALSE(has_blended(scene));

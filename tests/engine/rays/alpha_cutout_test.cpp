@@ -53,7 +53,7 @@ TEST(AlphaCutout, WhatLiesBehindAHoleIsMet) {
 
 TEST(AlphaCutout, FactorVertexColourAndCutoffCount) {
     Scene scene = make_masked_scene(Opacity::Mode::mask);
-    scene.materials[0].opacity.alpha = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    scene.materials[0].opacity.alpha = Track<double>({0.0, 1.0}, {1.0, 0.0});
     scene.materials[0].opacity.cutoff = 0.25;
     RayScene rays(scene);
     for (const auto& [seconds, met] : {std::pair(0.0, true), {0.7, true}, {0.8, false}, {0.1, true}}) {

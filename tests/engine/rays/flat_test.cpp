@@ -31,10 +31,8 @@ Scene make_objects(const glm::dvec3& place) {
         node.transform.scale = glm::dvec3(i % 2 == 0 ? 1.0 : -0.8, 1.0, 1.0 + 0.1 * i);
         scene.nodes.push_back(node);
     }
-    Track<glm::dvec3> slide(place);
-    slide.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 1.0}};
-    slide.values.push_back(place + glm::dvec3(0.0, 0.0, 1.0));
-    scene.nodes.back().transform.translation = slide;
+    scene.nodes.back().transform.translation =
+        Track<glm::dvec3>({0.0, 1.0}, {place, place + glm::dvec3(0.0, 0.0, 1.0)});
     return scene;
 }
 
@@ -127,12 +125,12 @@ TEST(FlatTree, WhatChangesOrIsHiddenStaysOutside) {
     Scene scene = make_sheet_scene(2);
     scene.meshes.push_back(make_sheet(2));
     scene.meshes.push_back(make_sheet(2));
-    scene.meshes[2].present = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    scene.meshes[2].present = Track<double>({0.0, 1.0}, {1.0, 0.0});
     for (int i = 0; i < 5; ++i) scene.nodes.push_back(make_node(i == 4 ? 2 : 1, {0.0, 0.0, 0.5 * i}));
     add_cache(scene, 0, {0.0, 1.0},
               [](const glm::vec3& p, std::size_t sample) { return static_cast<float>(sample + 1) * p; });
     scene.nodes[2].visible = 0.0;
-    scene.nodes[3].visible = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    scene.nodes[3].visible = Track<double>({0.0, 1.0}, {1.0, 0.0});
     const std::vector<std::uint8_t> flat = find_flat(scene);
     EXPECT_EQ(flat, (std::vector<std::uint8_t>{0, 1, 0, 0, 1, 0}));
 }

@@ -46,7 +46,7 @@ Scene make_coplanar_scene() {
     scene.nodes[2].meshes = {2};
     scene.nodes[3].meshes = {0, 1};
     scene.nodes[4].meshes = {0};
-    scene.nodes[4].transform.translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0)});
+    scene.nodes[4].transform.translation = Track<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0)});
     add_cache(scene, 2, {0.0, 0.5, 1.0}, [](const glm::vec3& p, std::size_t sample) {
         return p + glm::vec3(0.0f, 0.0f, sample == 2 ? 0.0f : 0.5f * p.x * p.y + 0.1f * static_cast<float>(sample));
     });
@@ -79,7 +79,7 @@ TEST(RayTies, RC07_TheLowestInstanceAndPrimitiveOfEqualSurfacesWins) {
     for (Node& node : scene.nodes) node.meshes = {1, 0};
     scene.nodes[0].visible = 0.0;
     // Instances 2 and 3 belong to node 1, which moves: another top-level scene than the rest, where there are many.
-    scene.nodes[1].transform.translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -1.0)});
+    scene.nodes[1].transform.translation = Track<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -1.0)});
     for (const std::size_t bystanders : {0, 400}) {
         for (std::size_t i = 0; i < bystanders; ++i) {
             scene.nodes.emplace_back();

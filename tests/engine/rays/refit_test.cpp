@@ -99,8 +99,8 @@ TEST(RayDeform, MeshesComeAndGoBesideOthersOfTheirNode) {
     scene.meshes = {make_sheet(1), make_sheet(2), make_sheet(3)};
     scene.nodes.resize(1);
     scene.nodes[0].meshes = {0, 1, 2};
-    scene.meshes[0].present = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
-    scene.meshes[1].present = keyed<double>({0.0, 1.0}, {0.0, 1.0}, Interpolation::step);
+    scene.meshes[0].present = Track<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
+    scene.meshes[1].present = Track<double>({0.0, 1.0}, {0.0, 1.0}, Interpolation::step);
     for (glm::vec3& p : scene.meshes[2].positions) p.z = -1.0f;
     RayScene rays(scene);
     const Ray ray = ray_down(0.1f, 0.2f);
@@ -116,7 +116,7 @@ TEST(RayDeform, UpdatesTouchOnlyWhatMoves) {
     for (int i = 0; i < 600; ++i) {
         Node node{.transform = {.translation = glm::dvec3(3.0 * (i % 30), 3.0 * (i / 30), -2.0)}, .meshes = {0}};
         if (i % 100 == 7)
-            node.transform.translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(i), glm::dvec3(i + 1)});
+            node.transform.translation = Track<glm::dvec3>({0.0, 1.0}, {glm::dvec3(i), glm::dvec3(i + 1)});
         scene.nodes.push_back(node);
     }
     const PosePlan plan = make_pose_plan(scene);

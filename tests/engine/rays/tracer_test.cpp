@@ -4,7 +4,6 @@
 #include "engine/rays/ray_scene.h"
 #include "engine/surface/shapes.h"
 #include "tests/support/first_hits.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/render_scenes.h"
 
 namespace aleph {
@@ -185,7 +184,7 @@ TEST(RayScene, KF19_ALargeMeshAtATinyScaleIsMet) {
         scene.nodes[0].transform.scale = glm::dvec3(1e-9);
         if (moves)
             scene.nodes[0].transform.translation =
-                keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+                Track<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
         RayScene rays(scene);
         rays.update(pose(scene, 0.0), glm::dvec3(0.0));
         const Hit hit = Tracer(rays).intersect({{0.2f, 0.1f, 5.0f}, {0.0f, 0.0f, -1.0f}});

@@ -4,7 +4,6 @@
 #include "engine/scene/track.h"
 #include "engine/scene/transforms.h"
 #include "tests/engine/scene/matrices.h"
-#include "tests/support/keyed_track.h"
 
 namespace aleph {
 namespace {
@@ -60,7 +59,7 @@ TEST(Keyframes, KF03_HalfATurnFollowsItsSign) {
 TEST(Keyframes, KF04_RotationKeysOfAnyLength) {
     const glm::dquat unit = exact_turn(1.2L), other = exact_turn(-0.4L);
     for (const double length : {0.5, 2.0, 1e-20, 1e20, 1e-300, 1e300}) {
-        const auto track = keyed<glm::dquat>({0.0, 1.0}, {unit * length, other * length});
+        const auto track = Track<glm::dquat>({0.0, 1.0}, {unit * length, other * length});
         EXPECT_EQ(refusal(track), "");
         for (const double t : {0.0, 0.25, 1.0}) {
             const glm::dquat q = evaluate(track, t);
@@ -79,7 +78,7 @@ TEST(Keyframes, KF04_CubicKeysOfAnyLengthKeepTheirShape) {
         const glm::dquat a = exact_turn(0.0L), b = exact_turn(1.0L), tangent(0.1, 0.2, -0.3, 0.4);
         std::vector<glm::dquat> values{tangent, a, tangent, tangent, b, tangent};
         for (glm::dquat& value : values) value = value * length;
-        return evaluate(keyed({0.0, 2.0}, values, Interpolation::cubic), 0.75);
+        return evaluate(Track({0.0, 2.0}, values, Interpolation::cubic), 0.75);
     };
     for (const double length : {0.5, 1e-20, 1e20, 1e-160, 1e160, 1e-300, 1e300})
         EXPECT_LT(glm::length(curve(length) - curve(1.0)), 1e-15);
@@ -87,11 +86,11 @@ TEST(Keyframes, KF04_CubicKeysOfAnyLengthKeepTheirShape) {
 
 TEST(Keyframes, KF05_ZeroOrNanRotationIsRefusedByIndex) {
     const glm::dquat q(1.0, 0.0, 0.0, 0.0), zero(0.0, 0.0, 0.0, 0.0), nan(not_a_number, 0.0, 0.0, 1.0);
-    EXPECT_EQ(refusal(keyed<glm::dquat>({0, 1, 2}, {q, q, zero})),
+    EXPECT_EQ(refusal(Track<glm::dquat>({0, 1, 2}, {q, q, zero})),
               "ship.glb: /animations/2/samplers/5: key 2: its rotation is zero");
-    EXPECT_EQ(refusal(keyed<glm::dquat>({0, 1, 2}, {q, nan, q})),
+    EXPECT_EQ(refusal(Track<glm::dquat>({0, 1, 2}, {q, nan, q})),
               "ship.glb: /animations/2/samplers/5: key 1: it holds nan");
-    EXPECT_EQ(refusal(keyed<glm::dquat>({0, 1}, {zero, q, zero, zero, zero, zero}, Interpolation::cubic)),
+    EXPECT_EQ(refusal(Track<glm::dquat>({0, 1}, {zero, q, zero, zero, zero, zero}, Interpolation::cubic)),
               "ship.glb: /animations/2/samplers/5: key 1: its rotation is zero");  // tangents may be
 }
 
@@ -115,14 +114,14 @@ TEST(Keyframes, KF07_TangentsCountTimesTheInterval) {
     const auto slope = [](double t) { return -1.0 + t - 0.75 * t * t; };
     std::vector<double> times{-1.0, 0.0, 2.5, 3.0}, values;
     for (const double t : times) values.insert(values.end(), {slope(t), value(t), slope(t)});
-    const Track<double> track = keyed(times, values, Interpolation::cubic);
+    const Track<double> track = Track(times, values, Interpolation::cubic);
     EXPECT_EQ(track.key_count(), 4u);
     for (double t = -1.0; t <= 3.0; t += 0.0625) EXPECT_NEAR(evaluate(track, t), value(t), 1e-13) << t;
 }
 
 TEST(Keyframes, KF08_CubicRotationThroughZeroHoldsTheNearerKey) {
     const glm::dquat q = exact_turn(1.0L), zero(0.0, 0.0, 0.0, 0.0);
-    const auto track = keyed<glm::dquat>({0.0, 1.0}, {zero, q, zero, zero, -q, zero}, Interpolation::cubic);
+    const auto track = Track<glm::dquat>({0.0, 1.0}, {zero, q, zero, zero, -q, zero}, Interpolation::cubic);
     EXPECT_LT(glm::length(evaluate(track, 0.5 - 1e-8) - q), 4.0 * double_unit);
     EXPECT_LT(glm::length(evaluate(track, 0.5) + q), 4.0 * double_unit);
     // q and -q: it never turns. Beside the middle the curve is as short as 3 / 2400, which magnifies rounding.
@@ -136,13 +135,13 @@ TEST(Keyframes, KF08_CubicRotationThroughZeroHoldsTheNearerKey) {
 }
 
 TEST(Keyframes, KF09_OneCubicKeyIsItsMiddleValue) {
-    const auto track = keyed<double>({3.0}, {-7.0, 5.0, 9.0}, Interpolation::cubic);
+    const auto track = Track<double>({3.0}, {-7.0, 5.0, 9.0}, Interpolation::cubic);
     for (const double t : {-1.0, 3.0, 1e9}) EXPECT_EQ(evaluate(track, t), 5.0);
     EXPECT_FALSE(is_animated(track));
 }
 
 TEST(Keyframes, KF10_DuplicateTimesAreRefused) {
-    const auto track = keyed<double>({0.0, 1.0, 1.0}, {0.0, 1.0, 2.0});
+    const auto track = Track<double>({0.0, 1.0, 1.0}, {0.0, 1.0, 2.0});
     EXPECT_EQ(refusal(track),
               "ship.glb: /animations/2/samplers/5: key 2: its time 1 s has the same time as the key before it, 1 s");
     EXPECT_EQ(evaluate(track, 0.5), 0.5);
@@ -152,7 +151,7 @@ TEST(Keyframes, KF10_DuplicateTimesAreRefused) {
 
 TEST(Keyframes, KF11_MisorderedAndInfiniteTimesAreRefusedByIndex) {
     const auto reason = [](std::vector<double> times) {
-        return refusal(keyed<double>(std::move(times), {0.0, 1.0, 2.0}));
+        return refusal(Track<double>(std::move(times), {0.0, 1.0, 2.0}));
     };
     const std::string place = "ship.glb: /animations/2/samplers/5: ";
     EXPECT_EQ(reason({0.0, 2.0, 1.0}), place + "key 2: its time 1 s lies before the key before it, 2 s");
@@ -170,8 +169,8 @@ void expect_bits(const T& a, const T& b) {
 
 TEST(Keyframes, KF12_TimesOutsideHoldTheFirstAndLastKey) {
     const glm::dvec3 a(0.1, 0.2, 0.3), b(1.0 / 3.0, -0.7, 1e20);
-    const auto linear = keyed<glm::dvec3>({0.1, 0.7}, {a, b});
-    const auto cubic = keyed<glm::dvec3>({0.1, 0.7}, {b, a, b, a, b, a}, Interpolation::cubic);
+    const auto linear = Track<glm::dvec3>({0.1, 0.7}, {a, b});
+    const auto cubic = Track<glm::dvec3>({0.1, 0.7}, {b, a, b, a, b, a}, Interpolation::cubic);
     for (const auto& track : {linear, cubic}) {
         for (const double t : {-infinity, -1.0, -0.0, 0.0, 5e-324, std::numeric_limits<double>::min()})
             expect_bits(evaluate(track, t), a);
@@ -180,8 +179,8 @@ TEST(Keyframes, KF12_TimesOutsideHoldTheFirstAndLastKey) {
         expect_bits(evaluate(track, not_a_number), a);
     }
     const glm::dquat q = exact_turn(1.0L), r = exact_turn(2.0L);
-    expect_bits(evaluate(keyed<glm::dquat>({0.0, 1.0}, {q, r}), -1.0), q);
-    expect_bits(evaluate(keyed<glm::dquat>({0.0, 1.0}, {q, r}), 1e9), r);
+    expect_bits(evaluate(Track<glm::dquat>({0.0, 1.0}, {q, r}), -1.0), q);
+    expect_bits(evaluate(Track<glm::dquat>({0.0, 1.0}, {q, r}), 1e9), r);
 }
 
 TEST(Keyframes, KF13_OnAKeyTheKeyBitForBit) {
@@ -200,17 +199,17 @@ TEST(Keyframes, KF13_OnAKeyTheKeyBitForBit) {
     }
     for (const Interpolation how : {Interpolation::step, Interpolation::linear})
         for (std::size_t i = 0; i < times.size(); ++i) {
-            expect_bits(evaluate(keyed(times, points, how), times[i]), points[i]);
-            expect_bits(evaluate(keyed(times, turns, how), times[i]), turns[i]);
-            expect_bits(evaluate(keyed(times, matrices, how), times[i]), matrices[i]);
+            expect_bits(evaluate(Track(times, points, how), times[i]), points[i]);
+            expect_bits(evaluate(Track(times, turns, how), times[i]), turns[i]);
+            expect_bits(evaluate(Track(times, matrices, how), times[i]), matrices[i]);
         }
     for (std::size_t i = 0; i < times.size(); ++i)
-        expect_bits(evaluate(keyed(times, cubic_points, Interpolation::cubic), times[i]), cubic_points[3 * i + 1]);
+        expect_bits(evaluate(Track(times, cubic_points, Interpolation::cubic), times[i]), cubic_points[3 * i + 1]);
 }
 
 TEST(Keyframes, KF14_LateTimesAreAsExactAsEarlyOnes) {
     for (const double shot : {0.0, 600.0, 3600.0, 36000.0, 1e5}) {
-        const auto track = keyed<double>({shot, shot + 0.03125}, {0.0, 1.0});
+        const auto track = Track<double>({shot, shot + 0.03125}, {0.0, 1.0});
         for (int i = 1; i < 16; ++i) EXPECT_NEAR(evaluate(track, shot + 0.03125 * i / 16.0), i / 16.0, 1e-9) << shot;
     }
 }
@@ -258,16 +257,16 @@ TEST(Keyframes, EqualKeysPoseToTheSameBitsAtEveryTime) {
         const glm::dvec3 v(number(random), number(random), number(random)), zero(0.0);
         const glm::dquat q(number(random), number(random), number(random), number(random));
         const glm::dquat none(0.0, 0.0, 0.0, 0.0);
-        node.transform.translation = keyed(times, std::vector<glm::dvec3>(4, v));
-        node.transform.scale = keyed<glm::dvec3>(times, {zero, v, zero, zero, v, zero, zero, v, zero, zero, v, zero},
+        node.transform.translation = Track(times, std::vector<glm::dvec3>(4, v));
+        node.transform.scale = Track<glm::dvec3>(times, {zero, v, zero, zero, v, zero, zero, v, zero, zero, v, zero},
                                                  Interpolation::cubic);
         node.transform.rotation =
-            i % 2 ? keyed(times, std::vector<glm::dquat>(4, q))
-                  : keyed<glm::dquat>(times, {none, q, none, none, q, none, none, q, none, none, q, none},
+            i % 2 ? Track(times, std::vector<glm::dquat>(4, q))
+                  : Track<glm::dquat>(times, {none, q, none, none, q, none, none, q, none, none, q, none},
                                       Interpolation::cubic);
         if (i % 5 == 4)
-            node.transform.matrix = keyed(times, std::vector<glm::dmat4>(4, glm::scale(glm::mat4_cast(q), v)));
-        if (i % 5 == 3) node.transform.axis_rotation = AxisRotation{v, keyed(times, std::vector<double>(4, v.x))};
+            node.transform.matrix = Track(times, std::vector<glm::dmat4>(4, glm::scale(glm::mat4_cast(q), v)));
+        if (i % 5 == 3) node.transform.axis_rotation = AxisRotation{v, Track(times, std::vector<double>(4, v.x))};
         scene.nodes.push_back(node);
     }
     EXPECT_FALSE(is_world_animated(scene));
@@ -280,7 +279,7 @@ TEST(Keyframes, EqualKeysPoseToTheSameBitsAtEveryTime) {
 
 TEST(Keyframes, AlmostEqualKeysStayBetweenTheirKeys) {
     const double a = 0.3, b = std::nextafter(std::nextafter(0.3, 1.0), 1.0);
-    const auto track = keyed<double>({0.0, 1.0}, {a, b});
+    const auto track = Track<double>({0.0, 1.0}, {a, b});
     double before = a;
     for (int i = 0; i <= 1000; ++i) {
         const double value = evaluate(track, i / 1000.0);

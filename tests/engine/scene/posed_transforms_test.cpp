@@ -11,9 +11,7 @@ namespace {
 TEST(Transforms, KF20_ScaleThroughZero) {
     Scene scene;
     scene.nodes.resize(1);
-    Track<glm::dvec3>& scale = scene.nodes[0].transform.scale;
-    scale.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 2.0}};
-    scale.values = {glm::dvec3(1.0), glm::dvec3(-1.0, 1.0, 1.0)};
+    scene.nodes[0].transform.scale = Track<glm::dvec3>({0.0, 2.0}, {glm::dvec3(1.0), glm::dvec3(-1.0, 1.0, 1.0)});
     EXPECT_EQ(orientation_sign(pose(scene, 0.9).world[0]), 1.0);
     EXPECT_EQ(orientation_sign(pose(scene, 1.1).world[0]), -1.0);
     const glm::dmat4 middle = pose(scene, 1.0).world[0];

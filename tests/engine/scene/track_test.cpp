@@ -3,7 +3,6 @@
 #include "engine/scene/track.h"
 #include "engine/scene/time_sampling.h"
 #include "tests/engine/scene/matrices.h"
-#include "tests/support/keyed_track.h"
 
 namespace aleph {
 namespace {
@@ -25,7 +24,7 @@ TEST(Track, MatricesTurnAndStretchApart) {
         m[3].x = x;
         return m;
     };
-    const Track<glm::dmat4> track = keyed<glm::dmat4>({0.0, 1.0}, {make(-60.0, 1.0, 5.0), make(100.0, 3.0, 9.0)});
+    const Track<glm::dmat4> track = Track<glm::dmat4>({0.0, 1.0}, {make(-60.0, 1.0, 5.0), make(100.0, 3.0, 9.0)});
     for (const double t : {0.125, 0.5, 0.75})
         EXPECT_LT(distance(evaluate(track, t), make(-60.0 + 160.0 * t, 1.0 + 2.0 * t, 5.0 + 4.0 * t)), 1e-14);
 }
@@ -39,10 +38,10 @@ TEST(Track, EqualMatricesOnlyMove) {
 }
 
 TEST(Track, IsAnimatedOnlyWhereAValueCanDiffer) {
-    EXPECT_FALSE(is_animated(keyed<double>({0.0, 1.0, 2.0}, {4.0, 4.0, 4.0})));
-    EXPECT_TRUE(is_animated(keyed<double>({0.0, 1.0, 2.0}, {4.0, 4.0, std::nextafter(4.0, 5.0)})));
+    EXPECT_FALSE(is_animated(Track<double>({0.0, 1.0, 2.0}, {4.0, 4.0, 4.0})));
+    EXPECT_TRUE(is_animated(Track<double>({0.0, 1.0, 2.0}, {4.0, 4.0, std::nextafter(4.0, 5.0)})));
     const auto cubic = [](std::vector<double> values) {
-        return is_animated(keyed({0.0, 1.0}, std::move(values), Interpolation::cubic));
+        return is_animated(Track({0.0, 1.0}, std::move(values), Interpolation::cubic));
     };
     EXPECT_FALSE(cubic({0.0, 4.0, 0.0, 0.0, 4.0, 0.0}));
     EXPECT_FALSE(cubic({7.0, 4.0, 0.0, 0.0, 4.0, 7.0}));  // these tangents lie outside
@@ -61,15 +60,15 @@ TEST(Track, ValidateNamesTheBadKey) {
     using Values = std::vector<double>;
     EXPECT_EQ(refusal(Track<double>(1.0)), "");
     EXPECT_EQ(refusal(Track<double>()), "it has no keys");
-    EXPECT_EQ(refusal(keyed<double>({0.0, 1.0}, Values{0.0, 1.0})), "");
-    EXPECT_EQ(refusal(keyed({0.0, 1.0}, Values(5, 1.0), Interpolation::cubic)),
+    EXPECT_EQ(refusal(Track<double>({0.0, 1.0}, Values{0.0, 1.0})), "");
+    EXPECT_EQ(refusal(Track({0.0, 1.0}, Values(5, 1.0), Interpolation::cubic)),
               "5 values: a cubic key has three (in-tangent, value, out-tangent)");
-    EXPECT_EQ(refusal(keyed({0.0, 1.0}, Values{0.0, 1.0, 0.0, 0.0, 1.0, infinity}, Interpolation::cubic)),
+    EXPECT_EQ(refusal(Track({0.0, 1.0}, Values{0.0, 1.0, 0.0, 0.0, 1.0, infinity}, Interpolation::cubic)),
               "key 1: it holds inf");
     glm::dmat4 projective(1.0);
     projective[0].w = 0.5;
     EXPECT_EQ(refusal(Track<glm::dmat4>(projective)), "key 0: its matrix is not affine: the last row must be 0 0 0 1");
-    EXPECT_EQ(refusal(keyed<double>({not_a_number}, Values{0.0})), "key 0: its time is nan; it must be finite");
+    EXPECT_EQ(refusal(Track<double>({not_a_number}, Values{0.0})), "key 0: its time is nan; it must be finite");
 }
 
 TEST(Track, RP08_TurnsOver170DegreesCanBeFound) {
@@ -77,7 +76,7 @@ TEST(Track, RP08_TurnsOver170DegreesCanBeFound) {
     const auto largest = [&](std::vector<glm::dquat> keys) {
         std::vector<double> times;
         for (std::size_t i = 0; i < keys.size(); ++i) times.push_back(static_cast<double>(i));
-        return largest_turn_degrees(keyed(times, std::move(keys)));
+        return largest_turn_degrees(Track(times, std::move(keys)));
     };
     EXPECT_NEAR(largest({turn(0.0, z), turn(90.0, z), turn(265.0, z)}), 175.0, 1e-9);
     EXPECT_NEAR(largest({turn(0.0, z), turn(270.0, z)}), 270.0, 1e-9);  // slerp takes the other 90

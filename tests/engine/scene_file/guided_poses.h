@@ -6,20 +6,13 @@
 
 namespace aleph {
 
-inline std::size_t node_called(const Scene& scene, const std::string& name) {
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].name == name) return i;
-    ADD_FAILURE() << "no node is called " << name;
-    return 0;
-}
-
 /// The time of a frame, which may lie between two.
 inline double frame_seconds(const Scene& scene, double frame) {
     return frame / scene.film.frame_rate.per_second();
 }
 
 inline glm::dmat4 world_at(const Scene& scene, const std::string& name, double seconds) {
-    return pose(scene, seconds).world[node_called(scene, name)];
+    return pose(scene, seconds).world[find_named(scene.nodes, name)];
 }
 
 /// Unit, along the node's -z.
@@ -34,8 +27,8 @@ inline glm::dvec3 view_at(const Scene& scene, const std::string& name, double fr
 /// The angle between the node's -z and the way to the target, rad.
 inline double miss_angle(const Scene& scene, const std::string& name, const std::string& target, double seconds) {
     const ScenePose posed = pose(scene, seconds);
-    const glm::dmat4& eye = posed.world[node_called(scene, name)];
-    const glm::dvec3 way = glm::normalize(glm::dvec3(posed.world[node_called(scene, target)][3] - eye[3]));
+    const glm::dmat4& eye = posed.world[find_named(scene.nodes, name)];
+    const glm::dvec3 way = glm::normalize(glm::dvec3(posed.world[find_named(scene.nodes, target)][3] - eye[3]));
     return 2.0 * std::asin(std::min(1.0, 0.5 * glm::length(way - view_of(eye))));
 }
 

@@ -181,9 +181,9 @@ TEST(LookAt, CopiesTurnLikeTheirOriginals) {
         {"name": "copy", "instance": "lamp", "translation": [5, 0, 0]},
         {"name": "eye", "translation": [9, 9, 9], "look_at": "copy/nose"},
         {"name": "ball", "translation": {"keys": [[0, [1, 0, 1]], [10, [-1, 0, 1]]]}}])");
-    EXPECT_EQ(scene.nodes[node_called(scene, "copy/head")].transform.rotation,
-              scene.nodes[node_called(scene, "head")].transform.rotation);
-    EXPECT_GT(scene.nodes[node_called(scene, "head")].transform.rotation.key_count(), 10u);
+    EXPECT_EQ(scene.nodes[find_named(scene.nodes, "copy/head")].transform.rotation,
+              scene.nodes[find_named(scene.nodes, "head")].transform.rotation);
+    EXPECT_GT(scene.nodes[find_named(scene.nodes, "head")].transform.rotation.key_count(), 10u);
     for (int frame = 0; frame <= 10; ++frame)
         EXPECT_LT(miss_angle(scene, "eye", "copy/nose", frame_seconds(scene, frame)), exact);
 }

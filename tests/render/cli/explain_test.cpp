@@ -160,10 +160,7 @@ TEST(Explain, TheEnvironmentAndItsPicture) {
                 HasSubstr("light     environment picture lib/sky.exr, 4 x 2, not rotating, times (0.5, 1, 2)\n"));
 
     const std::size_t samplings = explained["time_samplings"].size();
-    scene.environment.axis_rotation = AxisRotation{{0, 1, 0}, {}};
-    scene.environment.axis_rotation->angle.sampling = {
-        .kind = TimeSampling::Kind::acyclic, .start = 0.0, .period = 1.0, .times = {0.0, 1.5}};
-    scene.environment.axis_rotation->angle.values = {0.0, 7.0};
+    scene.environment.axis_rotation = AxisRotation{{0, 1, 0}, Track<double>({0.0, 1.5}, {0.0, 7.0})};
     explained = explain(scene);
     EXPECT_EQ(explained["environment"]["rotates"], true);
     EXPECT_EQ(explained["environment"]["animated"][0]["property"], "environment_rotation.degrees");
@@ -230,10 +227,8 @@ TEST(Explain, SaysWhatRenderingWouldRefuse) {
 TEST(Explain, SaysWhereAFieldOfViewOvershoots) {
     Scene scene = make_scene();
     scene.film.range = {0, 1000};
-    Track<double>& fov = scene.cameras[0].fov;
-    fov.interpolation = Interpolation::cubic;
-    fov.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 15.0, 16.0, 33.0}};
-    fov.values = {0.0, 0.5, 0.0, 0.0, 0.5, 20.0, -20.0, 0.5, 0.0, 0.0, 0.5, 0.0};
+    scene.cameras[0].fov = Track<double>(
+        {0.0, 15.0, 16.0, 33.0}, {0.0, 0.5, 0.0, 0.0, 0.5, 20.0, -20.0, 0.5, 0.0, 0.0, 0.5, 0.0}, Interpolation::cubic);
     const ordered_json explained = explain(scene);
     ASSERT_EQ(explained["warnings"].size(), 1u);
     EXPECT_THAT(std::string(explained["warnings"][0]), HasSubstr("its field of view is"));

@@ -3,7 +3,6 @@
 
 #include "render/frame/frame_estimate.h"
 #include "render/frame/sequence.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -25,7 +24,7 @@ Scene make_moving_square(const std::vector<double>& places, const glm::dvec2& sh
         times.push_back(static_cast<double>(i) / frames_per_second);
         at.emplace_back(places[i], 0.0, 0.0);
     }
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>(times, at);
+    scene.nodes[0].transform.translation = Track<glm::dvec3>(times, at);
     add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.1))), {0.0, 0.0, -1.0});
     add_flat_view(scene, 0.5 * height / pixels_per_metre, shutter);
     return scene;
@@ -113,7 +112,7 @@ Scene make_lamp_scene(const Track<double>& intensity, const glm::dvec2& shutter)
 /// Dark up to the shutter's centre.
 Scene make_late_lamp() {
     const double frame = 1.0 / frames_per_second;
-    return make_lamp_scene(keyed<double>({0.0, frame, 2.0 * frame}, {0.0, 0.0, 1.0}), {-0.5, 0.5});
+    return make_lamp_scene(Track<double>({0.0, frame, 2.0 * frame}, {0.0, 0.0, 1.0}), {-0.5, 0.5});
 }
 
 /// With the threshold of darkness all pixels would take the most samples.
@@ -170,7 +169,7 @@ Scene make_scene_of(const PassingBar& bar) {
     const int node = add_mesh(scene, make_quad(bar.wide, 9.0, bright));
     const double far = 5.0 * bar.speed;
     scene.nodes[node].transform.translation =
-        keyed<glm::dvec3>({0.0, 10.0 / 30.0}, {{-far, 0.0, 0.0}, {far, 0.0, 0.0}});
+        Track<glm::dvec3>({0.0, 10.0 / 30.0}, {{-far, 0.0, 0.0}, {far, 0.0, 0.0}});
     add_flat_view(scene, 0.6);
     scene.cameras.back().shutter = glm::dvec2(0.0, 1.0);
     return scene;
@@ -229,7 +228,7 @@ Scene make_wall(bool plate) {
     if (plate) {
         const int node = add_mesh(scene, make_quad(1.5, 2.2, moving));
         scene.nodes[node].transform.translation =
-            keyed<glm::dvec3>({0.0, 10.0 / 30.0}, {{-1.2, 0.1, 1.0}, {13.8, 0.1, 1.0}});
+            Track<glm::dvec3>({0.0, 10.0 / 30.0}, {{-1.2, 0.1, 1.0}, {13.8, 0.1, 1.0}});
     }
     add_flat_view(scene, 0.5 * outline_height * outline_pixel);
     return scene;

@@ -3,7 +3,6 @@
 
 #include "render/frame/frame_estimate.h"
 #include "render/frame/sequence.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -20,7 +19,7 @@ Scene make_passing_square() {
     Scene scene;
     add_mesh(scene, make_quad(1.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(square_glow))));
     scene.nodes[0].transform.translation =
-        keyed<glm::dvec3>({0.0, 2.0 / 30.0}, {{-square_way, 0.0, 0.0}, {square_way, 0.0, 0.0}});
+        Track<glm::dvec3>({0.0, 2.0 / 30.0}, {{-square_way, 0.0, 0.0}, {square_way, 0.0, 0.0}});
     add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(wall_glow))),
              {0.0, 0.0, -1.0});
     add_flat_view(scene, 0.5 * sight_height / sight_scale, {-0.5, 0.5});

@@ -2,7 +2,6 @@
 
 #include "render/pixels/frame_checkpoint.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -115,7 +114,7 @@ TEST(FrameCheckpoint, OU07_LightThatComesBeforeTheFrameIsKept) {
     Scene still = pool_scene(), blurred = pool_scene();
     blurred.cameras.front().shutter = {0.0, 1.0};
     add_light(blurred, Light::Kind::point, glm::dvec3(500.0), {0.0, 2.0, 0.0}, z_to_up);
-    blurred.nodes.back().transform.translation = keyed<glm::dvec3>({0.0, 1.0}, {{-9.0, 2.0, 0.0}, {9.0, 2.0, 0.0}});
+    blurred.nodes.back().transform.translation = Track<glm::dvec3>({0.0, 1.0}, {{-9.0, 2.0, 0.0}, {9.0, 2.0, 0.0}});
     for (const auto& [name, scene, settings] :
          {std::tuple("keyframes", still, keyframes), std::tuple("shutter", blurred, shutter)}) {
         SCOPED_TRACE(name);

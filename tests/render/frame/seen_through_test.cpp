@@ -1,7 +1,6 @@
 // Speed of pixels that show a thing at rest behind one that moves: errors are seen as well as on the slower.
 
 #include "render/frame/sequence.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -23,7 +22,7 @@ Image<float> find_speed_before_wall(Sheet kind, double alpha = 1.0) {
     if (kind == Sheet::blended) material.opacity = {.alpha = alpha, .mode = Opacity::Mode::blend};
     add_mesh(scene, make_quad(30.0, 10.0, sheet));
     scene.nodes[0].transform.translation =
-        keyed<glm::dvec3>({0.0, 1.0 / 30.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+        Track<glm::dvec3>({0.0, 1.0 / 30.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
     add_mesh(scene, make_quad(30.0, 10.0, add_lambert(scene, glm::dvec3(0.5))), {0.0, 0.0, -1.0});
     add_camera(scene, {0.0, 0.0, 4.0}, glm::dvec3(0.0));
     const FrameRequest maps_only{.frame = false, .maps = true, .progress = {}};

@@ -4,7 +4,6 @@
 
 #include <numeric>
 
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/moving_box.h"
 #include "tests/support/scenes/perception_scene.h"
 #include "tests/support/test.h"
@@ -152,7 +151,7 @@ TEST(Sequence, TheExposureOfAShotThatFadesInIsThatOfALaterFrame) {
     const double lit = Sequence(scene, quick_settings(8, 6)).exposure();
     for (Material& material : scene.materials) {
         Track<glm::dvec3>& light = material.glow.color;
-        light = keyed<glm::dvec3>({0.0, scene.film.frame_rate.seconds_of(1)}, {glm::dvec3(0.0), light.values.front()});
+        light = Track<glm::dvec3>({0.0, scene.film.frame_rate.seconds_of(1)}, {glm::dvec3(0.0), light.values.front()});
         light.interpolation = Interpolation::step;
     }
     const double faded = Sequence(scene, quick_settings(8, 6)).exposure();

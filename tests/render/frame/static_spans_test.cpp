@@ -2,7 +2,6 @@
 
 #include "render/frame/static_spans.h"
 #include "render/frame/sequence.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -101,7 +100,7 @@ TEST(StaticSpans, AnOpenShutterSeesWhatChangesAroundAFrame) {
     // A lamp that is off only while the shutter of frame 7 is open, at no frame's own time.
     const double period = scene.film.frame_rate.seconds_of(1);
     scene.lights[0].intensity =
-        keyed<double>({0.0, 7.2 * period, 7.3 * period}, {20.0, 0.0, 20.0}, Interpolation::step);
+        Track<double>({0.0, 7.2 * period, 7.3 * period}, {20.0, 0.0, 20.0}, Interpolation::step);
     EXPECT_EQ(list_firsts(scene), own);
 }
 

@@ -2,7 +2,6 @@
 
 #include "render/frame/sequence.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/shot_scenes.h"
 #include "tests/support/test.h"
 
@@ -89,7 +88,7 @@ TEST(MotionBlur, MC27_IndirectLightOfALampThatDims) {
     // By less than a quarter, and most at the shutter's centre. What samples read there does not hold at other times,
     // not for later samples of the same pixel either.
     Scene scene = make_shot();
-    scene.lights[0].intensity = keyed<double>({0.0, 0.25, 0.5}, {2.0, 1.55, 2.0});
+    scene.lights[0].intensity = Track<double>({0.0, 0.25, 0.5}, {2.0, 1.55, 2.0});
     PictureMeans paths, differences;
     for (std::uint32_t seed = 0; seed < 8; ++seed) {
         Image<Rgb> picture = render_blurred(scene, Integrator::cache, seed, 64, 0.03);
@@ -117,7 +116,7 @@ TEST(MotionBlur, MC27_IndirectLightOfALampThatCrossesTheRoom) {
 
 TEST(MotionBlur, MC27_IndirectLightOfALampThatIsSwitchedOn) {
     Scene scene = make_shot();
-    scene.lights[0].intensity = keyed<double>({0.0, 0.2}, {0.5, 2.0}, Interpolation::step);
+    scene.lights[0].intensity = Track<double>({0.0, 0.2}, {0.5, 2.0}, Interpolation::step);
     expect_same_light(scene, 1.0);
     EXPECT_LT(count_paths(scene), 0.5);
 }
@@ -126,14 +125,14 @@ TEST(MotionBlur, FX15_IndirectLightOfALampWhoseLidSlidesAway) {
     // The lid is small and far from what is seen, and at the shutter's centre it is away.
     Scene scene = make_shot();
     const int lid = add_mesh(scene, make_box({0.3, 0.02, 0.3}, add_lambert(scene, glm::dvec3(0.05))));
-    scene.nodes[lid].transform.translation = keyed<glm::dvec3>({0.15, 0.2}, {{-1.0, 2.45, -1.0}, {-0.6, 2.45, -1.0}});
+    scene.nodes[lid].transform.translation = Track<glm::dvec3>({0.15, 0.2}, {{-1.0, 2.45, -1.0}, {-0.6, 2.45, -1.0}});
     expect_same_light(scene, 0.5);
 }
 
 TEST(MotionBlur, MC27_IndirectLightOfAWallThatIsDarkForAMoment) {
     Scene scene = make_shot();
     const glm::dvec3 bright(0.7), dark(0.05);
-    scene.materials[1].base_color = keyed<glm::dvec3>({0.2, 0.25, 0.3}, {bright, dark, bright});
+    scene.materials[1].base_color = Track<glm::dvec3>({0.2, 0.25, 0.3}, {bright, dark, bright});
     expect_same_light(scene, 0.5);
 }
 

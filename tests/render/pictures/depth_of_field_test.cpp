@@ -2,7 +2,6 @@
 
 #include "engine/base/pixel_loops.h"
 #include "render/frame/sequence.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
 
@@ -164,7 +163,7 @@ TEST(DepthOfField, ALensThatIsClosedAtTheMiddleOfTheShutterAlone) {
     scene.cameras[0].aperture = 0.8;
     const Spot open = spot();
     const double frame = scene.film.frame_rate.seconds_of(1);
-    scene.cameras[0].aperture = keyed<double>({-0.01 * frame, 0.0, 0.01 * frame}, {0.8, 0.0, 0.8});
+    scene.cameras[0].aperture = Track<double>({-0.01 * frame, 0.0, 0.01 * frame}, {0.8, 0.0, 0.8});
     EXPECT_NEAR(spot().radius, open.radius, 0.02 * open.radius);
 }
 

@@ -2,7 +2,6 @@
 
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/paths.h"
 #include "tests/support/scenes/render_scenes.h"
 #include "tests/support/test.h"
@@ -90,7 +89,7 @@ void expect_coverage(const Scene& scene, const Shape2d& covers) {
 
 TEST(MotionBlur, MC27_AMovingSquareCoversItsShareOfTheTime) {
     Scene scene = make_square_scene({0.0, 2.0});
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, at(2)}, {{-1.5, 0.0, 0.0}, {1.5, 0.5, 0.0}});
+    scene.nodes[0].transform.translation = Track<glm::dvec3>({0.0, at(2)}, {{-1.5, 0.0, 0.0}, {1.5, 0.5, 0.0}});
     expect_coverage(scene, [](glm::dvec2 p, double frame) {
         return is_in_square(p - glm::dvec2(-1.5 + 1.5 * frame, 0.25 * frame));
     });
@@ -100,7 +99,7 @@ TEST(MotionBlur, MC27_FewSamplesShowNoCopies) {
     // A tall bar that moves by 12 pixels, with 4 samples a pixel: blocks of 2x2 pixels see 16 times.
     Scene scene = make_square_scene({0.0, 1.0});
     scene.nodes[0].transform.scale = glm::dvec3(0.25, 8.0, 1.0);
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, at(1)}, {{-1.5, 0.0, 0.0}, {1.5, 0.0, 0.0}});
+    scene.nodes[0].transform.translation = Track<glm::dvec3>({0.0, at(1)}, {{-1.5, 0.0, 0.0}, {1.5, 0.0, 0.0}});
     double squares = 0.0;
     int blocks = 0;
     for (std::uint32_t seed = 0; seed < 16; ++seed) {
@@ -124,7 +123,7 @@ TEST(MotionBlur, MC27_TurnsFollowTheArc) {
         const double turn = degrees * std::numbers::pi / 180.0;
         Scene scene = make_square_scene({-0.5, 0.5});
         scene.nodes[0].transform.axis_rotation =
-            AxisRotation{{0.0, 0.0, 1.0}, keyed<double>({at(-0.5), at(0.5)}, {0.2, 0.2 + turn})};
+            AxisRotation{{0.0, 0.0, 1.0}, Track<double>({at(-0.5), at(0.5)}, {0.2, 0.2 + turn})};
         expect_coverage(scene, [&](glm::dvec2 p, double frame) {
             const double angle = 0.2 + turn * (frame + 0.5), c = std::cos(angle), s = std::sin(angle);
             return is_in_square({c * p.x + s * p.y, c * p.y - s * p.x});
@@ -134,20 +133,20 @@ TEST(MotionBlur, MC27_TurnsFollowTheArc) {
 
 TEST(MotionBlur, MC27_AScaleThroughZero) {
     Scene scene = make_square_scene({0.0, 1.0});
-    scene.nodes[0].transform.scale = keyed<glm::dvec3>({0.0, at(1)}, {{1.5, 1.0, 1.0}, {-1.5, 1.0, 1.0}});
+    scene.nodes[0].transform.scale = Track<glm::dvec3>({0.0, at(1)}, {{1.5, 1.0, 1.0}, {-1.5, 1.0, 1.0}});
     expect_coverage(scene, [](glm::dvec2 p, double frame) { return is_in_square({p.x / (1.5 - 3.0 * frame), p.y}); });
 }
 
 TEST(MotionBlur, MC27_AVisibilitySwitch) {
     Scene scene = make_square_scene({0.0, 1.0});
-    scene.nodes[0].visible = keyed<double>({0.0, at(0.7)}, {0.0, 1.0}, Interpolation::step);
+    scene.nodes[0].visible = Track<double>({0.0, at(0.7)}, {0.0, 1.0}, Interpolation::step);
     expect_coverage(scene, [](glm::dvec2 p, double frame) { return frame >= 0.7 && is_in_square(p); });
 }
 
 TEST(MotionBlur, MC27_AShutterOfTenFrames) {
     Scene scene = make_square_scene({-5.0, 5.0});
     scene.nodes[0].transform.translation =
-        keyed<glm::dvec3>({at(-5), at(0), at(5)}, {{-2, -1, 0}, {0, 1, 0}, {2, -1, 0}});
+        Track<glm::dvec3>({at(-5), at(0), at(5)}, {{-2, -1, 0}, {0, 1, 0}, {2, -1, 0}});
     expect_coverage(scene, [](glm::dvec2 p, double frame) {
         return is_in_square(p - glm::dvec2(0.4 * frame, 1.0 - 0.4 * std::abs(frame)));
     });
@@ -159,7 +158,7 @@ TEST(MotionBlur, MC27_AShutterOfZeroLengthIsOneMoment) {
         Scene scene = make_square_scene(glm::dvec2(offset));
         scene.nodes[0].transform.translation = glm::dvec3(place, 0.0, 0.0);
         if (moves)
-            scene.nodes[0].transform.translation = keyed<glm::dvec3>({0.0, at(2)}, {glm::dvec3(0.0), {3.0, 0.0, 0.0}});
+            scene.nodes[0].transform.translation = Track<glm::dvec3>({0.0, at(2)}, {glm::dvec3(0.0), {3.0, 0.0, 0.0}});
         return Sequence(scene, blur_settings(1)).render(0);
     };
     for (const double offset : {0.0, 0.5, 1.7}) {
@@ -177,7 +176,7 @@ TEST(MotionBlur, MC27_NoGhostOfTheOtherShot) {
         scene.materials[0].glow.color = glm::dvec3(0.0, 1.0, 0.0);
         add_mesh(scene, make_quad(2.0, 1.0, add_lambert(scene, glm::dvec3(0.0), {1.0, 0.0, 0.0})), {50.0, 0.0, 0.0});
         scene.nodes[1].transform.translation =
-            keyed<glm::dvec3>({0.0, at(5)}, {{0.0, 0.0, 5.0}, {50.0, 0.0, 5.0}}, Interpolation::step);
+            Track<glm::dvec3>({0.0, at(5)}, {{0.0, 0.0, 5.0}, {50.0, 0.0, 5.0}}, Interpolation::step);
         const FrameOutput out = Sequence(scene, blur_settings(1)).render(frame);
         glm::dvec3 sum(0.0);
         for (const Rgb& pixel : out.shaded.color.pixels) sum += glm::dvec3(pixel);
@@ -205,9 +204,9 @@ TEST(MotionBlur, FX15_LightThatChangesWhereNothingInViewMoves) {
         scene.cameras[0].shutter = {0.0, 1.0};
         if (door) {
             const int node = add_mesh(scene, make_quad(100.0, 100.0, 0), {0.0, 0.0, 10.0});
-            scene.nodes[node].visible = keyed<double>({0.0, at(0.25)}, {1.0, 0.0}, Interpolation::step);
+            scene.nodes[node].visible = Track<double>({0.0, at(0.25)}, {1.0, 0.0}, Interpolation::step);
         } else {
-            scene.lights[0].intensity = keyed<double>({0.0, at(1)}, {0.0, 1.5});
+            scene.lights[0].intensity = Track<double>({0.0, at(1)}, {0.0, 1.5});
         }
         EXPECT_TRUE(holds([&](Trial& trial) {
             Mean mean;
@@ -227,7 +226,7 @@ Scene make_late_lamp(double albedo) {
     scene.film.range = FrameRange{0, 10};
     add_mesh(scene, make_quad(50.0, 50.0, add_lambert(scene, glm::dvec3(albedo), glm::dvec3(0.0), true)));
     const int shining = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true);
-    scene.materials[shining].glow.strength = keyed<double>({0.0, at(0.75)}, {0.0, 100.0}, Interpolation::step);
+    scene.materials[shining].glow.strength = Track<double>({0.0, at(0.75)}, {0.0, 100.0}, Interpolation::step);
     add_mesh(scene, make_quad(1.0, 1.0, shining), {4.0, 0.0, 6.0});
     add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
     scene.cameras[0].shutter = {0.0, 1.0};
@@ -254,7 +253,7 @@ TEST(MotionBlur, SamplesWithoutARecordDoNotCastTheRaysOfOne) {
     Scene scene = make_late_lamp(0.5);
     // It spins so fast that its light is known at no other time.
     scene.nodes[1].transform.axis_rotation =
-        AxisRotation{.axis = {0.0, 1.0, 0.0}, .angle = keyed<double>({0.0, at(1.0)}, {0.0, 60.0})};
+        AxisRotation{.axis = {0.0, 1.0, 0.0}, .angle = Track<double>({0.0, at(1.0)}, {0.0, 60.0})};
     std::vector<std::uint64_t> rays;
     for (const int gather : {4, 256}) {
         RenderSettings settings = blur_settings(1);

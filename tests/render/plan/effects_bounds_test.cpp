@@ -1,7 +1,6 @@
 // The bounds of the effects plan: leaving an effect out changes no pixel by more.
 
 #include "render/plan/effects_plan.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/planned_scenes.h"
 #include "tests/support/test.h"
 
@@ -194,7 +193,7 @@ Scene make_turning_view(double degrees) {
     scene.cameras[0].shutter = {-0.5, 0.5};
     const double frame = scene.film.frame_rate.seconds_of(1);
     scene.nodes[0].transform.rotation =
-        keyed<glm::dquat>({-0.5 * frame, 0.5 * frame}, {glm::angleAxis(-0.5 * angle, glm::dvec3(0.0, 1.0, 0.0)),
+        Track<glm::dquat>({-0.5 * frame, 0.5 * frame}, {glm::angleAxis(-0.5 * angle, glm::dvec3(0.0, 1.0, 0.0)),
                                                         glm::angleAxis(0.5 * angle, glm::dvec3(0.0, 1.0, 0.0))});
     return scene;
 }
@@ -218,19 +217,19 @@ TEST(EffectsBounds, FX15_WhatChangesWhileTheShutterIsOpen) {
     const double frame = scene.film.frame_rate.seconds_of(1);
     Scene door = scene;
     const int node = add_mesh(door, make_quad(9.0, 9.0, add_lambert(door, glm::dvec3(0.0))), {0.0, 0.0, 9.0});
-    door.nodes[node].visible = keyed<double>({0.0, 0.3 * frame}, {1.0, 0.0}, Interpolation::step);
+    door.nodes[node].visible = Track<double>({0.0, 0.3 * frame}, {1.0, 0.0}, Interpolation::step);
     EXPECT_EQ(decision(door), Decision::simulate) << "a door out of view opens";
     EXPECT_EQ(decision(door, 1), Decision::skip) << "it is open";
     Scene lamp = scene;
     lamp.nodes.back().transform.translation =
-        keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(0.3, 0.2, 2.0), glm::dvec3(-0.3, 0.2, 2.0)});
+        Track<glm::dvec3>({0.0, frame}, {glm::dvec3(0.3, 0.2, 2.0), glm::dvec3(-0.3, 0.2, 2.0)});
     EXPECT_EQ(decision(lamp), Decision::simulate) << "a lamp moves, and no object does";
     Scene glow = scene;
-    glow.materials[0].glow.color = keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    glow.materials[0].glow.color = Track<glm::dvec3>({0.0, frame}, {glm::dvec3(0.0), glm::dvec3(1.0)});
     EXPECT_EQ(decision(glow), Decision::simulate);
     Scene entering = scene;
     entering.nodes[add_mesh(entering, make_quad(0.5, 0.5, 0), {9.0, 0.0, 0.0})].transform.translation =
-        keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(9.0, 0.0, 0.0), glm::dvec3(0.0)});
+        Track<glm::dvec3>({0.0, frame}, {glm::dvec3(9.0, 0.0, 0.0), glm::dvec3(0.0)});
     EXPECT_EQ(decision(entering), Decision::simulate) << "an object enters";
 }
 
@@ -239,7 +238,7 @@ template <class T>
 Track<T> swing(Scene& scene, const T& middle, const T& ends) {
     scene.cameras[0].shutter = {-0.5, 0.5};
     const double half = 0.5 * scene.film.frame_rate.seconds_of(1);
-    return keyed<T>({-half, 0.0, half}, {ends, middle, ends});
+    return Track<T>({-half, 0.0, half}, {ends, middle, ends});
 }
 
 TEST(EffectsBounds, FX02_FX03_LightAtTheMiddleOfTheShutterBoundsNone) {

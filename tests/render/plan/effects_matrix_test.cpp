@@ -4,7 +4,6 @@
 // deformation are in effects_plan_test.cpp (FX-07, FX-08).
 
 #include "render/plan/effects_plan.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/planned_scenes.h"
 #include "tests/support/test.h"
 
@@ -79,14 +78,14 @@ std::vector<Case> make_cases() {
     add("a mask", scene, {"direct_light", "alpha"});
 
     scene = make_lit_square();
-    scene.nodes[1].transform.translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+    scene.nodes[1].transform.translation = Track<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
     add("motion", scene, {"direct_light", "motion"}).perception.guide = Guide::full;
     add("motion that matters to viewers", scene, {"direct_light", "motion", "saliency"}).perception.guide =
         Guide::saliency;
     scene = make_lit_square();
     scene.cameras[0].shutter = {0.0, 0.5};
     scene.nodes[0].transform.translation =
-        keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.0, 0.0, 3.0), glm::dvec3(1.0, 0.0, 3.0)});
+        Track<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.0, 0.0, 3.0), glm::dvec3(1.0, 0.0, 3.0)});
     add("motion blur", scene, {"direct_light", "motion_blur"});
     scene = make_lit_square();
     scene.cameras[0].aperture = 0.2;

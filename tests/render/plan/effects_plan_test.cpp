@@ -21,7 +21,7 @@ TEST(EffectsPlan, FX01_FX09_MotionIsComputedWhereSomethingMoves) {
     settings.perception.guide = Guide::saliency;
     const FrameRequest maps{.maps = true, .progress = {}};
     Scene scene = make_lit_square();
-    scene.nodes[1].transform.translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1)});
+    scene.nodes[1].transform.translation = Track<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1)});
     EXPECT_EQ(effects_of(scene, settings), Names{"direct_light"}) << "keys that are all equal";
     // The maps are those of the stages that were skipped.
     RenderSettings forced = settings;
@@ -35,7 +35,7 @@ TEST(EffectsPlan, FX01_FX09_MotionIsComputedWhereSomethingMoves) {
     EXPECT_EQ(still.motion.validity.pixels, field.motion.validity.pixels);
     EXPECT_EQ(still.perception.saliency.pixels, field.perception.saliency.pixels) << "it is asked for";
 
-    scene.nodes[1].transform.translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1001)});
+    scene.nodes[1].transform.translation = Track<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1001)});
     EXPECT_EQ(effects_of(scene, settings), (Names{"direct_light", "motion", "saliency"}));
     EXPECT_EQ(effects_of(scene, settings, 3), Names{"direct_light"}) << "the animation is over";
     settings.perception.guide = Guide::full;
@@ -76,7 +76,7 @@ TEST(EffectsPlan, FX02_LightThatIsOutAtTheMiddleOfTheShutter) {
     const double always = mean();
     ASSERT_GT(always, 1e-3);
     scene.nodes[lamp].visible =
-        keyed<double>({0.0, 0.3 / scene.film.frame_rate.per_second()}, {1.0, 0.0}, Interpolation::step);
+        Track<double>({0.0, 0.3 / scene.film.frame_rate.per_second()}, {1.0, 0.0}, Interpolation::step);
     EXPECT_TRUE(effects_of(scene, settings).contains("indirect_diffuse"));
     EXPECT_NEAR(mean(), 0.3 * always, 0.03 * always);
 }
@@ -90,7 +90,7 @@ TEST(EffectsPlan, FX15_AnUnevenWayOfTheCameraIsLookedAtBetweenItsKeys) {
         times.push_back(i / 16.0 / scene.film.frame_rate.per_second());
         places.emplace_back(0.3 * (i % 2), 0.0, 3.0);
     }
-    scene.nodes[0].transform.translation = keyed<glm::dvec3>(times, places);
+    scene.nodes[0].transform.translation = Track<glm::dvec3>(times, places);
     EXPECT_TRUE(effects_of(scene).contains("motion_blur"));
 }
 
@@ -170,7 +170,7 @@ TEST(EffectsPlan, FX07_FX08_ShapesThatChange) {
     skinned.film.exposure = 1.0;
     EXPECT_FALSE(effects_of(skinned).contains("deformation")) << "joints at rest";
     skinned.nodes[2].transform.rotation =
-        keyed<glm::dquat>({0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dquat(0.6, 0.0, 0.0, 0.8)});
+        Track<glm::dquat>({0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dquat(0.6, 0.0, 0.0, 0.8)});
     EXPECT_TRUE(effects_of(skinned).contains("deformation"));
     Mesh& mesh = scene.meshes[0];
     scene.nodes[1].meshes = {0};
@@ -178,7 +178,7 @@ TEST(EffectsPlan, FX07_FX08_ShapesThatChange) {
     mesh.deformation.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 0.1f));
     mesh.deformation.target_weights = {Track<double>(0.0)};
     EXPECT_FALSE(effects_of(scene).contains("deformation")) << "weights of 0";
-    mesh.deformation.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
+    mesh.deformation.target_weights = {Track<double>({0.0, 1.0}, {0.0, 1.0})};
     EXPECT_TRUE(effects_of(scene).contains("deformation"));
 }
 

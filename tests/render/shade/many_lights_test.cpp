@@ -4,7 +4,6 @@
 #include "render/light/light_cut.h"
 #include "render/light/seen_light_tree.h"
 #include "tests/support/all_pixels.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/path_estimates.h"
 #include "tests/support/test.h"
 
@@ -72,13 +71,13 @@ Scene make_crowd_scene(const std::vector<CrowdLight>& lights, CrowdKind kind) {
         scene.cameras[0].shutter = {0.0, 0.5};
         const int patch = add_mesh(scene, make_quad(0.3, 0.3, 0), {}, z_to_up);  // of the floor
         scene.nodes[patch].transform.translation =
-            keyed<glm::dvec3>({0.0, 10.0 / crowd_fps}, {{-0.2, 5e-4, 0.0}, {0.2, 5e-4, 0.0}});
+            Track<glm::dvec3>({0.0, 10.0 / crowd_fps}, {{-0.2, 5e-4, 0.0}, {0.2, 5e-4, 0.0}});
     }
     scene.cameras[0].half_height = 0.5 * crowd_height * crowd_pixel;
     for (const CrowdLight& light : lights) {
         add_light(scene, Light::Kind::point, glm::dvec3(light.intensity), light.at);
         if (kind == CrowdKind::moving)
-            scene.nodes.back().transform.translation = keyed<glm::dvec3>({0.0, 10.0 / crowd_fps}, {light.at, light.to});
+            scene.nodes.back().transform.translation = Track<glm::dvec3>({0.0, 10.0 / crowd_fps}, {light.at, light.to});
     }
     return scene;
 }
@@ -140,6 +139,20 @@ TEST(ManyLights, MC23_AThousandCostAtMostFourTimesTenAndNoPixelErrsByMore) {
     }
 }
 
+/// Light at the middle of the floor by so many samples, which choose lights by a tree.
+Mean sample_floor(const Stage& stage, const LightTree& tree, int count, std::uint32_t seed, int lights) {
+    LightingContext lighting = stage.lighting();
+    lighting.seen = &tree;
+    const ViewedSurface floor{make_point(glm::vec3(0.0f), up), make_lambert(0.6f), up};
+    RayTask task(stage.rays);
+    Mean mean;
+    for (int i = 0; i < count; ++i) {
+        const PixelSequence sequence(static_cast<std::uint32_t>(i) + seed, 0, 5, 7);
+        mean.add(sample_direct_light(lighting, task, LitSurface(floor), {}, sequence, {0, lights}).x);
+    }
+    return mean;
+}
+
 TEST(ManyLights, MC23_HiddenLightsAreChosenSeldom) {
     const std::vector<CrowdLight> lights = place_crowd(1000, CrowdKind::one_visible);
     const Stage stage(make_crowd_scene(lights, CrowdKind::one_visible), 32, 24);
@@ -149,17 +162,9 @@ TEST(ManyLights, MC23_HiddenLightsAreChosenSeldom) {
     const LightTree tree = make_seen_light_tree(stage.shading, stage.lights, hidden);
     ASSERT_FALSE(tree.groups.empty());
     EXPECT_LE(counts.shadow, 64'000u);
-    LightingContext lighting = stage.lighting();
-    lighting.seen = &tree;
-    const ViewedSurface floor{make_point(glm::vec3(0.0f), up), make_lambert(0.6f), up};
     const double expected = crowd_radiance(lights, glm::dvec3(0.0), 0.0);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        RayTask task(stage.rays);
-        Mean mean;
-        for (int i = 0; i < trial.times(2000); ++i) {
-            const PixelSequence sequence(static_cast<std::uint32_t>(i) + trial.seed, 0, 5, 7);
-            mean.add(sample_direct_light(lighting, task, LitSurface(floor), {}, sequence, {0, 1}).x);
-        }
+        const Mean mean = sample_floor(stage, tree, trial.times(2000), trial.seed, 1);
         trial.near(mean, expected, 1e-5 * expected);
         EXPECT_LT(mean.error() * std::sqrt(trial.times(2000.0)), expected);  // 30 times that, by power alone
     }));
@@ -172,16 +177,8 @@ TEST(ManyLights, MC23_LightsThatAreTakenForHiddenKeepTheirLight) {
     std::vector<LightNode> nodes = make_light_nodes(stage.shading, stage.lights);
     for (std::size_t i = 0; i < nodes.size(); i += 2) nodes[i].strength *= 0.1f, nodes[i].most *= 0.1f;
     const LightTree tree = make_light_tree(nodes);
-    LightingContext lighting = stage.lighting();
-    lighting.seen = &tree;
-    const ViewedSurface floor{make_point(glm::vec3(0.0f), up), make_lambert(0.6f), up};
     EXPECT_TRUE(holds([&](Trial& trial) {
-        RayTask task(stage.rays);
-        Mean mean;
-        for (int i = 0; i < trial.times(4000); ++i) {
-            const PixelSequence sequence(static_cast<std::uint32_t>(i) + trial.seed, 0, 5, 7);
-            mean.add(sample_direct_light(lighting, task, LitSurface(floor), {}, sequence, {0, 4}).x);
-        }
+        const Mean mean = sample_floor(stage, tree, trial.times(4000), trial.seed, 4);
         trial.near(mean, crowd_radiance(lights, glm::dvec3(0.0), 0.0), 1e-5);
     }));
     // Where nothing is hidden, the choice stays as it is.

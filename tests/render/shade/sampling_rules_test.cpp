@@ -1,7 +1,6 @@
 // Pictures with a closed form under every rule that ends the sampling of a pixel, and at an error that is asked for.
 
 #include "render/frame/sequence.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/penumbra.h"
 #include "tests/support/test.h"
 
@@ -172,7 +171,7 @@ TEST_P(SamplingRules, MC23_AThousandMovingLights) {
     Scene scene = make_many_lights();
     for (int i = 0; i < lit_points; ++i) {
         scene.nodes[scene.nodes.size() - lit_points + static_cast<std::size_t>(i)].transform.translation =
-            keyed<glm::dvec3>({0.0, 10.0 / frame_rate}, {place_light(i), place_light(i, 0.8)});
+            Track<glm::dvec3>({0.0, 10.0 / frame_rate}, {place_light(i), place_light(i, 0.8)});
     }
     RenderSettings settings = settings_of(GetParam(), lit_width, lit_height);
     settings.light.light_samples = 4;
@@ -202,7 +201,7 @@ TEST_P(SamplingRules, MC27_ATurningSquareWhileTheShutterIsOpen) {
     scene.cameras[0].shutter = {-0.5, 0.5};
     const int node = add_mesh(scene, make_quad(2.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true)));
     AxisRotation rotation{.axis = {0.0, 0.0, 1.0},
-                          .angle = keyed<double>({-0.5 / frame_rate, 0.5 / frame_rate}, {0.2, 0.2 + turn})};
+                          .angle = Track<double>({-0.5 / frame_rate, 0.5 / frame_rate}, {0.2, 0.2 + turn})};
     scene.nodes[node].transform.axis_rotation = rotation;
     const Truth truth = [turn](int x, int y) {
         constexpr int times = 4096;

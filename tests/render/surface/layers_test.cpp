@@ -4,7 +4,6 @@
 #include "render/surface/bsdf.h"
 #include "render/surface/lambert_hit.h"
 #include "render/surface/surface_material.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/lobes.h"
 #include "tests/support/test.h"
 
@@ -268,7 +267,7 @@ Scene make_colored_scene() {
 TEST(LambertHit, IsTheSurfaceOfTheFullWay) {
     Scene scene = make_colored_scene();
     add_mesh(scene, make_box({0.3, 0.3, 0.3}, 0), {-0.6, -0.4, 0.2});
-    scene.nodes.back().transform.axis_rotation = AxisRotation{{0.0, 0.6, 0.8}, keyed<double>({0.0, 1.0}, {0.1, 0.9})};
+    scene.nodes.back().transform.axis_rotation = AxisRotation{{0.0, 0.6, 0.8}, Track<double>({0.0, 1.0}, {0.1, 0.9})};
     const Stage stage(std::move(scene), 40, 30);
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
     std::vector<Ray> rays;

@@ -3,7 +3,6 @@
 #include "render/time/shutter_light.h"
 
 #include "tests/render/time/plate.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/test.h"
 
 namespace aleph {
@@ -250,7 +249,7 @@ TEST(ShutterLight, BetweenTwoTimesBrightnessIsComparedWithTheLine) {
     const auto dims = [](std::vector<double> seconds, std::vector<double> values) {
         Plate plate;
         add_light(plate.scene, Light::Kind::point, glm::dvec3(5.0), {0.0, 4.0, 0.0}, z_to_down);
-        plate.scene.lights.back().intensity = keyed<double>(std::move(seconds), std::move(values));
+        plate.scene.lights.back().intensity = Track<double>(std::move(seconds), std::move(values));
         const Stage before(plate.scene), after(plate.scene, 32, 24, 1.0), sample(plate.scene, 32, 24, 0.25);
         return find_dimming(before.shading, after.shading, 0.25f, sample.shading);
     };

@@ -2,7 +2,6 @@
 
 #include "render/time/shutter.h"
 #include "render/frame/sequence_state.h"
-#include "tests/support/keyed_track.h"
 #include "tests/support/scenes/shot_scenes.h"
 #include "tests/support/test.h"
 
@@ -70,17 +69,17 @@ TEST(Shutter, MC27_AShotEndsBeforeKeysThatLeadIntoTheNext) {
     using Keys = std::vector<glm::dvec3>;
     const auto crossed = [](const Scene& scene) { return find_crossed_cuts(scene, [](std::int64_t) { return 0; }); };
     const glm::dvec3 there(40, 0, 0), on(1, 0, 0);
-    const Scene neighbours = make_jump(keyed<glm::dvec3>({0, 4, 5, 9}, Keys{{}, on, there, there + on}));
+    const Scene neighbours = make_jump(Track<glm::dvec3>({0, 4, 5, 9}, Keys{{}, on, there, there + on}));
     EXPECT_EQ(crossed(neighbours), neighbours.film.cuts);
     const ShutterInterval found = find_shutter(neighbours, {-0.25, 0.5}, 4, neighbours.film.cuts).value();
     EXPECT_EQ(found.open, 3.75);
     EXPECT_EQ(found.close, 4.0);
     EXPECT_DOUBLE_EQ(find_shutter_center(neighbours, {0.0, 0.5}, 4, neighbours.film.cuts), 4.0);
     // A step takes no time, and what moves on is no jump.
-    Track<glm::dvec3> step = keyed<glm::dvec3>({0, 5}, Keys{{}, there});
+    Track<glm::dvec3> step = Track<glm::dvec3>({0, 5}, Keys{{}, there});
     step.interpolation = Interpolation::step;
     EXPECT_TRUE(crossed(make_jump(step)).empty());
-    EXPECT_TRUE(crossed(make_jump(keyed<glm::dvec3>({0, 4, 5, 9}, Keys{{}, 4.0 * on, 5.0 * on, 9.0 * on}))).empty());
+    EXPECT_TRUE(crossed(make_jump(Track<glm::dvec3>({0, 4, 5, 9}, Keys{{}, 4.0 * on, 5.0 * on, 9.0 * on}))).empty());
 }
 
 TEST(Shutter, ItsCenterStaysInTheShot) {
@@ -109,7 +108,7 @@ std::vector<std::int64_t> find_breaks(Scene scene, const glm::dvec2& shutter) {
 }
 
 Track<double> step_after_frame_14(double from, double to) {
-    return keyed<double>({0.0, 14.5 / 30.0}, {from, to}, Interpolation::step);
+    return Track<double>({0.0, 14.5 / 30.0}, {from, to}, Interpolation::step);
 }
 
 TEST(LightBreaks, FramesAreLookedAtAtTheShutterOfTheirOwnCamera) {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/pose/pose.h"
-#include "tests/support/keyed_track.h"
 
 namespace aleph {
 
@@ -88,7 +87,7 @@ inline glm::dvec3 bent_by(const glm::vec3& rest, double angle) {
 inline Scene make_everything_scene() {
     Scene scene = make_skin_scene();
     scene.nodes[2].transform.rotation =
-        keyed<glm::dquat>({0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dquat(0.6, 0.0, 0.0, 0.8)});
+        Track<glm::dquat>({0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dquat(0.6, 0.0, 0.0, 0.8)});
     const auto add_node = [&](int parent) -> Node& {
         scene.nodes.emplace_back();
         scene.nodes.back().parent = parent;
@@ -106,37 +105,37 @@ inline Scene make_everything_scene() {
     Mesh& morph = scene.meshes[morphed];
     morph.deformation.targets.resize(1);
     morph.deformation.targets[0].positions.assign(morph.positions.size(), glm::vec3(0.25f, 0.5f, 1.0f));
-    morph.deformation.target_weights = {keyed<double>({0.0, 1.5}, {0.0, 1.0})};
+    morph.deformation.target_weights = {Track<double>({0.0, 1.5}, {0.0, 1.0})};
     Mesh& always = scene.meshes[held];
     always.deformation.targets.resize(1);
     always.deformation.targets[0].positions.assign(always.positions.size(), glm::vec3(1.0f));
     always.deformation.target_weights = {Track<double>(0.5)};
-    scene.meshes[passing].present = keyed<double>({0.5, 1.0}, {1.0, 0.0}, Interpolation::step);
+    scene.meshes[passing].present = Track<double>({0.5, 1.0}, {1.0, 0.0}, Interpolation::step);
     add_node(no_index).meshes = {cached, still};
     add_node(3).meshes = {morphed, passing};
     add_node(no_index).meshes = {still, held};
     Node& mover = add_node(4);  // 6
     mover.transform.translation =
-        keyed<glm::dvec3>({0.0, 2.0}, {glm::dvec3(0.0, 0.0, -2.0), glm::dvec3(3.0, 0.0, -2.0)});
+        Track<glm::dvec3>({0.0, 2.0}, {glm::dvec3(0.0, 0.0, -2.0), glm::dvec3(3.0, 0.0, -2.0)});
     mover.meshes = {cached, still};
     Node& detached = add_node(6);  // 7
-    detached.inherits = keyed<double>({0.0, 0.5}, {0.0, 1.0}, Interpolation::step);
+    detached.inherits = Track<double>({0.0, 0.5}, {0.0, 1.0}, Interpolation::step);
     detached.meshes = {still};
-    detached.visible = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
-    scene.nodes[5].visible = keyed<double>({0.0, 0.75}, {1.0, 0.0}, Interpolation::step);
+    detached.visible = Track<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
+    scene.nodes[5].visible = Track<double>({0.0, 0.75}, {1.0, 0.0}, Interpolation::step);
     Node& stack = add_node(no_index);  // 8
     stack.transform.operations = OperationStack{{OperationStack::Kind::rotate_y}, {}, {0.0, 1.0}};
     stack.light = 0;
     scene.lights.resize(2);
-    scene.lights[1].intensity = keyed<double>({0.0, 1.0}, {1.0, 5.0});
+    scene.lights[1].intensity = Track<double>({0.0, 1.0}, {1.0, 5.0});
     add_node(7).light = 1;
     scene.cameras.resize(2);
     add_node(8).camera = 0;
     add_node(no_index).camera = 1;
-    scene.cameras[1].fov = keyed<double>({0.0, 1.0}, {0.5, 1.0});
+    scene.cameras[1].fov = Track<double>({0.0, 1.0}, {0.5, 1.0});
     scene.materials.resize(2);
-    scene.materials[1].gloss.roughness = keyed<double>({0.0, 1.0}, {0.1, 0.9});
-    scene.environment.radiance = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    scene.materials[1].gloss.roughness = Track<double>({0.0, 1.0}, {0.1, 0.9});
+    scene.environment.radiance = Track<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0)});
     return scene;
 }
 

@@ -20,7 +20,7 @@ inline constexpr double degrees = std::numbers::pi / 180.0;
 /// Linear from one value to the other between two times, held outside.
 template <class T>
 Track<T> ramp(const T& from, const T& to, double begin = 0.0, double end = 1.0) {
-    return keyed<T>({begin, end}, {from, to});
+    return Track<T>({begin, end}, {from, to});
 }
 
 inline int add_node(Scene& scene, Node node) {
