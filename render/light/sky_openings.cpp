@@ -27,6 +27,7 @@ BoxExit leave_box(const SkyOpenings& box, const glm::vec3& origin, const glm::ve
         nearest = t;
         exit.side = 2 * axis + (upper ? 1 : 0);
     }
+    exit.distance = nearest;
     const glm::vec3 at = origin + direction * nearest;
     const auto [a, b] = other_axes(exit.side / 2);
     exit.at = {at[a], at[b]};
@@ -35,8 +36,9 @@ BoxExit leave_box(const SkyOpenings& box, const glm::vec3& origin, const glm::ve
 
 namespace {
 
-constexpr float least_solid_angle = 2e-3f;  // sr, of each half: sample_spherical_triangle
-constexpr float least_cosine = 0.05f;       // of an opening that hardly faces the surface
+/// sr, of each half: smaller ones are sampled by area, as sample_spherical_triangle would be too coarse.
+constexpr float least_solid_angle = 2e-3f;
+constexpr float least_cosine = 0.05f;  // of an opening that hardly faces the surface
 
 /// The openings that a receiver sees.
 struct SeenOpenings {
@@ -45,6 +47,7 @@ struct SeenOpenings {
     float total = 0.0f;
 
     float angle(std::size_t i) const { return angles[i][0] + angles[i][1]; }
+    bool is_by_area(std::size_t i) const { return !(std::min(angles[i][0], angles[i][1]) > least_solid_angle); }
 };
 
 SeenOpenings see_openings(const SkyOpenings& all, const Receiver& receiver) {
@@ -59,11 +62,19 @@ SeenOpenings see_openings(const SkyOpenings& all, const Receiver& receiver) {
             cosine = std::max(cosine, receiver.behind ? std::abs(own) : own);
         }
         seen.angles[i] = {solid_angle(to[0], to[1], to[2]), solid_angle(to[0], to[2], to[3])};
-        if (!(std::min(seen.angles[i][0], seen.angles[i][1]) > least_solid_angle)) continue;
         seen.weights[i] = seen.angle(i) * cosine;
         seen.total += seen.weights[i];
     }
     return seen;
+}
+
+/// Per steradian, of the samples of one opening.
+/// @param at  where the direction meets it, from the receiver
+float find_opening_density(const SkyOpening& opening, const SeenOpenings& seen, std::size_t i, const glm::vec3& at) {
+    if (!seen.is_by_area(i)) return 1.0f / seen.angle(i);
+    const glm::vec2 size = opening.high - opening.low;
+    const float distance = glm::length(at), across = std::abs(at[opening.side / 2]);
+    return distance * distance * distance / (across * size.x * size.y);
 }
 
 float find_density(const SkyOpenings& all, const SeenOpenings& seen, const glm::vec3& from,
@@ -76,7 +87,8 @@ float find_density(const SkyOpenings& all, const SeenOpenings& seen, const glm::
         const bool is_within = opening.side == exit.side &&
                                glm::all(glm::greaterThanEqual(exit.at, opening.low - rounding)) &&
                                glm::all(glm::lessThanEqual(exit.at, opening.high + rounding));
-        if (is_within && seen.weights[i] > 0.0f) density += seen.weights[i] / (seen.total * seen.angle(i));
+        if (is_within && seen.weights[i] > 0.0f)
+            density += seen.weights[i] / seen.total * find_opening_density(opening, seen, i, exit.distance * direction);
     }
     return density;
 }
@@ -101,6 +113,11 @@ std::optional<glm::vec3> sample_openings(const SkyOpenings& all, const Receiver&
     u.x = std::clamp(place / halves[second ? 1 : 0], 0.0f, 0x1.fffffep-1f);
     const auto& corners = all.openings[chosen].corners;
     const glm::vec3& eye = receiver.position;
+    if (seen.is_by_area(chosen)) {
+        const glm::vec3 along = corners[1] - corners[0], up = corners[3] - corners[0];
+        const float share = std::min(left / seen.weights[chosen], 1.0f);
+        return glm::normalize(corners[0] + along * share + up * u.y - eye);
+    }
     return sample_spherical_triangle(corners[0] - eye, corners[second ? 2 : 1] - eye, corners[second ? 3 : 2] - eye,
                                      halves[second ? 1 : 0], u);
 }

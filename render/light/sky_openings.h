@@ -34,7 +34,8 @@ inline std::array<int, 2> other_axes(int axis) {
 /// Where a ray leaves the box.
 struct BoxExit {
     int side = 0;
-    glm::vec2 at{0.0f};  ///< m, along the axes other than the side's
+    float distance = 0.0f;  ///< m
+    glm::vec2 at{0.0f};     ///< m, along the axes other than the side's
 };
 
 bool is_inside(const SkyOpenings& box, const glm::vec3& position);
@@ -43,7 +44,7 @@ bool is_inside(const SkyOpenings& box, const glm::vec3& position);
 BoxExit leave_box(const SkyOpenings& box, const glm::vec3& origin, const glm::vec3& direction);
 
 /// A unit direction towards an opening, by solid angle and cosine; nothing for a receiver outside of the box, or one
-/// that sees no opening large enough.
+/// that sees no opening.
 std::optional<glm::vec3> sample_openings(const SkyOpenings& openings, const Receiver& receiver, glm::vec2 u);
 
 /// Density per steradian of sample_openings; nothing where that gives nothing.

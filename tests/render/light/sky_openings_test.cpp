@@ -1,5 +1,7 @@
 // Openings towards the sky: where they are found, and that samples towards them have the density that is told.
 
+#include <glm/vector_relational.hpp>
+
 #include "render/frame/sequence.h"
 #include "render/light/find_sky_openings.h"
 #include "tests/support/scenes/render_scenes.h"
@@ -115,6 +117,29 @@ TEST(SkyOpenings, SamplesHaveTheDensityThatIsTold) {
         EXPECT_NEAR(all.mean(), 1.0, 4.0 * all.error());
         EXPECT_LT(all.error(), 0.03);
         EXPECT_NEAR(sampled_upper.mean(), upper.mean(), 4.0 * std::hypot(upper.error(), sampled_upper.error()));
+    }
+}
+
+TEST(SkyOpenings, ASmallOneIsSampledByArea) {
+    const Stage stage(make_room_with_window());
+    SkyOpenings openings = find_openings(stage).value();
+    SkyOpening& small = openings.openings.front();
+    small.high = small.low + 0.02f;
+    for (std::size_t i = 1; i < 4; ++i) {
+        const glm::vec3 off = small.corners[i] - small.corners[0];
+        small.corners[i] = small.corners[0] + glm::vec3(glm::greaterThan(off, glm::vec3(0.0f))) * 0.02f;
+    }
+    RandomStream random({4, 0, 0, 0});
+    for (const Receiver& receiver : make_receivers(stage)) {
+        const auto to = [&](int i) { return small.corners[i] - receiver.position; };
+        Mean solid_angles;
+        for (int i = 0; i < 1000; ++i) {
+            const glm::vec3 d = *sample_openings(openings, receiver, random.next_2d());
+            solid_angles.add(1.0 / *pdf_openings(openings, receiver, d));
+        }
+        const double expected = solid_angle(to(0), to(1), to(2)) + solid_angle(to(0), to(2), to(3));
+        EXPECT_LT(expected, 2e-3);
+        EXPECT_NEAR(solid_angles.mean(), expected, 2e-3 * expected);
     }
 }
 
