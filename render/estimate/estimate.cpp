@@ -7,6 +7,7 @@
 
 #include "render/cache/gather.h"
 #include "render/estimate/sight_line.h"
+#include "render/light/find_sky_openings.h"
 #include "render/light/seen_light_tree.h"
 
 namespace aleph {
@@ -246,10 +247,15 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
                             const EstimateOptions& options, RayCounts& counts) {
     const EstimateKind kind = options.kind;
     HiddenLights hidden;
-    if (kind == EstimateKind::direct) hidden = find_hidden_lights(context, view, centers, counts);
+    std::optional<SkyOpenings> openings;
+    if (kind == EstimateKind::direct) {
+        hidden = find_hidden_lights(context, view, centers, counts);
+        openings = find_sky_openings(context, view, centers, counts);
+    }
     const LightTree seen = make_seen_light_tree(context.shading, context.lights, hidden);
     LightingContext lighting = context;
     if (!seen.groups.empty()) lighting.seen = &seen;
+    if (openings) lighting.openings = &*openings;
     Image<Rgb> estimate(view.width, view.height);
     std::optional<NodeIrradiance> indirect;
     if (options.indirect != nullptr && kind == EstimateKind::direct) indirect.emplace(*options.indirect);

@@ -89,7 +89,8 @@ bool SightLine::reflect() {
 float SightLine::weight_beyond() const {
     const PathState& turned = way_.turned;
     if (turned.emission == EmissionWeight::full || !lighting_.lights.has_environment) return 1.0f;
-    return power_heuristic(turned.pdf, pdf_environment(lighting_.shading, turned.from, direction()));
+    return power_heuristic(turned.pdf,
+                           pdf_environment(lighting_.shading, turned.from, direction(), lighting_.openings));
 }
 
 /// First hits do not tell what they passed.

@@ -8,6 +8,7 @@
 #include "render/frame/frame_window.h"
 #include "render/frame/prepared_frame.h"
 #include "render/frame/sequence_state.h"
+#include "render/light/find_sky_openings.h"
 #include "render/light/seen_light_tree.h"
 #include "render/plan/effect_table.h"
 #include "render/settings/measure.h"
@@ -82,10 +83,15 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     const HiddenLights hidden = find_hidden_lights(lighting, out.view, prepared.centers, out.statistics.counts.rays);
     const LightTree seen = make_seen_light_tree(lighting.shading, lighting.lights, hidden);
     if (!seen.groups.empty()) lighting.seen = &seen;
+    const std::optional<SkyOpenings> openings =
+        find_sky_openings(lighting, out.view, prepared.centers, out.statistics.counts.rays);
+    if (openings) lighting.openings = &*openings;
     LightTree seen_at_sample;
-    if (options.at_sample && !hidden.empty()) {
+    if (options.at_sample && (openings || !hidden.empty())) {
         options.at_sample = [&, at_sample = options.at_sample](int sample, int pixel_class) {
             SampleScene scene = at_sample(sample, pixel_class);
+            scene.lighting.openings = lighting.openings;
+            if (hidden.empty()) return scene;
             seen_at_sample = make_seen_light_tree(scene.lighting.shading, scene.lighting.lights, hidden);
             scene.lighting.seen = &seen_at_sample;
             return scene;

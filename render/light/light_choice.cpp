@@ -32,8 +32,9 @@ ScatteredLight sample_one_light(const LightingContext& context, const Receiver& 
     const LightPick pick = pick_light(cut, receiver, numbers.choice);
     // A value that is not finite is not hidden: the sample is dropped and counted.
     if (pick.light == no_index) return {{}, Rgb(std::isfinite(cut.total) ? 0.0f : cut.total)};
-    return scatter(sample_light(context.shading, context.lights, pick.light, receiver, numbers.point),
-                   pick.probability);
+    return scatter(
+        sample_light(context.shading, context.lights, pick.light, receiver, numbers.point, 0.0f, context.openings),
+        pick.probability);
 }
 
 }  // namespace

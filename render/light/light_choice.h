@@ -16,6 +16,7 @@ struct LightingContext {
     Media around{};  ///< of the points that paths start from, such as the camera
     /// The tree of the same lights for direct light of what the camera sees (seen_light_tree.h); null: LightSet::tree.
     const LightTree* seen = nullptr;
+    const SkyOpenings* openings = nullptr;  ///< find_sky_openings; null: none
 };
 
 /// The receiver by which lights are chosen for a surface. It may refer to it.

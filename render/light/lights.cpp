@@ -210,9 +210,20 @@ LightSample sample_punctual(const PunctualLight& light, const Receiver& receiver
     return sample;
 }
 
-LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, const glm::vec2& u) {
+/// Density of samples that are not for openings.
+float pdf_anywhere(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction) {
+    if (shading.environment.map != nullptr)
+        return pdf_environment(*shading.environment.map, direction * shading.environment.rotation);
+    return pdf_cosine_hemisphere(glm::dot(receiver.normal, direction));
+}
+
+/// Share of the samples that go towards openings. A picture may have a sun, which only its own samples find.
+float openings_share(const ShadingScene& shading) {
+    return shading.environment.map != nullptr ? 0.5f : 0.75f;
+}
+
+LightSample sample_anywhere(const ShadingScene& shading, const Receiver& receiver, const glm::vec2& u) {
     LightSample sample;
-    sample.distance = std::numeric_limits<float>::infinity();
     if (shading.environment.map != nullptr) {
         const EnvironmentSample picture = sample_environment(*shading.environment.map, u);
         sample.direction = shading.environment.rotation * picture.direction;
@@ -222,6 +233,24 @@ LightSample sample_surroundings(const ShadingScene& shading, const Receiver& rec
         sample.direction = make_basis(receiver.normal).to_world(local);
         sample.pdf = pdf_cosine_hemisphere(local.z);
     }
+    return sample;
+}
+
+LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, glm::vec2 u,
+                                const SkyOpenings* openings) {
+    LightSample sample;
+    std::optional<glm::vec3> towards;
+    if (openings != nullptr) {
+        const float share = openings_share(shading);
+        const bool for_openings = u.x < share;
+        const glm::vec2 own{std::min(for_openings ? u.x / share : (u.x - share) / (1.0f - share), 0x1.fffffep-1f), u.y};
+        towards = sample_openings(*openings, receiver, own);
+        if (towards && for_openings) sample.direction = *towards;
+        if (towards && !for_openings) sample.direction = sample_anywhere(shading, receiver, own).direction;
+        if (towards) sample.pdf = pdf_environment(shading, receiver, sample.direction, openings);
+    }
+    if (!towards) sample = sample_anywhere(shading, receiver, u);
+    sample.distance = std::numeric_limits<float>::infinity();
     if (sample.pdf > 0.0f) sample.incoming = environment_radiance(shading, sample.direction) / sample.pdf;
     return sample;
 }
@@ -261,11 +290,12 @@ glm::vec3 sample_spherical_triangle(const glm::vec3& a, const glm::vec3& b, cons
     return ub * z + perpendicular(corner, ub) * std::sqrt(std::max(0.0f, 1.0f - z * z));
 }
 
-float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction) {
-    if (shading.environment.map != nullptr) {
-        return pdf_environment(*shading.environment.map, direction * shading.environment.rotation);
-    }
-    return pdf_cosine_hemisphere(glm::dot(receiver.normal, direction));
+float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction,
+                      const SkyOpenings* openings) {
+    const float anywhere = pdf_anywhere(shading, receiver, direction);
+    if (openings == nullptr) return anywhere;
+    const std::optional<float> towards = pdf_openings(*openings, receiver, direction);
+    return towards ? std::lerp(anywhere, *towards, openings_share(shading)) : anywhere;
 }
 
 float pdf_emitter(const Emitter& emitter, const glm::vec3& position, const Hit& hit, float cosine, float distance) {
@@ -281,19 +311,20 @@ SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position
 }
 
 LightSample sample_seen_light(const ShadingScene& shading, const LightSet& lights, const SeenLight& seen,
-                              const Receiver& receiver, const glm::vec2& u, float share) {
+                              const Receiver& receiver, const glm::vec2& u, float share, const SkyOpenings* openings) {
     const int emitters = static_cast<int>(lights.emitters.size());
     if (seen.light < emitters) {
         return sample_emitter(shading, lights.emitters[seen.light], seen, receiver.position, u, share);
     }
     const int punctual = seen.light - emitters;
     if (punctual < std::ssize(lights.punctual)) return sample_punctual(lights.punctual[punctual], receiver);
-    return sample_surroundings(shading, receiver, u);
+    return sample_surroundings(shading, receiver, u, openings);
 }
 
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
-                         const glm::vec2& u, float share) {
-    return sample_seen_light(shading, lights, see_light(lights, light, receiver.position), receiver, u, share);
+                         const glm::vec2& u, float share, const SkyOpenings* openings) {
+    return sample_seen_light(shading, lights, see_light(lights, light, receiver.position), receiver, u, share,
+                             openings);
 }
 
 }  // namespace aleph

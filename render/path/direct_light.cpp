@@ -52,8 +52,8 @@ class ChosenLights {
         if (pick.light == no_index) return Rgb(0.0f);
         SeenLight& seen = seen_[static_cast<std::size_t>(pick.light) % seen_.size()];
         if (seen.light != pick.light) seen = see_light(context_.lights, pick.light, receiver_.position);
-        const LightSample sample =
-            sample_seen_light(context_.shading, context_.lights, seen, receiver_, {pick.rest, u.y}, light_share);
+        const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen, receiver_,
+                                                     {pick.rest, u.y}, light_share, context_.openings);
         if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return Rgb(0.0f);
         return find_unblocked(context_, task, lit_, sample,
                               scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
@@ -94,8 +94,9 @@ Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const Lit
         const float share = 1.0f / static_cast<float>(count);
         const SeenLight seen = see_light(context.lights, light, receiver.position);
         for (int i = 0; i < count; ++i) {
-            const LightSample sample = sample_seen_light(context.shading, context.lights, seen, receiver,
-                                                         lattice_point(i, count, estimate_shift), share);
+            const LightSample sample =
+                sample_seen_light(context.shading, context.lights, seen, receiver,
+                                  lattice_point(i, count, estimate_shift), share, context.openings);
             if (!lit.is_reached(sample.direction)) continue;
             sum +=
                 find_unblocked(context, task, lit, sample,

@@ -29,7 +29,7 @@ float weigh(const PathState& state, float light_pdf) {
 Rgb met_surroundings(const LightingContext& context, const PathState& state, const glm::vec3& direction) {
     if (!context.lights.has_environment || state.emission == EmissionWeight::none) return Rgb(0.0f);
     const bool weighted = state.emission == EmissionWeight::weighted;
-    const float light_pdf = weighted ? pdf_environment(context.shading, state.from, direction) : 0.0f;
+    const float light_pdf = weighted ? pdf_environment(context.shading, state.from, direction, context.openings) : 0.0f;
     return environment_radiance(context.shading, direction) * weigh(state, light_pdf);
 }
 

@@ -1,0 +1,15 @@
+#pragma once
+// Which openings let light of the sky into the room that the camera sees.
+
+#include "render/light/light_choice.h"
+#include "render/pixels/pixel_surfaces.h"
+
+namespace aleph {
+
+/// Short random paths from what the camera sees tell where rays leave a box around what they meet, and reach the sky.
+/// Nothing without an environment, or where more than a third of the rays reach it: most samples do then anyway. A pure
+/// function of its arguments.
+std::optional<SkyOpenings> find_sky_openings(const LightingContext& context, const CameraView& view,
+                                             const SampleHits& centers, RayCounts& counts);
+
+}  // namespace aleph
