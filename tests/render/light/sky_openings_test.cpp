@@ -12,8 +12,9 @@ namespace {
 
 constexpr double wall = 0.1;  // m, thick
 
-/// A room of 4 x 3 x 4 m with a window of 1 x 1 m in the middle of its right wall, under a sky of 1 cd/m2.
-Scene make_room_with_window() {
+/// A room of 4 x 3 x 4 m with a square window in the middle of its right wall, under a sky of 1 cd/m2.
+/// @param half  m, half the window's side
+Scene make_room_with_window(double half = 0.5) {
     Scene scene;
     const int grey = add_lambert(scene, glm::dvec3(0.5));
     const auto add = [&](const glm::dvec3& low, const glm::dvec3& high) {
@@ -24,12 +25,12 @@ Scene make_room_with_window() {
     add({-2.0 - wall, -wall, -2.0}, {-2.0, 3.0 + wall, 2.0});
     add({-2.0 - wall, -wall, -2.0 - wall}, {2.0 + wall, 3.0 + wall, -2.0});
     add({-2.0 - wall, -wall, 2.0}, {2.0 + wall, 3.0 + wall, 2.0 + wall});
-    add({2.0, -wall, -2.0}, {2.0 + wall, 1.0, 2.0});
-    add({2.0, 2.0, -2.0}, {2.0 + wall, 3.0 + wall, 2.0});
-    add({2.0, 1.0, -2.0}, {2.0 + wall, 2.0, -0.5});
-    add({2.0, 1.0, 0.5}, {2.0 + wall, 2.0, 2.0});
+    add({2.0, -wall, -2.0}, {2.0 + wall, 1.5 - half, 2.0});
+    add({2.0, 1.5 + half, -2.0}, {2.0 + wall, 3.0 + wall, 2.0});
+    add({2.0, 1.5 - half, -2.0}, {2.0 + wall, 1.5 + half, -half});
+    add({2.0, 1.5 - half, half}, {2.0 + wall, 1.5 + half, 2.0});
     scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
-    add_camera(scene, {-1.5, 1.8, 1.5}, {0.5, 1.0, -1.0}, 1.0);
+    add_camera(scene, {-1.5, 1.8, 1.5}, {-0.6, 1.0, -1.5}, 1.0);
     return scene;
 }
 
@@ -176,11 +177,17 @@ TEST(SkyOpenings, ARoomWithAWindowTakesFewSamples) {
     RenderSettings settings;
     settings.picture = {24, 18};
     follow_error(settings, 1.0);
-    Sequence sequence(make_room_with_window(), settings);
+    Sequence sequence(make_room_with_window(0.25), settings);
     const FrameOutput out = sequence.render(0);
     EXPECT_LT(out.statistics.counts.samples, 100u * 24 * 18);
     ASSERT_TRUE(out.statistics.error.has_value());
     EXPECT_LT(out.statistics.error->beyond, 0.01);
+    // The estimate, from which exposure and thresholds follow, has the window's light too.
+    Mean estimate, picture;
+    for (const Rgb& pixel : out.estimate.pixels) estimate.add(luminance(pixel));
+    for (const Rgb& pixel : out.shaded.color.pixels) picture.add(luminance(pixel));
+    EXPECT_GT(estimate.mean(), 0.4 * picture.mean());
+    EXPECT_LT(estimate.mean(), picture.mean());
 }
 
 }  // namespace
