@@ -93,7 +93,7 @@ bool may_cover(const IrradianceCache& accepted, CacheQuery query) {
     return accepted.covers(query);
 }
 
-/// What the records so far tell about a candidate. Not made for those that will probably wait.
+/// The expected record of a candidate. Not made for those that will probably wait.
 struct Review {
     bool is_made = false;
     std::optional<ExpectedRecord> expected;

@@ -111,7 +111,7 @@ class IrradianceCache {
     void clamp_to_neighbours(IrradianceRecord& record);
     void compare_with_neighbours(IrradianceRecord& record);
     IrradianceRecord smoothed(const IrradianceRecord& record) const;
-    /// What a record gets of another's rare light.
+    /// A record's share of another's rare light.
     struct Share {
         int to;
         float share;

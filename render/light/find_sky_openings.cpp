@@ -22,7 +22,7 @@ constexpr double outliers = 0.01;  // of the places that the box leaves out, at 
 /// Openings of more than this share of the box are no openings.
 constexpr float most_open = 0.35f;
 
-/// What a short path met.
+/// Places that a short path met.
 struct RoomPath {
     std::array<glm::vec3, most_bounces + 1> places;
     int count = 0;
@@ -34,7 +34,7 @@ struct RoomPath {
 Hit find_hit(const LightingContext& context, RayTask& task, Ray& ray) {
     Rgb passed(1.0f);
     for (int sheet = 0;; ++sheet) {
-        ++task.counts.gather;
+        ++task.counts.shadow;
         const Hit hit = task.tracer.intersect(ray);
         if (hit.instance == no_index || !context.shading.has_thin_glass || sheet == max_sheets) return hit;
         if (!pass_sheet(context.shading, hit, ray, passed)) return hit;
@@ -192,7 +192,7 @@ SkyOpening make_opening(const SkyOpenings& box, const CellRange& range) {
 
 std::optional<SkyOpenings> find_sky_openings(const LightingContext& context, const CameraView& view,
                                              const SampleHits& centers, RayCounts& counts) {
-    if (!context.lights.has_environment) return std::nullopt;
+    if (!context.lights.has_environment || context.shading.skipped.contains(Effect::direct_light)) return std::nullopt;
     if (!has_room(follow_paths(context, view, centers, first_paths, counts), 0)) return std::nullopt;
     const std::vector<RoomPath> paths = follow_paths(context, view, centers, path_count, counts);
     if (!has_room(paths, least_escapes)) return std::nullopt;
