@@ -30,17 +30,6 @@ struct RoomPath {
     glm::vec3 direction{0.0f};
 };
 
-/// The next hit beyond sheets of glass.
-Hit find_hit(const LightingContext& context, RayTask& task, Ray& ray) {
-    Rgb passed(1.0f);
-    for (int sheet = 0;; ++sheet) {
-        ++task.counts.shadow;
-        const Hit hit = task.tracer.intersect(ray);
-        if (hit.instance == no_index || !context.shading.has_thin_glass || sheet == max_sheets) return hit;
-        if (!pass_sheet(context.shading, hit, ray, passed)) return hit;
-    }
-}
-
 RoomPath follow(const LightingContext& context, RayTask& task, SurfacePlace place, RandomStream random) {
     RoomPath path;
     while (true) {
@@ -49,7 +38,8 @@ RoomPath follow(const LightingContext& context, RayTask& task, SurfacePlace plac
         path.direction = make_basis(place.normal).to_world(sample_cosine_hemisphere(random.next_2d()));
         if (!(glm::dot(path.direction, place.geometric) > 0.0f)) return path;
         Ray ray{place.ray_origin(), path.direction};
-        const Hit hit = find_hit(context, task, ray);
+        Rgb passed(1.0f);
+        const Hit hit = find_beyond_sheets(context, task, ray, passed, task.counts.shadow);
         path.escaped = hit.instance == no_index;
         if (path.escaped) return path;
         place = make_surface_place(context.shading, hit, ray.direction);

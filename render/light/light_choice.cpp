@@ -84,6 +84,15 @@ bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& pass
     return true;
 }
 
+Hit find_beyond_sheets(const LightingContext& context, RayTask& task, Ray& ray, Rgb& passed, std::uint64_t& count) {
+    for (int sheet = 0;; ++sheet) {
+        ++count;
+        const Hit hit = task.tracer.intersect(ray);
+        if (hit.instance == no_index || !context.shading.has_thin_glass || sheet == max_sheets) return hit;
+        if (!pass_sheet(context.shading, hit, ray, passed)) return hit;
+    }
+}
+
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {
     if (!context.shading.has_thin_glass) {
         ++task.counts.shadow;

@@ -58,6 +58,12 @@ inline constexpr int max_sheets = 64;
 /// pass. @return false: the surface is no such sheet
 bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& passed);
 
+/// What a ray hits beyond smooth sheets of glass.
+/// @param ray     moved beyond them
+/// @param passed  multiplied by what they let pass
+/// @param count   increased by the rays that are cast
+Hit find_beyond_sheets(const LightingContext& context, RayTask& task, Ray& ray, Rgb& passed, std::uint64_t& count);
+
 /// Share of light that the medium leaves between a surface and a light. It is one medium: the walls of volumes stop
 /// shadow rays.
 /// @param around  the viewer's side of the surface

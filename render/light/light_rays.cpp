@@ -89,17 +89,6 @@ LightSample sample_sky(const LightingContext& context, RandomStream& random) {
     return sample;
 }
 
-/// Follows a ray through sheets of glass.
-/// @param passed  multiplied by what they let pass
-Hit pass_sheets(const LightingContext& context, RayTask& task, Ray& ray, Rgb& passed) {
-    for (int sheet = 0;; ++sheet) {
-        ++task.counts.gather;
-        const Hit hit = task.tracer.intersect(ray);
-        if (hit.instance == no_index || !context.shading.has_thin_glass || sheet == max_sheets) return hit;
-        if (!pass_sheet(context.shading, hit, ray, passed)) return hit;
-    }
-}
-
 /// One of the rays of a light.
 struct LightRay {
     int light = 0;
@@ -131,7 +120,7 @@ LitPlace cast_light_ray(const LightingContext& context, const BoundingSphere& ta
     }
     Rgb passed(1.0f);
     const glm::vec3 origin = ray.origin;
-    const Hit hit = pass_sheets(context, task, ray, passed);
+    const Hit hit = find_beyond_sheets(context, task, ray, passed, task.counts.gather);
     if (hit.instance == no_index || !std::isfinite(power)) return {};
     const SurfacePoint met = make_surface_point(context.shading, hit, ray.direction);
     const glm::vec3 side = place_triangle(context.shading.instances[hit.instance], hit.primitive).normal;

@@ -210,51 +210,6 @@ LightSample sample_punctual(const PunctualLight& light, const Receiver& receiver
     return sample;
 }
 
-/// Density of samples that are not for openings.
-float pdf_anywhere(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction) {
-    if (shading.environment.map != nullptr)
-        return pdf_environment(*shading.environment.map, direction * shading.environment.rotation);
-    return pdf_cosine_hemisphere(glm::dot(receiver.normal, direction));
-}
-
-/// Share of the samples that go towards openings. A picture may have a sun, which only its own samples find.
-float openings_share(const ShadingScene& shading) {
-    return shading.environment.map != nullptr ? 0.5f : 0.75f;
-}
-
-LightSample sample_anywhere(const ShadingScene& shading, const Receiver& receiver, const glm::vec2& u) {
-    LightSample sample;
-    if (shading.environment.map != nullptr) {
-        const EnvironmentSample picture = sample_environment(*shading.environment.map, u);
-        sample.direction = shading.environment.rotation * picture.direction;
-        sample.pdf = picture.pdf;
-    } else {
-        const glm::vec3 local = sample_cosine_hemisphere(u);
-        sample.direction = make_basis(receiver.normal).to_world(local);
-        sample.pdf = pdf_cosine_hemisphere(local.z);
-    }
-    return sample;
-}
-
-LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, glm::vec2 u,
-                                const SkyOpenings* openings) {
-    LightSample sample;
-    std::optional<glm::vec3> towards;
-    if (openings != nullptr) {
-        const float share = openings_share(shading);
-        const bool for_openings = u.x < share;
-        const glm::vec2 own{std::min(for_openings ? u.x / share : (u.x - share) / (1.0f - share), 0x1.fffffep-1f), u.y};
-        towards = sample_openings(*openings, receiver, own);
-        if (towards && for_openings) sample.direction = *towards;
-        if (towards && !for_openings) sample.direction = sample_anywhere(shading, receiver, own).direction;
-        if (towards) sample.pdf = pdf_environment(shading, receiver, sample.direction, openings);
-    }
-    if (!towards) sample = sample_anywhere(shading, receiver, u);
-    sample.distance = std::numeric_limits<float>::infinity();
-    if (sample.pdf > 0.0f) sample.incoming = environment_radiance(shading, sample.direction) / sample.pdf;
-    return sample;
-}
-
 }  // namespace
 
 float solid_angle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
@@ -288,14 +243,6 @@ glm::vec3 sample_spherical_triangle(const glm::vec3& a, const glm::vec3& b, cons
     const glm::vec3 corner = ua * q + perpendicular(uc, ua) * std::sqrt(std::max(0.0f, 1.0f - q * q));
     const float z = 1.0f - u.y * (1.0f - glm::dot(corner, ub));
     return ub * z + perpendicular(corner, ub) * std::sqrt(std::max(0.0f, 1.0f - z * z));
-}
-
-float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction,
-                      const SkyOpenings* openings) {
-    const float anywhere = pdf_anywhere(shading, receiver, direction);
-    if (openings == nullptr) return anywhere;
-    const std::optional<float> towards = pdf_openings(*openings, receiver, direction);
-    return towards ? std::lerp(anywhere, *towards, openings_share(shading)) : anywhere;
 }
 
 float pdf_emitter(const Emitter& emitter, const glm::vec3& position, const Hit& hit, float cosine, float distance) {

@@ -79,6 +79,10 @@ struct LightSample {
 float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction,
                       const SkyOpenings* openings = nullptr);
 
+/// A sample of the environment; sample_light of its number.
+LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, glm::vec2 u,
+                                const SkyOpenings* openings);
+
 /// A sample of one light as a point sees it, u in [0,1)^2. `incoming` is 0 if the light cannot reach the point even
 /// without obstacles (behind an emitter, zero area, out of range, outside a spot's cone). A constant environment is
 /// sampled by cosine around the receiver's normal, a picture by its luminance.

@@ -40,15 +40,21 @@ namespace {
 constexpr float least_solid_angle = 2e-3f;
 constexpr float least_cosine = 0.05f;  // of an opening that hardly faces the surface
 
-/// The openings that a receiver sees.
-struct SeenOpenings {
-    std::array<std::array<float, 2>, SkyOpenings::most> angles{};  ///< sr, of both halves
-    std::array<float, SkyOpenings::most> weights{};                ///< in proportion to the share of samples
-    float total = 0.0f;
+/// Returns whether an opening is sampled by area.
+bool is_small(const SeenOpenings& seen, std::size_t i) {
+    return !(std::min(seen.angles[i][0], seen.angles[i][1]) > least_solid_angle);
+}
 
-    float angle(std::size_t i) const { return angles[i][0] + angles[i][1]; }
-    bool is_by_area(std::size_t i) const { return !(std::min(angles[i][0], angles[i][1]) > least_solid_angle); }
-};
+/// Per steradian, of the samples of one opening.
+/// @param at  where the direction meets it, from the receiver
+float find_opening_density(const SkyOpening& opening, const SeenOpenings& seen, std::size_t i, const glm::vec3& at) {
+    if (!is_small(seen, i)) return 1.0f / seen.angle(i);
+    const glm::vec2 size = opening.high - opening.low;
+    const float distance = glm::length(at), across = std::abs(at[opening.side / 2]);
+    return distance * distance * distance / (across * size.x * size.y);
+}
+
+}  // namespace
 
 SeenOpenings see_openings(const SkyOpenings& all, const Receiver& receiver) {
     SeenOpenings seen;
@@ -68,36 +74,7 @@ SeenOpenings see_openings(const SkyOpenings& all, const Receiver& receiver) {
     return seen;
 }
 
-/// Per steradian, of the samples of one opening.
-/// @param at  where the direction meets it, from the receiver
-float find_opening_density(const SkyOpening& opening, const SeenOpenings& seen, std::size_t i, const glm::vec3& at) {
-    if (!seen.is_by_area(i)) return 1.0f / seen.angle(i);
-    const glm::vec2 size = opening.high - opening.low;
-    const float distance = glm::length(at), across = std::abs(at[opening.side / 2]);
-    return distance * distance * distance / (across * size.x * size.y);
-}
-
-float find_density(const SkyOpenings& all, const SeenOpenings& seen, const glm::vec3& from,
-                   const glm::vec3& direction) {
-    const BoxExit exit = leave_box(all, from, direction);
-    const glm::vec2 rounding(1e-5f * glm::length(all.high - all.low));
-    float density = 0.0f;
-    for (std::size_t i = 0; i < all.openings.size(); ++i) {
-        const SkyOpening& opening = all.openings[i];
-        const bool is_within = opening.side == exit.side &&
-                               glm::all(glm::greaterThanEqual(exit.at, opening.low - rounding)) &&
-                               glm::all(glm::lessThanEqual(exit.at, opening.high + rounding));
-        if (is_within && seen.weights[i] > 0.0f)
-            density += seen.weights[i] / seen.total * find_opening_density(opening, seen, i, exit.distance * direction);
-    }
-    return density;
-}
-
-}  // namespace
-
-std::optional<glm::vec3> sample_openings(const SkyOpenings& all, const Receiver& receiver, glm::vec2 u) {
-    const SeenOpenings seen = see_openings(all, receiver);
-    if (!(seen.total > 0.0f)) return std::nullopt;
+glm::vec3 sample_openings(const SkyOpenings& all, const SeenOpenings& seen, const glm::vec3& from, glm::vec2 u) {
     std::size_t chosen = 0;
     float left = u.x * seen.total;
     for (std::size_t i = 0; i < all.openings.size(); ++i) {
@@ -112,20 +89,29 @@ std::optional<glm::vec3> sample_openings(const SkyOpenings& all, const Receiver&
     if (second) place -= halves[0];
     u.x = std::clamp(place / halves[second ? 1 : 0], 0.0f, 0x1.fffffep-1f);
     const auto& corners = all.openings[chosen].corners;
-    const glm::vec3& eye = receiver.position;
-    if (seen.is_by_area(chosen)) {
+    if (is_small(seen, chosen)) {
         const glm::vec3 along = corners[1] - corners[0], up = corners[3] - corners[0];
         const float share = std::min(left / seen.weights[chosen], 1.0f);
-        return glm::normalize(corners[0] + along * share + up * u.y - eye);
+        return glm::normalize(corners[0] + along * share + up * u.y - from);
     }
-    return sample_spherical_triangle(corners[0] - eye, corners[second ? 2 : 1] - eye, corners[second ? 3 : 2] - eye,
+    return sample_spherical_triangle(corners[0] - from, corners[second ? 2 : 1] - from, corners[second ? 3 : 2] - from,
                                      halves[second ? 1 : 0], u);
 }
 
-std::optional<float> pdf_openings(const SkyOpenings& all, const Receiver& receiver, const glm::vec3& direction) {
-    const SeenOpenings seen = see_openings(all, receiver);
-    if (!(seen.total > 0.0f)) return std::nullopt;
-    return find_density(all, seen, receiver.position, direction);
+float pdf_openings(const SkyOpenings& all, const SeenOpenings& seen, const glm::vec3& from,
+                   const glm::vec3& direction) {
+    const BoxExit exit = leave_box(all, from, direction);
+    const glm::vec2 rounding(1e-5f * glm::length(all.high - all.low));
+    float density = 0.0f;
+    for (std::size_t i = 0; i < all.openings.size(); ++i) {
+        const SkyOpening& opening = all.openings[i];
+        const bool is_within = opening.side == exit.side &&
+                               glm::all(glm::greaterThanEqual(exit.at, opening.low - rounding)) &&
+                               glm::all(glm::lessThanEqual(exit.at, opening.high + rounding));
+        if (is_within && seen.weights[i] > 0.0f)
+            density += seen.weights[i] / seen.total * find_opening_density(opening, seen, i, exit.distance * direction);
+    }
+    return density;
 }
 
 }  // namespace aleph

@@ -5,7 +5,6 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <optional>
 #include <vector>
 
 #include "render/light/light_tree.h"
@@ -43,12 +42,24 @@ bool is_inside(const SkyOpenings& box, const glm::vec3& position);
 /// @param origin  inside of the box
 BoxExit leave_box(const SkyOpenings& box, const glm::vec3& origin, const glm::vec3& direction);
 
-/// A unit direction towards an opening, by solid angle and cosine; nothing for a receiver outside of the box, or one
-/// that sees no opening.
-std::optional<glm::vec3> sample_openings(const SkyOpenings& openings, const Receiver& receiver, glm::vec2 u);
+/// The openings that a receiver sees; none for one outside of the box.
+struct SeenOpenings {
+    std::array<std::array<float, 2>, SkyOpenings::most> angles{};  ///< sr, of both halves
+    std::array<float, SkyOpenings::most> weights{};                ///< in proportion to the share of samples
+    float total = 0.0f;                                            ///< of the weights; 0: it sees none
 
-/// Density per steradian of sample_openings; nothing where that gives nothing.
+    float angle(std::size_t i) const { return angles[i][0] + angles[i][1]; }
+};
+
+SeenOpenings see_openings(const SkyOpenings& openings, const Receiver& receiver);
+
+/// A unit direction towards an opening, by solid angle and cosine.
+/// @param seen  by a receiver at `from`, at least one
+glm::vec3 sample_openings(const SkyOpenings& openings, const SeenOpenings& seen, const glm::vec3& from, glm::vec2 u);
+
+/// Density per steradian of sample_openings.
 /// @param direction  unit
-std::optional<float> pdf_openings(const SkyOpenings& openings, const Receiver& receiver, const glm::vec3& direction);
+float pdf_openings(const SkyOpenings& openings, const SeenOpenings& seen, const glm::vec3& from,
+                   const glm::vec3& direction);
 
 }  // namespace aleph

@@ -95,6 +95,7 @@ TEST(SkyOpenings, SamplesHaveTheDensityThatIsTold) {
     openings.openings.push_back(other);
     RandomStream random({3, 0, 0, 0});
     for (const Receiver& receiver : make_receivers(stage)) {
+        const SeenOpenings seen = see_openings(openings, receiver);
         Mean all, upper, sampled_upper;  // of the sphere, and of its part above the window's middle
         const auto is_upper = [&](const glm::vec3& d) {
             return (receiver.position + d * ((openings.high.x - receiver.position.x) / d.x)).y +
@@ -105,14 +106,14 @@ TEST(SkyOpenings, SamplesHaveTheDensityThatIsTold) {
             const glm::vec2 u = random.next_2d();
             const float z = 1.0f - 2.0f * u.x, r = std::sqrt(std::max(0.0f, 1.0f - z * z));
             const glm::vec3 d(z, r * std::cos(2.0f * pi * u.y), r * std::sin(2.0f * pi * u.y));
-            const double density = *pdf_openings(openings, receiver, d) * 4.0 * pi;
+            const double density = pdf_openings(openings, seen, receiver.position, d) * 4.0 * pi;
             all.add(density);
             upper.add(density > 0.0 && is_upper(d) ? density : 0.0);
         }
         for (int i = 0; i < 20'000; ++i) {
-            const glm::vec3 d = *sample_openings(openings, receiver, random.next_2d());
+            const glm::vec3 d = sample_openings(openings, seen, receiver.position, random.next_2d());
             ASSERT_NEAR(glm::length(d), 1.0f, 1e-5f);
-            ASSERT_GT(*pdf_openings(openings, receiver, d), 0.0f);
+            ASSERT_GT(pdf_openings(openings, seen, receiver.position, d), 0.0f);
             sampled_upper.add(is_upper(d) ? 1.0 : 0.0);
         }
         EXPECT_NEAR(all.mean(), 1.0, 4.0 * all.error());
@@ -132,11 +133,12 @@ TEST(SkyOpenings, ASmallOneIsSampledByArea) {
     }
     RandomStream random({4, 0, 0, 0});
     for (const Receiver& receiver : make_receivers(stage)) {
+        const SeenOpenings seen = see_openings(openings, receiver);
         const auto to = [&](int i) { return small.corners[i] - receiver.position; };
         Mean solid_angles;
         for (int i = 0; i < 1000; ++i) {
-            const glm::vec3 d = *sample_openings(openings, receiver, random.next_2d());
-            solid_angles.add(1.0 / *pdf_openings(openings, receiver, d));
+            const glm::vec3 d = sample_openings(openings, seen, receiver.position, random.next_2d());
+            solid_angles.add(1.0 / pdf_openings(openings, seen, receiver.position, d));
         }
         const double expected = solid_angle(to(0), to(1), to(2)) + solid_angle(to(0), to(2), to(3));
         EXPECT_LT(expected, 2e-3);
