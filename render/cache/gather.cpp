@@ -295,9 +295,8 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     task.tracer.intersect(scratch.rays, scratch.hits, scratch.normals);
     task.counts.gather += scratch.rays.size();
     if (sampler) weigh_rays(*sampler, scratch);
-    const LightingContext inside{
-        context.shading, context.lights, context.rays,
-        find_media(context.shading, task.tracer, {point.ray_origin(), point.normal}, task.counts.gather)};
+    LightingContext inside = context;
+    inside.around = find_media(context.shading, task.tracer, {point.ray_origin(), point.normal}, task.counts.gather);
     light_hits(
         {inside, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});
     add_unshadowed(context, task, options, scratch);

@@ -7,8 +7,6 @@
 
 #include "render/cache/gather.h"
 #include "render/estimate/sight_line.h"
-#include "render/light/find_sky_openings.h"
-#include "render/light/seen_light_tree.h"
 
 namespace aleph {
 
@@ -246,16 +244,6 @@ struct EstimatedLight {
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                             const EstimateOptions& options, RayCounts& counts) {
     const EstimateKind kind = options.kind;
-    HiddenLights hidden;
-    std::optional<SkyOpenings> openings;
-    if (kind == EstimateKind::direct) {
-        hidden = find_hidden_lights(context, view, centers, counts);
-        openings = find_sky_openings(context, view, centers, counts);
-    }
-    const LightTree seen = make_seen_light_tree(context.shading, context.lights, hidden);
-    LightingContext lighting = context;
-    if (!seen.groups.empty()) lighting.seen = &seen;
-    if (openings) lighting.openings = &*openings;
     Image<Rgb> estimate(view.width, view.height);
     std::optional<NodeIrradiance> indirect;
     if (options.indirect != nullptr && kind == EstimateKind::direct) indirect.emplace(*options.indirect);
@@ -265,7 +253,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
         const EstimatedLight light{task, kind, indirect ? &*indirect : nullptr, exposure};
         for (int x = 0; x < view.width; ++x) {
             const SightStart start = start_at_center(view, centers, {x, y});
-            estimate(x, y) = add_along_lines(light, lighting, whole, start, task.counts);
+            estimate(x, y) = add_along_lines(light, context, whole, start, task.counts);
         }
     };
     cast_parallel(view.height, 4, context.rays, counts, estimate_row, Blend::cutout);  // without noise

@@ -25,8 +25,9 @@ void EstimateLight::gather_around(std::int64_t frame, std::int64_t but, RayCount
             if (kept_.find(needed)) continue;
             keyframe_.pose(needed);
             keyframe_.prepare();
-            find_nodes(needed, keyframe_, cast_centers(keyframe_.rays(), keyframe_.posed().view, &counts.primary),
-                       counts);
+            const SampleHits centers = cast_centers(keyframe_.rays(), keyframe_.posed().view, &counts.primary);
+            keyframe_.find_known_lights(centers, counts);
+            find_nodes(needed, keyframe_, centers, counts);
         }
     }
 }
@@ -82,6 +83,7 @@ SampleScene open_scene(const OpenFrame& frame, double at) {
     frame.shutter.leave_out(skipped);
     std::uint64_t rays_cast = 0;
     frame.shutter.find_media_around(rays_cast);
+    frame.shutter.take_known_lights(frame.scene);
     SampleScene sample = frame.shutter.sample_scene();
     sample.rays_cast = rays_cast;
     if (!frame.plan.skips(Effect::depth_of_field))

@@ -139,6 +139,7 @@ MotionField FrameMotion::search_other(const FrameWork& work, const FrameScene& h
     FrameScene& other = other_scene(here);
     other.prepare();
     const SampleHits centers = cast_centers(other.rays(), other.posed().view, &counts.primary);
+    other.find_known_lights(centers, counts);
     std::optional<EstimateNodes> nodes;
     if (shot_.estimates_indirect_light(frame.plan.settings.light.bounces))
         nodes = light.gather_nodes(other_frame_number(work.frame, work.other), other, centers, counts);

@@ -8,8 +8,6 @@
 #include "render/frame/frame_window.h"
 #include "render/frame/prepared_frame.h"
 #include "render/frame/sequence_state.h"
-#include "render/light/find_sky_openings.h"
-#include "render/light/seen_light_tree.h"
 #include "render/plan/effect_table.h"
 #include "render/settings/measure.h"
 #include "render/shade/frame.h"
@@ -79,30 +77,13 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     std::optional<KeyframeRisk> risk;
     if (carried != nullptr) risk = find_risk(s, frame);
     if (risk) options.risk = &*risk;
-    LightingContext lighting = s.here.lighting();
-    const HiddenLights hidden = find_hidden_lights(lighting, out.view, prepared.centers, out.statistics.counts.rays);
-    const LightTree seen = make_seen_light_tree(lighting.shading, lighting.lights, hidden);
-    if (!seen.groups.empty()) lighting.seen = &seen;
-    const std::optional<SkyOpenings> openings =
-        find_sky_openings(lighting, out.view, prepared.centers, out.statistics.counts.rays);
-    if (openings) lighting.openings = &*openings;
-    LightTree seen_at_sample;
-    if (options.at_sample && (openings || !hidden.empty())) {
-        options.at_sample = [&, at_sample = options.at_sample](int sample, int pixel_class) {
-            SampleScene scene = at_sample(sample, pixel_class);
-            scene.lighting.openings = lighting.openings;
-            if (hidden.empty()) return scene;
-            seen_at_sample = make_seen_light_tree(scene.lighting.shading, scene.lighting.lights, hidden);
-            scene.lighting.seen = &seen_at_sample;
-            return scene;
-        };
-    }
     StageClock clock;
     FrameCounts of_spans;
     double span_seconds = 0.0;
     if (options.at_sample && carried == nullptr)
         options.spans = find_shutter_spans(s, frame, prepared, options, request, of_spans);
     clock.add_to(span_seconds);
+    const LightingContext lighting = s.here.lighting();
     const IndirectContext context{.lighting = lighting,
                                   .view = out.view,
                                   .settings = prepared.plan.settings,

@@ -34,6 +34,7 @@ std::size_t FrameScene::prepare() {
     }
     lights_ = make_light_set(*shading_, std::move(lights_.kept));
     around_ = {};
+    known_ = {};
     leave_out(shot_.settings.effects.forbid);
     shading_->points_unshadowed = false;
     shading_->caustic_width = find_caustic_width(shot_.settings);
@@ -46,6 +47,30 @@ void FrameScene::find_media_around(std::uint64_t& rays_cast) {
     around_ = find_media(*shading_, tracer, {camera, up}, rays_cast);
 }
 
+void FrameScene::find_known_lights(const SampleHits& centers, RayCounts& counts) {
+    known_ = aleph::find_known_lights(lighting(), posed_->view, centers, counts);
+    make_light_trees();
+}
+
+void FrameScene::take_known_lights(const FrameScene& other) {
+    known_ = other.known_;
+    make_light_trees();
+}
+
+void FrameScene::make_light_trees() {
+    trees_ = KnownLightTrees(*shading_, lights_, known_);
+}
+
+LightingContext FrameScene::lighting() const {
+    return {*shading_,
+            lights_,
+            *rays_,
+            around_,
+            trees_.seen.others.groups.empty() ? nullptr : &trees_.seen,
+            trees_.met.groups.empty() ? nullptr : &trees_.met,
+            known_.openings ? &*known_.openings : nullptr};
+}
+
 void FrameScene::copy_to(KeyPose& kept) const {
     kept.posed = *posed_;
     kept.shading = make_shading_scene(shot_.scene, kept.posed.pose, *rays_, shot_.textures);
@@ -55,6 +80,7 @@ void FrameScene::copy_to(KeyPose& kept) const {
 void FrameScene::leave_out(const EffectSet& effects) {
     shading_->skipped = effects;
     if (effects.contains(Effect::direct_light)) remove_all_lights(lights_);
+    make_light_trees();
 }
 
 void FrameScene::leave_out(const EffectsPlan& effects) {
@@ -66,6 +92,7 @@ void FrameScene::leave_out(const EffectsPlan& effects) {
         (light.kind == LightFacts::Kind::surface ? instances : punctual).push_back(light.number);
     }
     remove_lights(*shading_, instances, punctual, lights_);
+    make_light_trees();
 }
 
 }  // namespace aleph

@@ -6,7 +6,7 @@
 
 #include "engine/pose/posed_view.h"
 #include "render/frame/shot.h"
-#include "render/light/light_choice.h"
+#include "render/light/known_lights.h"
 #include "render/plan/effects_plan.h"
 #include "render/shade/sample_shading.h"
 #include "render/time/keyframe_light.h"
@@ -39,6 +39,11 @@ class FrameScene {
     std::size_t prepare();
     /// Finds the volumes that the camera is in. To be called after prepare; without it there are none.
     void find_media_around(std::uint64_t& rays_cast);
+    /// Finds out by rays what decides how lights are sampled. To be called after prepare; without it all go by power.
+    /// @param centers  first hits of the pose
+    void find_known_lights(const SampleHits& centers, RayCounts& counts);
+    /// The same, from the pose of another time. To be called after prepare.
+    void take_known_lights(const FrameScene& other);
     /// Leaves out of shading what a plan for this frame skips. To be called after prepare.
     void leave_out(const EffectsPlan& effects);
     /// Leaves effects out of shading; the lights stay, unless direct light is among the effects.
@@ -50,7 +55,7 @@ class FrameScene {
     const PosedView& posed() const { return *posed_; }
     const RayScene& rays() const { return *rays_; }
     const ShadingScene& shading() const { return *shading_; }
-    LightingContext lighting() const { return {*shading_, lights_, *rays_, around_}; }
+    LightingContext lighting() const;
     /// The scene while a sample is taken, valid until it is posed again.
     SampleScene sample_scene() const { return {lighting(), posed_->view}; }
 
@@ -58,6 +63,8 @@ class FrameScene {
     TracedRays traced() const { return rays_ ? TracedRays{rays_->rays_traced(), rays_->invalid_rays()} : TracedRays{}; }
 
   private:
+    void make_light_trees();
+
     const Shot& shot_;
     const PosePlan& plan_;
     const FrameScene* meshes_ = nullptr;  ///< null: `rays_` is its own from the beginning
@@ -65,6 +72,8 @@ class FrameScene {
     std::optional<PosedView> posed_;
     std::optional<ShadingScene> shading_;
     LightSet lights_;
+    KnownLights known_;
+    KnownLightTrees trees_;
     Media around_;  ///< the camera
 };
 

@@ -79,6 +79,8 @@ PreparedFrame prepare_frame(SequenceState& s, FrameScene& here, FrameWork work) 
         s.motion.compute(work, here, s.estimate_light, clock, frame);
         return frame;
     }
+    here.find_known_lights(frame.centers, counts);
+    clock.add_to(stats.seconds.update);
     if (work.perceive) {
         perceive(s, here, work, clock, frame);
     } else {

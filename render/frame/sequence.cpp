@@ -56,6 +56,7 @@ std::optional<double> find_exposure(const Shot& shot, FrameScene& scene) {
         scene.prepare();
         RayCounts counts;
         const SampleHits centers = cast_centers(scene.rays(), scene.posed().view, &counts.primary);
+        scene.find_known_lights(centers, counts);
         const std::optional<double> exposure = compute_exposure(
             compute_estimate(scene.lighting(), scene.posed().view, centers, {.exposure = shot.exposure}, counts));
         if (exposure) return exposure;

@@ -10,13 +10,16 @@ namespace {
 /// The scene at lighting keyframes and as their cameras see it. Poses `keyframe` and, for first samples, the other
 /// frame's scene.
 KeyframeSource make_keyframe_source(SequenceState& s) {
-    const auto light = [&s](std::int64_t frame) {
+    const auto light = [&s](std::int64_t frame, RayCounts& counts) {
         s.keyframe.pose(frame);
         s.keyframe.prepare();
+        const SampleHits centers = cast_centers(s.keyframe.rays(), s.keyframe.posed().view, &counts.primary);
+        s.keyframe.find_known_lights(centers, counts);
         return s.keyframe.lighting();
     };
-    const auto pose = [&s, light](std::int64_t frame) {
-        light(frame);
+    const auto pose = [&s](std::int64_t frame) {
+        s.keyframe.pose(frame);
+        s.keyframe.prepare();
         const auto key = std::make_shared<KeyPose>();
         s.keyframe.copy_to(*key);
         return key;

@@ -28,7 +28,7 @@ Ray move_origin(const Ray& ray, const glm::vec3& origin) {
 template <class Scatter>
 ScatteredLight sample_one_light(const LightingContext& context, const Receiver& receiver, const LightNumbers& numbers,
                                 const Scatter& scatter) {
-    const LightCut cut = find_light_cut(context.lights, receiver);
+    const LightCut cut = find_light_cut(context.lights, receiver, context.met);
     const LightPick pick = pick_light(cut, receiver, numbers.choice);
     // A value that is not finite is not hidden: the sample is dropped and counted.
     if (pick.light == no_index) return {{}, Rgb(std::isfinite(cut.total) ? 0.0f : cut.total)};

@@ -8,15 +8,23 @@
 
 namespace aleph {
 
+/// Trees of the same lights. Each of `others` comes with a sample of what is hidden with a probability of `share`: the
+/// choice between the two makes no noise where hidden lights bring nothing.
+struct SplitLights {
+    LightTree others, hidden;
+    float share = 0.0f;
+};
+
 /// The parts of a posed scene that shading needs.
 struct LightingContext {
     const ShadingScene& shading;
     const LightSet& lights;
     const RayScene& rays;
     Media around{};  ///< of the points that paths start from, such as the camera
-    /// The tree of the same lights for direct light of what the camera sees (seen_light_tree.h); null: LightSet::tree.
-    const LightTree* seen = nullptr;
-    const SkyOpenings* openings = nullptr;  ///< find_sky_openings; null: none
+    // What is known of the lights (known_lights.h).
+    const SplitLights* seen = nullptr;      ///< for direct light of what the camera sees; null: LightSet::tree alone
+    const LightTree* met = nullptr;         ///< for light that reaches it indirectly; null: LightSet::tree
+    const SkyOpenings* openings = nullptr;  ///< null: none
 };
 
 /// The receiver by which lights are chosen for a surface. It may refer to it.

@@ -141,7 +141,7 @@ LightCut take_all_lights(const LightSet& lights, const Receiver& receiver) {
 LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, const LightTree* tree) {
     LightCut cut;
     if (lights.count() == 0) return cut;
-    if (lights.count() <= LightCut::few) return take_all_lights(lights, receiver);
+    if (tree == nullptr && lights.count() <= LightCut::few) return take_all_lights(lights, receiver);
     cut.tree = tree != nullptr ? tree : &lights.tree;
     const Candidates candidates = find_candidates(*cut.tree, receiver);
     for (int i = 0; i < candidates.size; ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "render/light/light_cut.h"
 
@@ -20,7 +21,7 @@ Rgb find_unblocked(const LightingContext& context, RayTask& task, const LitSurfa
 }
 
 /// The quick estimate's choice: the same points for every pixel.
-constexpr glm::vec2 estimate_shift{0.0f, 0.25f};
+constexpr glm::vec2 estimate_shift{0.0f, 0.25f}, hidden_shift{0.0f, 0.75f};
 
 /// A narrow lobe would show single points of the fixed pattern as sparkles.
 ViewedSurface widen_lobes(ViewedSurface surface) {
@@ -42,32 +43,48 @@ class ChosenLights {
           lit_(lit),
           shares_(shares),
           receiver_(make_receiver(lit)),
-          cut_(find_light_cut(context.lights, receiver_, context.seen)) {}
+          cut_(find_light_cut(context.lights, receiver_, context.seen != nullptr ? &context.seen->others : nullptr)) {}
 
     /// Light of one sample of `count`.
     /// @param u            x chooses the light; what that leaves of it, and y, are the point on it
     /// @param light_share  sample_light
     Rgb sample(RayTask& task, const glm::vec2& u, int count, float light_share) {
-        const LightPick pick = pick_light(cut_, receiver_, u.x);
+        return add_light(task, pick_light(cut_, receiver_, u.x), u.y, count, light_share);
+    }
+
+    bool has_hidden() const { return context_.seen != nullptr; }
+
+    /// The same of lights that are hidden from nearly everything.
+    Rgb sample_hidden(RayTask& task, const glm::vec2& u, int count, float light_share) {
+        const float share = context_.seen->share;
+        if (!(u.x < share)) return Rgb(0.0f);
+        if (!hidden_) hidden_ = find_light_cut(context_.lights, receiver_, &context_.seen->hidden);
+        LightPick pick = pick_light(*hidden_, receiver_, u.x / share);
+        pick.probability *= share;
+        return add_light(task, pick, u.y, count, light_share);
+    }
+
+    const LightCut& cut() const { return cut_; }
+
+  private:
+    Rgb add_light(RayTask& task, const LightPick& pick, float v, int count, float light_share) {
         if (pick.light == no_index) return Rgb(0.0f);
         SeenLight& seen = seen_[static_cast<std::size_t>(pick.light) % seen_.size()];
         if (seen.light != pick.light) seen = see_light(context_.lights, pick.light, receiver_.position);
-        const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen, receiver_,
-                                                     {pick.rest, u.y}, light_share, context_.openings);
+        const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen, receiver_, {pick.rest, v},
+                                                     light_share, context_.openings);
         if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return Rgb(0.0f);
         return find_unblocked(context_, task, lit_, sample,
                               scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
                                   (pick.probability * static_cast<float>(count)));
     }
 
-    const LightCut& cut() const { return cut_; }
-
-  private:
     const LightingContext& context_;
     const LitSurface& lit_;
     const LobeShares& shares_;
     Receiver receiver_;
     LightCut cut_;
+    std::optional<LightCut> hidden_;
     std::array<SeenLight, 16> seen_;  ///< lights that were chosen last
 };
 
@@ -79,8 +96,11 @@ Rgb estimate_chosen_lights(const LightingContext& context, RayTask& task, const 
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
     Rgb sum(0.0f);
     const int count = samples * LightCut::few;
-    for (int i = 0; i < count; ++i)
-        sum += lights.sample(task, lattice_point(i, count, estimate_shift), count, 1.0f / static_cast<float>(samples));
+    const float share = 1.0f / static_cast<float>(samples);
+    for (int i = 0; i < count; ++i) {
+        sum += lights.sample(task, lattice_point(i, count, estimate_shift), count, share);
+        if (lights.has_hidden()) sum += lights.sample_hidden(task, lattice_point(i, count, hidden_shift), count, share);
+    }
     return sum;
 }
 
@@ -116,6 +136,10 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
     SequenceOfUse points = sequence.of(SampleUse::light_point);
     for (int i = samples.first; i < samples.first + samples.count; ++i)
         sum += lights.sample(task, points.at(i), samples.count, 0.0f);
+    if (!lights.has_hidden()) return sum;
+    SequenceOfUse choices = sequence.of(SampleUse::light_choice);
+    for (int i = samples.first; i < samples.first + samples.count; ++i)
+        sum += lights.sample_hidden(task, choices.at(i), samples.count, 0.0f);
     return sum;
 }
 

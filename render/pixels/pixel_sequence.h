@@ -25,7 +25,7 @@ enum class SampleUse : std::uint8_t {
     pixel,           ///< the place within the pixel's filter
     lens,            ///< the place on the lens
     time,            ///< while the shutter is open
-    light_choice,    ///< which light
+    light_choice,    ///< which light, of those that are hidden
     light_point,     ///< the place on it
     lobe_choice,     ///< which lobe of the surface
     lobe_direction,  ///< the direction that it scatters to

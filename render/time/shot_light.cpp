@@ -44,7 +44,7 @@ KeyframeRecords ShotLight::compute(std::int64_t keyframe, const std::vector<std:
         }
         views.push_back(view);
     }
-    const LightingContext lighting = source_.light(keyframe);
+    const LightingContext lighting = source_.light(keyframe, statistics.counts.rays);
     if (work.checkpoint != nullptr) work.checkpoint->begin_fill(fmt::format("keyframe {}", keyframe));
     const KeyframeInput input{keyframe, lighting, views,  settings_,     source_.cast,
                               carried,  base,     still_, work.progress, work.checkpoint};

@@ -18,7 +18,7 @@ struct KeyframeSource {
     /// The first sample of every pixel of a view.
     CastView cast;
     /// The scene at a frame, valid until the next call of `pose` or `look`.
-    std::function<LightingContext(std::int64_t frame)> light;
+    std::function<LightingContext(std::int64_t frame, RayCounts& counts)> light;
 };
 
 /// What a frame keeps of the keyframes that are computed for it.
