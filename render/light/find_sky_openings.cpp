@@ -13,10 +13,12 @@ namespace aleph {
 
 namespace {
 
-constexpr int first_paths = 256, path_count = 4096, most_bounces = 3;
+constexpr int first_paths = 256, usual_paths = 4096, most_paths = 65536, most_bounces = 3;
 constexpr std::uint32_t path_key = 0x6f70656eu;  // no other random numbers have it
 constexpr int grid = 32;                         // cells along each edge of the box
 constexpr double most_escapes = 1.0 / 3.0;       // of the rays
+/// With fewer, cells of a narrow opening are missed, whose light then comes by few samples; more paths are followed.
+constexpr std::size_t enough_escapes = 256;
 constexpr std::size_t least_escapes = 16;
 constexpr double outliers = 0.01;  // of the places that the box leaves out, at each side
 /// Openings of more than this share of the box are no openings.
@@ -59,14 +61,15 @@ std::vector<RoomPath> follow_paths(const LightingContext& context, const CameraV
     return paths;
 }
 
-/// Enough reach the sky for a box, and few enough for openings.
-bool has_room(const std::vector<RoomPath>& paths, std::size_t least_escapes) {
-    std::size_t rays = 0, escapes = 0;
-    for (const RoomPath& path : paths) {
-        rays += static_cast<std::size_t>(path.count);
-        escapes += path.escaped ? 1 : 0;
-    }
-    return escapes >= least_escapes && static_cast<double>(escapes) <= most_escapes * static_cast<double>(rays);
+std::size_t count_escapes(const std::vector<RoomPath>& paths) {
+    return static_cast<std::size_t>(std::ranges::count(paths, true, &RoomPath::escaped));
+}
+
+/// Few enough rays reach the sky for openings.
+bool is_room(const std::vector<RoomPath>& paths) {
+    std::size_t rays = 0;
+    for (const RoomPath& path : paths) rays += static_cast<std::size_t>(path.count);
+    return static_cast<double>(count_escapes(paths)) <= most_escapes * static_cast<double>(rays);
 }
 
 /// All but the outermost places.
@@ -183,9 +186,15 @@ SkyOpening make_opening(const SkyOpenings& box, const CellRange& range) {
 std::optional<SkyOpenings> find_sky_openings(const LightingContext& context, const CameraView& view,
                                              const SampleHits& centers, RayCounts& counts) {
     if (!context.lights.has_environment || context.shading.skipped.contains(Effect::direct_light)) return std::nullopt;
-    if (!has_room(follow_paths(context, view, centers, first_paths, counts), 0)) return std::nullopt;
-    const std::vector<RoomPath> paths = follow_paths(context, view, centers, path_count, counts);
-    if (!has_room(paths, least_escapes)) return std::nullopt;
+    if (!is_room(follow_paths(context, view, centers, first_paths, counts))) return std::nullopt;
+    std::vector<RoomPath> paths = follow_paths(context, view, centers, usual_paths, counts);
+    const std::size_t escapes = count_escapes(paths);
+    if (escapes == 0 || !is_room(paths)) return std::nullopt;
+    if (escapes < enough_escapes) {
+        const auto count = static_cast<int>(usual_paths * enough_escapes / escapes);
+        paths = follow_paths(context, view, centers, std::min(count, most_paths), counts);
+    }
+    if (count_escapes(paths) < least_escapes) return std::nullopt;
     SkyOpenings found;
     set_box(paths, found);
     std::vector<CellRange> ranges = find_open_cells(paths, found);

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double wall = 0.1;  // m, thick
 
-/// A room of 4 x 3 x 4 m with a square window in the middle of its right wall, under a sky of 1 cd/m2.
-/// @param half  m, half the window's side
-Scene make_room_with_window(double half = 0.5) {
+/// A room of 4 x 3 x 4 m with a window in the middle of its right wall, under a sky of 1 cd/m2.
+/// @param half  m, half the window's width and height
+Scene make_room_with_window(const glm::dvec2& half = glm::dvec2(0.5)) {
     Scene scene;
     const int grey = add_lambert(scene, glm::dvec3(0.5));
     const auto add = [&](const glm::dvec3& low, const glm::dvec3& high) {
@@ -25,10 +25,10 @@ Scene make_room_with_window(double half = 0.5) {
     add({-2.0 - wall, -wall, -2.0}, {-2.0, 3.0 + wall, 2.0});
     add({-2.0 - wall, -wall, -2.0 - wall}, {2.0 + wall, 3.0 + wall, -2.0});
     add({-2.0 - wall, -wall, 2.0}, {2.0 + wall, 3.0 + wall, 2.0 + wall});
-    add({2.0, -wall, -2.0}, {2.0 + wall, 1.5 - half, 2.0});
-    add({2.0, 1.5 + half, -2.0}, {2.0 + wall, 3.0 + wall, 2.0});
-    add({2.0, 1.5 - half, -2.0}, {2.0 + wall, 1.5 + half, -half});
-    add({2.0, 1.5 - half, half}, {2.0 + wall, 1.5 + half, 2.0});
+    add({2.0, -wall, -2.0}, {2.0 + wall, 1.5 - half.y, 2.0});
+    add({2.0, 1.5 + half.y, -2.0}, {2.0 + wall, 3.0 + wall, 2.0});
+    add({2.0, 1.5 - half.y, -2.0}, {2.0 + wall, 1.5 + half.y, -half.x});
+    add({2.0, 1.5 - half.y, half.x}, {2.0 + wall, 1.5 + half.y, 2.0});
     scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
     add_camera(scene, {-1.5, 1.8, 1.5}, {-0.6, 1.0, -1.5}, 1.0);
     return scene;
@@ -61,6 +61,20 @@ TEST(SkyOpenings, AreTheWindowsOfARoom) {
     EXPECT_NEAR(window.high.x + anchor.y, 2.0f, cell);
     EXPECT_NEAR(window.low.y + anchor.z, -0.5f, cell);
     EXPECT_NEAR(window.high.y + anchor.z, 0.5f, cell);
+}
+
+TEST(SkyOpenings, ANarrowOneIsFoundWhole) {
+    for (const double half : {0.05, 0.1}) {
+        const Stage stage(make_room_with_window({half, 0.9}));
+        const std::optional<SkyOpenings> found = find_openings(stage);
+        ASSERT_TRUE(found.has_value());
+        ASSERT_EQ(found->openings.size(), 1u);
+        const SkyOpening& slit = found->openings.front();
+        const glm::vec3 anchor(stage.shading.anchor);
+        const float cell = 3.0f / 32.0f;
+        EXPECT_LT(slit.low.x + anchor.y, 0.6f + cell) << half;
+        EXPECT_GT(slit.high.x + anchor.y, 2.4f - cell) << half;
+    }
 }
 
 TEST(SkyOpenings, AreFoundThroughPanes) {
@@ -179,7 +193,7 @@ TEST(SkyOpenings, ARoomWithAWindowTakesFewSamples) {
     RenderSettings settings;
     settings.picture = {24, 18};
     follow_error(settings, 1.0);
-    Sequence sequence(make_room_with_window(0.25), settings);
+    Sequence sequence(make_room_with_window(glm::dvec2(0.25)), settings);
     const FrameOutput out = sequence.render(0);
     EXPECT_LT(out.statistics.counts.samples, 100u * 24 * 18);
     ASSERT_TRUE(out.statistics.error.has_value());
