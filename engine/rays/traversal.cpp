@@ -98,10 +98,20 @@ void Nearest::offer_tie(const Crossing& crossing) {
     }
     count_ = count;
     if (!wanted) return;
-    if (count_ == capacity) std::copy(kept_ + 1, kept_ + count_--, kept_);
+    if (count_ == capacity) {
+        more_.push_back(kept_[0]);
+        std::copy(kept_ + 1, kept_ + count_--, kept_);
+    }
     int place = count_++;
     for (; place > 0 && kept_[place - 1].distance > crossing.distance; --place) kept_[place] = kept_[place - 1];
     kept_[place] = crossing;
+}
+
+const Crossing& Nearest::find_result() const {
+    const Crossing* first = &kept_[count_ - 1];
+    for (const Crossing& other : more_)
+        if (other.distance <= limit() && comes_first(other, *first)) first = &other;
+    return *first;
 }
 
 bool is_beyond(const Crossing& passed, const Crossing& next) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <vector>
 
 #include "engine/rays/ray_scene.h"
 #include "engine/rays/triangle_tree.h"
@@ -49,18 +50,21 @@ class Nearest {
     void clear() {
         nearest_ = std::numeric_limits<double>::infinity();
         count_ = 0;
+        more_.clear();
     }
     /// Not if empty.
-    const Crossing& result() const { return kept_[count_ - 1]; }
+    const Crossing& result() const { return more_.empty() ? kept_[count_ - 1] : find_result(); }
 
   private:
     void offer_tie(const Crossing& crossing);
+    const Crossing& find_result() const;
 
     static constexpr int capacity = 4;
     double nearest_ = std::numeric_limits<double>::infinity();
     int count_ = 0;
     /// From near to far, each before its predecessor in the order above: all others can never be the result.
     Crossing kept_[capacity];
+    std::vector<Crossing> more_;  ///< found no room there; in no order
 };
 
 /// Where a ray enters a tree: Embree's distance = (distance - start) * unit.

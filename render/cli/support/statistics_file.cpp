@@ -39,6 +39,19 @@ std::string read_if_there(const std::filesystem::path& path) {
     return std::filesystem::exists(path) ? read_text(path) : std::string();
 }
 
+void add_row(const Json& row, std::map<std::string, std::string>& to) {
+    if (row.is_object() && row.contains("fingerprint") && row["fingerprint"].is_string())
+        to[row["fingerprint"].get<std::string>()] = indent_row(row.dump(2));
+}
+
+/// Those of the file of rows.
+std::map<std::string, std::string> read_noted_rows(const std::filesystem::path& path) {
+    std::map<std::string, std::string> rows;
+    std::istringstream lines(read_if_there(rows_file(path)));
+    for (std::string line; std::getline(lines, line);) add_row(parse_rows(line), rows);
+    return rows;
+}
+
 }  // namespace
 
 bool is_write_due(double since, double took) {
@@ -46,18 +59,12 @@ bool is_write_due(double since, double took) {
 }
 
 std::map<std::string, std::string> read_statistics_rows(const std::filesystem::path& path) {
-    std::map<std::string, std::string> rows, unfinished;
-    const auto add = [](const Json& row, std::map<std::string, std::string>& to) {
-        if (row.is_object() && row.contains("fingerprint") && row["fingerprint"].is_string())
-            to[row["fingerprint"].get<std::string>()] = indent_row(row.dump(2));
-    };
+    std::map<std::string, std::string> rows;
     const Json whole = parse_rows(read_if_there(path));
     if (whole.is_object() && whole.contains("frames") && whole["frames"].is_array()) {
-        for (const Json& row : whole["frames"]) add(row, rows);
+        for (const Json& row : whole["frames"]) add_row(row, rows);
     }
-    std::istringstream lines(read_if_there(rows_file(path)));
-    for (std::string line; std::getline(lines, line);) add(parse_rows(line), unfinished);
-    rows.merge(unfinished);
+    rows.merge(read_noted_rows(path));
     return rows;
 }
 
@@ -82,7 +89,9 @@ StatisticsFile::Row StatisticsFile::append(const std::string& row) {
     return {end - static_cast<off_t>(line.size()) + 1, line.size() - 1};
 }
 
-std::string StatisticsFile::read(const Row& row) const {
+std::string StatisticsFile::text_of(const std::variant<Row, std::string>& frame) const {
+    if (const auto* text = std::get_if<std::string>(&frame)) return *text;
+    const Row& row = std::get<Row>(frame);
     std::string line(row.size, '\0');
     if (::pread(rows_.get(), line.data(), line.size(), row.begin) != static_cast<ssize_t>(line.size()))
         throw OutputError(printable(rows_file(path_).string(), 4096), "cannot read back what was written");
@@ -95,7 +104,9 @@ void StatisticsFile::note(const FrameStatistics& frame, const std::string& finge
 
 std::map<std::string, std::string> StatisticsFile::take_over() {
     std::map<std::string, std::string> rows = read_statistics_rows(path_);
-    for (const auto& [fingerprint, row] : rows) append(row);
+    const std::map<std::string, std::string> noted = read_noted_rows(path_);
+    for (const auto& [fingerprint, row] : rows)
+        if (!noted.contains(fingerprint)) append(row);
     return rows;
 }
 
@@ -109,7 +120,7 @@ void StatisticsFile::add(std::size_t place, const FrameStatistics& frame, const 
 
 void StatisticsFile::keep(std::size_t place, const std::string& row) {
     if (path_.empty() || frames_.contains(place)) return;
-    frames_[place] = append(row);
+    frames_[place] = row;
     changed_ = true;
 }
 
@@ -140,7 +151,7 @@ void StatisticsFile::write() {
         std::ofstream out(temporary, std::ios::binary);
         out << text.substr(0, middle);
         const char* before = "";
-        for (const auto& [place, row] : frames_) out << std::exchange(before, ",\n") << read(row);
+        for (const auto& [place, row] : frames_) out << std::exchange(before, ",\n") << text_of(row);
         if (!frames_.empty()) out << text.substr(middle + mark.size());
         if (!out.flush()) throw OutputError(printable(path_.string(), 4096), "cannot write the statistics");
     });

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "engine/base/file_descriptor.h"
 #include "render/output/frame_files.h"
@@ -39,7 +40,8 @@ class StatisticsFile {
     /// @throws OutputError
     void note(const FrameStatistics& frame, const std::string& fingerprint);
 
-    /// Reads the rows of earlier runs, and notes them: a stop then loses none, whether its frame comes up or not.
+    /// Reads the rows of earlier runs, and notes those that are not: a stop then loses none, whether its frame comes up
+    /// or not.
     /// @return by fingerprint, as read_statistics_rows
     /// @throws OutputError
     std::map<std::string, std::string> take_over();
@@ -72,7 +74,7 @@ class StatisticsFile {
     };
 
     Row append(const std::string& row);
-    std::string read(const Row& row) const;
+    std::string text_of(const std::variant<Row, std::string>& frame) const;
     void write();
 
     std::filesystem::path path_;
@@ -84,7 +86,7 @@ class StatisticsFile {
     /// `.NAME.rows` beside the file: rows as they came, one JSON a line, so that a long sequence takes no memory.
     /// Removed by `finish`.
     FileDescriptor rows_;
-    std::map<std::size_t, Row> frames_;  ///< by place
+    std::map<std::size_t, std::variant<Row, std::string>> frames_;  ///< by place; of `keep` the text
     bool changed_ = false;
     StageClock clock_;
     double since_ = 0.0;  ///< seconds since the file was written

@@ -1,7 +1,11 @@
 // RC-07, RC-06: which of several surfaces at one distance is hit depends neither on how Embree's trees were built nor
 // on whether rays are cast one by one or in packets.
 
+#include <algorithm>
+#include <random>
+
 #include "engine/rays/ray_scene.h"
+#include "engine/rays/traversal.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/scenes/deforming_scenes.h"
 
@@ -95,6 +99,24 @@ TEST(RayTies, RC07_TheLowestInstanceAndPrimitiveOfEqualSurfacesWins) {
         }
         rays.update(pose(scene, 1.0), glm::dvec3(0.0));
         for (const Hit& hit : trace(rays, make_rays(4000, 0.99f))) ASSERT_EQ(hit.instance, 4);
+    }
+}
+
+TEST(RayTies, RC07_OfManySheetsThatLieCloseTheSameIsMetInAnyOrder) {
+    // The nearest one has the highest number: of it and the ten within Nearest::tie of it, the farthest counts.
+    constexpr int sheets = 40, within = 10;
+    std::vector<Crossing> crossings(sheets);
+    for (int i = 0; i < sheets; ++i) {
+        crossings[i].distance = 1.0 + i * Nearest::tie / (within + 0.5);
+        crossings[i].instance = sheets - 1 - i;
+    }
+    std::mt19937 random(1);
+    Nearest nearest;
+    for (int order = 0; order < 1000; ++order) {
+        nearest.clear();
+        for (const Crossing& crossing : crossings) nearest.offer(crossing);
+        ASSERT_EQ(nearest.result().instance, sheets - 1 - within) << order;
+        std::ranges::shuffle(crossings, random);
     }
 }
 

@@ -82,6 +82,21 @@ TEST_F(StatisticsFileTest, RowsOfFramesThatDidNotComeUpSurviveAStop) {
     EXPECT_EQ(read_statistics_rows(path_).size(), 3u) << "after a stop";
 }
 
+TEST_F(StatisticsFileTest, RowsAreNotedOnceHoweverOftenRunsAreStopped) {
+    const fs::path rows = folder_ / ".statistics.json.rows";
+    {
+        StatisticsFile file(path_, scene_, settings_, 1.0);
+        file.add(0, frame(1), "one");
+    }
+    const std::string noted = read_bytes(rows);
+    for (int run = 0; run < 3; ++run) {
+        StatisticsFile file(path_, scene_, settings_, 1.0);
+        file.keep(0, file.take_over().at("one"));
+    }
+    EXPECT_EQ(read_bytes(rows), noted);
+    EXPECT_EQ(frames(), std::vector<int>{1});
+}
+
 TEST_F(StatisticsFileTest, RowsOfFinishedFramesSurvive) {
     const fs::path rows = folder_ / ".statistics.json.rows";
     {
