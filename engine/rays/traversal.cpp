@@ -99,7 +99,8 @@ void Nearest::offer_tie(const Crossing& crossing) {
     count_ = count;
     if (!wanted) return;
     if (count_ == capacity) {
-        more_.push_back(kept_[0]);
+        if (more_ == nullptr) more_ = std::make_unique<std::vector<Crossing>>();
+        more_->push_back(kept_[0]);
         std::copy(kept_ + 1, kept_ + count_--, kept_);
     }
     int place = count_++;
@@ -109,7 +110,7 @@ void Nearest::offer_tie(const Crossing& crossing) {
 
 const Crossing& Nearest::find_result() const {
     const Crossing* first = &kept_[count_ - 1];
-    for (const Crossing& other : more_)
+    for (const Crossing& other : *more_)
         if (other.distance <= limit() && comes_first(other, *first)) first = &other;
     return *first;
 }

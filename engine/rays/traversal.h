@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "engine/rays/ray_scene.h"
@@ -50,10 +51,10 @@ class Nearest {
     void clear() {
         nearest_ = std::numeric_limits<double>::infinity();
         count_ = 0;
-        more_.clear();
+        more_.reset();
     }
     /// Not if empty.
-    const Crossing& result() const { return more_.empty() ? kept_[count_ - 1] : find_result(); }
+    const Crossing& result() const { return more_ == nullptr ? kept_[count_ - 1] : find_result(); }
 
   private:
     void offer_tie(const Crossing& crossing);
@@ -64,7 +65,7 @@ class Nearest {
     int count_ = 0;
     /// From near to far, each before its predecessor in the order above: all others can never be the result.
     Crossing kept_[capacity];
-    std::vector<Crossing> more_;  ///< found no room there; in no order
+    std::unique_ptr<std::vector<Crossing>> more_;  ///< found no room there; in no order. Null: none
 };
 
 /// Where a ray enters a tree: Embree's distance = (distance - start) * unit.
