@@ -34,32 +34,6 @@ std::size_t skip_json_comment(std::string_view text, std::size_t at) {
     return end == std::string_view::npos ? text.size() : end + (start == "//" ? 0 : 1);
 }
 
-/// Calls mark(character) for each character outside strings, and string(bytes) for each string.
-/// @param comments  the text may hold // and /* */
-template <class Mark, class String>
-void scan_json(std::string_view text, bool comments, const Mark& mark, const String& string) {
-    std::size_t string_start = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') {
-                ++i;
-            } else if (c == '"') {
-                in_string = false;
-                string(i - string_start);
-            }
-        } else if (c == '"') {
-            in_string = true;
-            string_start = i;
-        } else if (c == '/' && comments) {
-            i = skip_json_comment(text, i);
-        } else {
-            mark(c);
-        }
-    }
-}
-
 /// Refuses a text whose values would take more than limits.json_values().
 /// @param advice  what to do about it
 void check_json_memory(std::string_view text, bool comments, const LoadLimits& limits, const std::string& file,
@@ -144,7 +118,7 @@ class Builder {
     bool key(std::string& name) {
         Level& level = levels_.back();
         level.key = std::move(name);
-        if (!level.keys.insert(level.key).second && unique_keys_)
+        if (unique_keys_ && !level.keys.insert(level.key).second)
             throw InputError(file_, pointer(), "this key is here twice");
         if (levels_.size() == 2) result_.key_order[levels_.front().key].push_back(level.key);
         return true;
@@ -218,20 +192,6 @@ class Builder {
     std::vector<Level> levels_;
 };
 
-/// Deepest nesting of brackets outside strings.
-int nesting_depth(std::string_view text) {
-    int depth = 0, deepest = 0;
-    const auto count = [&](char c) {
-        if (c == '{' || c == '[') {
-            deepest = std::max(deepest, ++depth);
-        } else if (c == '}' || c == ']') {
-            --depth;
-        }
-    };
-    scan_json(text, false, count, [](std::size_t) {});
-    return deepest;
-}
-
 constexpr const char* large_mesh_advice =
     "keep large meshes and long lists of points in a .glb or .abc file and include that, or raise --load-memory "
     "(LoadLimits)";
@@ -240,17 +200,28 @@ constexpr const char* large_mesh_advice =
 
 std::size_t estimate_json_memory(std::string_view text, bool comments) {
     constexpr std::size_t element = 48, container = 96, member = 250, string = 48;
-    std::size_t bytes = 0;
-    const auto add_mark = [&](char c) {
-        if (c == ',') {
+    std::size_t bytes = 0, string_start = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            if (c != '"') continue;
+            in_string = false;
+            bytes += string + i - string_start;
+        } else if (c == '"') {
+            in_string = true;
+            string_start = i;
+        } else if (c == '/' && comments) {
+            i = skip_json_comment(text, i);
+        } else if (c == ',') {
             bytes += element;
         } else if (c == ':') {
             bytes += member;
         } else if (c == '[' || c == '{') {
             bytes += element + container;
         }
-    };
-    scan_json(text, comments, add_mark, [&](std::size_t length) { bytes += string + length; });
+    }
     return bytes;
 }
 
@@ -260,17 +231,10 @@ nlohmann::json parse_strict_json(std::string_view text, const std::string& file,
         throw InputError(file, "",
                          fmt::format("the JSON text has {} bytes, more than {}", text.size(), max_json_bytes));
     }
-    if (const int depth = nesting_depth(text); depth > max_json_depth) {
-        throw InputError(file, "", fmt::format("the JSON text is nested {} deep, more than {}", depth, max_json_depth));
-    }
     check_json_memory(text, false, limits, file, advice);
-    try {
-        return nlohmann::json::parse(text);
-    } catch (const nlohmann::json::exception& error) {
-        Builder builder(text, file, false);  // slower, but knows the place and a plain reason
-        json::sax_parse(text, &builder, json::input_format_t::json, true, false);
-        throw InputError(file, "", "not valid JSON: " + printable(error.what(), 300));
-    }
+    Builder builder(text, file, false);
+    json::sax_parse(text, &builder, json::input_format_t::json, true, false);
+    return builder.take().root;
 }
 
 JsonText parse_json_text(std::string_view text, const std::string& file, const LoadLimits& limits) {
