@@ -52,39 +52,22 @@ std::string cell(const VariantResult& variant, const Metric& metric) {
     return found == variant.metrics.end() ? "-" : cell(found->second);
 }
 
-using Row = std::vector<std::string>;
-
-void print_row(const Row& row, const std::vector<std::size_t>& widths, bool markdown, std::ostream& out) {
-    Row cells;
+void print_row(const TableRow& row, const std::vector<std::size_t>& widths, bool markdown, std::ostream& out) {
+    TableRow cells;
     for (std::size_t i = 0; i < row.size(); ++i)
         cells.push_back(i == 0 ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("{:>{}}", row[i], widths[i]));
     if (markdown) return fmt::print(out, "| {} |\n", fmt::join(cells, " | "));
     fmt::print(out, "{}\n", fmt::join(cells, "  "));
 }
 
-void print_rows(const std::vector<Row>& rows, bool markdown, std::ostream& out) {
-    std::vector<std::size_t> widths(rows.front().size(), 0);
-    for (const Row& row : rows) {
-        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    }
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        print_row(rows[i], widths, markdown, out);
-        if (i > 0 || !markdown) continue;
-        Row rule;
-        for (std::size_t c = 0; c < widths.size(); ++c)
-            rule.push_back(std::string(widths[c] - 1, '-') + (c == 0 ? "-" : ":"));
-        print_row(rule, widths, true, out);
-    }
-}
-
 void print_table(const PreparedStudy& prepared, const std::vector<VariantResult>& variants, bool markdown,
                  std::ostream& out) {
-    std::vector<Row> rows{{"variant"}};
+    std::vector<TableRow> rows{{"variant"}};
     for (const Metric& metric : prepared.metrics) {
         if (is_shown(metric, prepared.study)) rows.front().push_back(head_of(metric));
     }
     for (const VariantResult& variant : variants) {
-        Row& row = rows.emplace_back();
+        TableRow& row = rows.emplace_back();
         row.push_back(printable(variant.name, 80) + (variant.on_front ? " *" : ""));
         for (const Metric& metric : prepared.metrics) {
             if (is_shown(metric, prepared.study)) row.push_back(cell(variant, metric));
@@ -149,6 +132,21 @@ void print_against(const AgainstFixed& against, std::ostream& out) {
 
 }  // namespace
 
+void print_rows(const std::vector<TableRow>& rows, bool markdown, std::ostream& out) {
+    std::vector<std::size_t> widths(rows.front().size(), 0);
+    for (const TableRow& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        print_row(rows[i], widths, markdown, out);
+        if (i > 0 || !markdown) continue;
+        TableRow rule;
+        for (std::size_t c = 0; c < widths.size(); ++c)
+            rule.push_back(std::string(widths[c] - 1, '-') + (c == 0 ? "-" : ":"));
+        print_row(rule, widths, true, out);
+    }
+}
+
 std::filesystem::path study_folder(const std::filesystem::path& file) {
     return name_scene(file) + "-study";
 }
@@ -193,7 +191,7 @@ void print_ledger(const std::vector<SceneLedger>& ledgers, bool markdown, std::o
     for (const SceneLedger& ledger : ledgers) {
         fmt::print(out, "\n{}: {} seconds a frame with all effects, {} % seen to err. Without each:\n\n",
                    printable(ledger.scene), cell(ledger.seconds), cell(ledger.seen));
-        std::vector<Row> rows{{"effect", "plan", "seconds saved", "seen %", "left out at most"}};
+        std::vector<TableRow> rows{{"effect", "plan", "seconds saved", "seen %", "left out at most"}};
         for (const LedgerEntry& entry : ledger.entries) {
             rows.push_back({entry.effect, entry.decision, entry.seconds ? cell(*entry.seconds) : "-",
                             entry.seen ? cell(*entry.seen) : "-",

@@ -13,6 +13,11 @@
 
 namespace aleph {
 
+using TableRow = std::vector<std::string>;
+
+/// Prints a table, its first row as the head: the first column left-aligned, the others right-aligned.
+void print_rows(const std::vector<TableRow>& rows, bool markdown, std::ostream& out);
+
 /// "pool-study" for pool/scene.json or studies/pool.json, in the current folder.
 std::filesystem::path study_folder(const std::filesystem::path& file);
 

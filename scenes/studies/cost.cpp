@@ -6,10 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "render/budget/cost_pilot.h"
+#include "render/cli/study_output.h"
 #include "render/cli/support/options.h"
 #include "render/frame/sequence.h"
 #include "render/settings/measure.h"
@@ -138,8 +140,7 @@ PilotSeconds end_pilot(PilotSeconds pilot, std::size_t last) {
 
 /// Predictions from pilots that end at the error itself, and at the one before.
 void print_check(const std::vector<MeasuredFrame>& frames, const CostCoefficients& fitted, bool markdown) {
-    const StudyTable table({"frame", "error", "measured", "predicted", "ratio", "from the error before", "ratio"}, 1,
-                           markdown);
+    std::vector<TableRow> rows{{"frame", "error", "measured", "predicted", "ratio", "from the error before", "ratio"}};
     double worst = 1.0, worst_before = 1.0;
     for (const MeasuredFrame& frame : frames) {
         for (std::size_t i = 0; i < frame.whole.size(); ++i) {
@@ -158,17 +159,17 @@ void print_check(const std::vector<MeasuredFrame>& frames, const CostCoefficient
             } else {
                 cells.insert(cells.end(), {"", ""});
             }
-            table.add(cells);
+            rows.push_back(std::move(cells));
         }
     }
+    print_rows(rows, markdown, std::cout);
     fmt::print("\nLargest factor between prediction and measurement: {:.2f}; from the error before: {:.2f}.\n\n", worst,
                worst_before);
 }
 
 /// By what takes the seconds: measured, and predicted.
 void print_parts(const std::vector<MeasuredFrame>& frames, const CostCoefficients& fitted, bool markdown) {
-    const StudyTable table({"frame", "error", "start", "before light", "fill", "keyframes", "shade", "pilot"}, 1,
-                           markdown);
+    std::vector<TableRow> rows{{"frame", "error", "start", "before light", "fill", "keyframes", "shade", "pilot"}};
     for (const MeasuredFrame& frame : frames) {
         for (std::size_t i = 0; i < frame.whole.size(); ++i) {
             const double error = frame.pilot.parts[i].error;
@@ -179,9 +180,10 @@ void print_parts(const std::vector<MeasuredFrame>& frames, const CostCoefficient
                 cells.push_back(fmt::format("{:.3f} / {:.3f}", frame.whole[i].*part, predicted.*part));
             }
             cells.push_back(i == 0 ? fmt::format("{:.2f}", frame.pilot_took) : "");
-            table.add(cells);
+            rows.push_back(std::move(cells));
         }
     }
+    print_rows(rows, markdown, std::cout);
     fmt::print("\n");
 }
 

@@ -6,10 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 #include "engine/base/errors.h"
 #include "engine/base/pixel_loops.h"
 #include "engine/load/load_scene.h"
+#include "render/cli/study_output.h"
 #include "render/cli/support/options.h"
 #include "render/cli/support/progress.h"
 #include "render/frame/sequence.h"
@@ -165,7 +167,7 @@ Finding compare_with_bound(const Scene& scene, const RenderSettings& settings, s
     return finding;
 }
 
-void try_frame(const FrameOfScene& which, const EffectsOptions& options, const StudyTable& table, Totals& totals) {
+void try_frame(const FrameOfScene& which, const EffectsOptions& options, std::vector<TableRow>& rows, Totals& totals) {
     const Scene scene = load_scene(which.file);
     const RenderSettings settings = scene_settings(scene, which.file, options.study);
     const std::int64_t frame = which.frame.value_or(frame_range(scene).first);
@@ -184,11 +186,11 @@ void try_frame(const FrameOfScene& which, const EffectsOptions& options, const S
         totals.pixels += found.tested ? planned.color.size() : 0;
         totals.untested += found.tested ? 0 : 1;
         totals.violations += found.violations;
-        table.add({name, trial.name, fmt::format("{:.2g}", trial.bound.luminance),
-                   fmt::format("{:.2g}", trial.bound.thresholds), fmt::format("{:.2g}", found.difference),
-                   fmt::format("{:.2g}", found.noise),
-                   found.tested ? fmt::format("{}", found.violations)
-                                : fmt::format("{}, too noisy to tell", found.violations)});
+        rows.push_back({name, trial.name, fmt::format("{:.2g}", trial.bound.luminance),
+                        fmt::format("{:.2g}", trial.bound.thresholds), fmt::format("{:.2g}", found.difference),
+                        fmt::format("{:.2g}", found.noise),
+                        found.tested ? fmt::format("{}", found.violations)
+                                     : fmt::format("{}, too noisy to tell", found.violations)});
     }
 }
 
@@ -201,16 +203,16 @@ void make_quick(EffectsOptions& options) {
 }
 
 int run_effects(const EffectsOptions& options) {
-    const StudyTable table({"frame", "forced", "bound, cd/m2", "thresholds", "difference", "noise", "violations"}, 2,
-                           options.study.markdown);
+    std::vector<TableRow> rows{{"frame", "forced", "bound, cd/m2", "thresholds", "difference", "noise", "violations"}};
     Totals totals;
     if (options.seeds < 2) throw InputError("", "--seeds", "expected at least 2: one has no variance");
     if (options.frames.empty()) throw InputError("", "frames", "name scene files, or give --quick");
     Progress progress("frames", static_cast<double>(options.frames.size()), progress_look(options.quiet));
     for (std::size_t i = 0; i < options.frames.size(); ++i) {
-        try_frame(parse_frame_of_scene(options.frames[i]), options, table, totals);
+        try_frame(parse_frame_of_scene(options.frames[i]), options, rows, totals);
         progress.update(static_cast<double>(i + 1));
     }
+    print_rows(rows, options.study.markdown, std::cout);
     fmt::print("\n{} violations over {} comparisons of pixels; {} rows were too noisy to test their bound\n",
                totals.violations, totals.pixels, totals.untested);
     return totals.violations == 0 ? 0 : 1;

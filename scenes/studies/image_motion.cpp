@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iostream>
 
 #include "engine/base/pixel_loops.h"
 #include "engine/load/load_scene.h"
@@ -14,6 +15,7 @@
 #include "engine/rays/ray_scene.h"
 #include "motion/picture_motion.h"
 #include "motion/raster.h"
+#include "render/cli/study_output.h"
 #include "render/cli/support/options.h"
 #include "render/frame/sequence.h"
 #include "render/output/sheet.h"
@@ -175,20 +177,20 @@ Motions find_motions(const Scene& scene, const RenderSettings& settings, int fra
 }
 
 void print_table(const Motions& motions, const std::vector<bool>& movers, bool markdown) {
-    const StudyTable table({"motion from", "object: valid (%)", "median", "95 %", "background: valid (%)", "median",
-                            "95 %", "hidden: valid (%)", "processor seconds"},
-                           1, markdown);
+    std::vector<TableRow> rows{{"motion from", "object: valid (%)", "median", "95 %", "background: valid (%)", "median",
+                                "95 %", "hidden: valid (%)", "processor seconds"}};
     const std::array<Region, 3> regions = list_regions(motions.now, movers);
     for (const FoundMotion& found : motions.found) {
-        std::vector<std::string> row{found.source};
+        TableRow& row = rows.emplace_back();
+        row.push_back(found.source);
         for (std::size_t i = 0; i < 2; ++i) {
             const RegionErrors errors = find_errors(found.field, motions.model(), regions[i]);
             row.insert(row.end(), {errors.share(), errors.quantile(0.5), errors.quantile(0.95)});
         }
         row.push_back(find_errors(found.field, motions.model(), regions[2]).share());
         row.push_back(fmt::format("{:.3f}", found.seconds));
-        table.add(row);
     }
+    print_rows(rows, markdown, std::cout);
 }
 
 std::vector<Panel> make_panels(const Motions& motions, int frame) {

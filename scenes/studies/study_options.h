@@ -1,5 +1,5 @@
 #pragma once
-// The command line of the study programs, and their tables.
+// The command line of the study programs.
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -40,22 +40,5 @@ FrameOfScene parse_frame_of_scene(const std::string& text);
 /// @param program  returns the exit code
 int run_study_program(CLI::App& app, StudyOptions& options, int argc, const char* const* argv,
                       const std::function<int()>& program);
-
-/// A table that is printed row by row, for reading or as Markdown.
-class StudyTable {
-  public:
-    /// Prints the head. Columns are right-aligned, the first `texts` of them left-aligned.
-    StudyTable(std::vector<std::string> columns, int texts, bool markdown);
-
-    /// One cell per column.
-    void add(const std::vector<std::string>& cells) const;
-
-  private:
-    void print(const std::vector<std::string>& cells) const;
-
-    std::vector<std::string> columns_;
-    int texts_;
-    bool markdown_;
-};
 
 }  // namespace aleph
