@@ -47,7 +47,6 @@ SceneFormat gltf_format() {
     format.append = append_gltf_file;
     format.list_missing = list_missing_of_gltf;
     format.has_animation_names = true;
-    format.warns_of_points = true;
     return format;
 }
 

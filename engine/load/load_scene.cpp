@@ -33,10 +33,10 @@ Scene load_alone(const SceneFormat& format, const LoadRequest& request) {
 }
 
 /// Checks scales, adds the warnings, and a light where there is none.
-void complete(Scene& scene, const SceneFormats& formats) {
+void complete(Scene& scene) {
     add_rotation_warnings(scene);
     add_mesh_warnings(scene);
-    check_scales(scene, formats);
+    check_scales(scene);
     add_radian_warnings(scene);
     add_key_warnings(scene);
     add_cut_warnings(scene);
@@ -50,13 +50,13 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits, co
     const SceneFormat& format = require_format(formats, FormatUse::load, path, request.file, "");
     check_regular_file(path, request.file, "");
     Scene scene = format.load != nullptr ? format.load(request) : load_alone(format, request);
-    complete(scene, formats);
+    complete(scene);
     return scene;
 }
 
 Scene load_scene_text(std::string_view text, const std::filesystem::path& folder, const LoadLimits& limits) {
     Scene scene = load_scene_file_text(text, {folder / "", "", limits, scene_formats()});
-    complete(scene, scene_formats());
+    complete(scene);
     return scene;
 }
 

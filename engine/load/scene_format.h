@@ -55,7 +55,6 @@ struct SceneFormat {
     void (*list_missing)(const LoadRequest&, std::vector<MissingFile>&) = nullptr;
 
     bool has_animation_names = false;  ///< an include may choose animations by their names
-    bool warns_of_points = false;      ///< `append` warns of nodes that shrink everything to a point
 };
 
 /// aleph's own scene files, glTF and Alembic.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <vector>
 
@@ -16,13 +17,9 @@ namespace aleph {
 
 namespace {
 
-/// True where the file's reader warns of nodes that shrink everything to a point, and this is one.
-bool has_warning(const Scene& scene, const SceneFormats& formats, const Node& node, const glm::dmat4& world) {
-    const SceneFormat* format = find_format(formats, source_file(scene, node.include));
-    if (format == nullptr || !format->warns_of_points) return false;
-    double largest = 0.0;
-    for (int column = 0; column < 3; ++column) largest = std::max(largest, glm::length(glm::dvec3(world[column])));
-    return largest < 1e-12;
+/// True where what the node shows is flat, or a metre of it is less than an atom.
+bool is_flat(const glm::dmat4& world) {
+    return !has_full_rank(world) || largest_element(glm::dmat3(world)) < 1e-12;
 }
 
 /// @param name  of what turns, for messages
@@ -62,7 +59,7 @@ std::string source_file(const Scene& scene, int include) {
     return (std::filesystem::path(scene.source.file).parent_path() / scene.source.includes[include].path).string();
 }
 
-void check_scales(Scene& scene, const SceneFormats& formats) {
+void check_scales(Scene& scene) {
     std::vector<std::uint8_t> blind, flat;  // at every frame so far
     for (const Node& node : scene.nodes) {
         blind.push_back(node.camera != no_index);
@@ -74,7 +71,7 @@ void check_scales(Scene& scene, const SceneFormats& formats) {
         for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
             const glm::dmat4& world = posed.world[n];
             blind[n] = blind[n] != 0 && normal_matrix(world) == glm::dmat3(0.0);
-            flat[n] = flat[n] != 0 && !has_full_rank(world) && !has_warning(scene, formats, scene.nodes[n], world);
+            flat[n] = flat[n] != 0 && is_flat(world);
         }
     }
     if (const auto found = std::ranges::find(blind, 1); found != blind.end()) {
@@ -86,8 +83,9 @@ void check_scales(Scene& scene, const SceneFormats& formats) {
     if (count == 0) return;
     const Node& first = scene.nodes[std::ranges::find(flat, 1) - flat.begin()];
     scene.source.warnings.push_back(
-        fmt::format("node \"{}\"{}: the scale is 0, or next to it, along an axis, so nothing of it can be seen",
-                    printable(first.name), count > 1 ? fmt::format(" and {} more", count - 1) : ""));
+        fmt::format("{}node \"{}\"{}: the scale is 0, or next to it, along an axis, so nothing of it can be seen",
+                    first.include == no_index ? "" : source_file(scene, first.include) + ": ", printable(first.name),
+                    count > 1 ? fmt::format(" and {} more", count - 1) : ""));
 }
 
 void add_rotation_warnings(Scene& scene) {

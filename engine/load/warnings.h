@@ -1,7 +1,7 @@
 #pragma once
 // Checks, warnings and defaults of a complete scene, whatever file it came from.
 
-#include "engine/load/scene_format.h"
+#include "engine/scene/scene.h"
 
 namespace aleph {
 
@@ -10,10 +10,11 @@ std::string source_file(const Scene& scene, int include);
 
 /// At the first, the middle and the last frame:
 /// - refuses a camera whose node and parents scale two or all axes to 0: it has no axes left;
-/// - warns of nodes with meshes whose transform flattens them: rays leave out what has no volume (RayScene::update).
+/// - warns of nodes with meshes whose transform flattens them, or shrinks them to a point: rays leave out what has no
+///   volume (RayScene::update).
 /// What is 0 only for a while is fine, and a common way to hide an object.
 /// @throws InputError naming the file that brought the camera, and its node
-void check_scales(Scene& scene, const SceneFormats& formats);
+void check_scales(Scene& scene);
 
 /// Warns of rotation keys that are more than 170 degrees apart, as interpolation takes the short way and the other may
 /// be meant, and of rotations whose length is off by more than 1e-3 (they count at length 1). Nodes, and the
