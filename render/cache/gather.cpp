@@ -1,6 +1,7 @@
 #include "render/cache/gather.h"
 
 #include "render/cache/aimed_rays.h"
+#include "render/cache/clear_sheets.h"
 #include "render/settings/numbers.h"
 #include "render/surface/lambert_hit.h"
 
@@ -96,7 +97,9 @@ KnownIrradiance make_further_on_path(const Lighting& lighting, std::size_t ray) 
 /// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's.
 Rgb follow_lobes(const Lighting& lighting, std::size_t ray, const LitSurface& lit, const LobeShares& shares) {
     RandomStream& random = lighting.random;
-    const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
+    const ScatterSample* const known = find_reflected(lighting.scratch, ray);
+    const ScatterSample sample =
+        known != nullptr ? *known : sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
     if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
     const MultiBounceLight& light = lighting.options.multi_bounce;
     PathState state = start_indirect({light.bounces, lighting.options.depth}, lighting.context.around);
@@ -294,6 +297,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     }
     task.tracer.intersect(scratch.rays, scratch.hits, scratch.normals);
     task.counts.gather += scratch.rays.size();
+    pass_clear_sheets(context, task, random, scratch);
     if (sampler) weigh_rays(*sampler, scratch);
     LightingContext inside = context;
     inside.around = find_media(context.shading, task.tracer, {point.ray_origin(), point.normal}, task.counts.gather);
@@ -302,6 +306,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     add_unshadowed(context, task, options, scratch);
     if (options.material != nullptr) weigh_by_transmission(*options.material, point.normal, scratch);
     if (sampler) scale_light(scratch, [&](std::size_t ray) { return scratch.weights[ray]; });
+    if (!scratch.passed.empty()) scale_light(scratch, [&](std::size_t ray) { return scratch.passed[ray]; });
     const Rgb rare = options.apart_if_rare ? take_rare_light(strata, scratch) : Rgb(0.0f);
     IrradianceSample sample = add_up_rays(strata, point.normal, scratch);
     sample.rare = rare;

@@ -149,6 +149,13 @@ struct GatherScratch : GatherState {
     std::vector<Rgb> light;          ///< radiance that the ray finds
     std::vector<glm::vec3> normals;  ///< of the hits (Tracer::intersect)
     std::vector<float> weights;      ///< by what rays met; set if some are aimed
+    std::vector<Rgb> passed;         ///< share of light that sheets let pass; empty: there are none
+    /// Rays that sheets turn, in their order.
+    struct Reflected {
+        std::size_t ray = 0;
+        ScatterSample sample;
+    };
+    std::vector<Reflected> reflected;
     // One for every cell.
     std::vector<Rgb> radiance;     ///< black below the true surface
     std::vector<float> distances;  ///< m; infinite where nothing is met
