@@ -11,7 +11,7 @@ namespace {
 
 constexpr int thesis_samples = 16;        // least number of the thesis's rules
 constexpr int outline_samples = 8;        // where few neighbours are alike, and each may miss what the others see
-constexpr int small_object_samples = 32;  // hardly all of them miss an object that fills a tenth of the pixel
+constexpr int small_object_samples = 32;  // hardly all of them miss what fills a tenth of the pixel
 
 /// Sums over pixels around one.
 struct NoiseSum {
@@ -100,7 +100,7 @@ double allow_noise(double error) {
 int first_samples(Sampling rule, Outline outline, int most) {
     if (rule == Sampling::uniform || rule == Sampling::protocol) return most;
     if (rule != Sampling::threshold) return std::min(most, thesis_samples);
-    if (outline == Outline::small) return std::min(most, small_object_samples);
+    if (outline == Outline::small || outline == Outline::strong) return std::min(most, small_object_samples);
     return std::min(most, outline == Outline::none ? own_samples : outline_samples);
 }
 

@@ -15,6 +15,7 @@ namespace {
 constexpr double least_step = 0.5;        // pixels, from a plane
 constexpr double different_motion = 0.5;  // pixels per frame
 constexpr float least_contrast = 0.5f;    // of what is tolerated
+constexpr float strong_contrast = 8.0f;   // likewise
 constexpr double small_object = 1.5;      // pixels, largest radius
 
 /// Returns whether three neighbours in a row do not lie on a plane.
@@ -100,17 +101,23 @@ Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, con
 
 void mark_contrasts(Image<Outline>& outlines, const Image<Rgb>& estimate, const Image<float>& threshold,
                     double tolerated) {
-    const float least = least_contrast * static_cast<float>(tolerated);
-    const auto has_contrast = [&](int x, int y) {
+    const auto find_contrast = [&](int x, int y) {
         float low = luminance(estimate(x, y)), high = low;
         visit_around(estimate, x, y, 1, [&](int nx, int ny) {
             low = std::min(low, luminance(estimate(nx, ny)));
             high = std::max(high, luminance(estimate(nx, ny)));
         });
-        return high - low > least * threshold(x, y);
+        return high - low;
     };
     parallel_pixels(outlines, 16, [&](int x, int y) {
-        if (outlines(x, y) == Outline::none && has_contrast(x, y)) outlines(x, y) = Outline::still;
+        Outline& outline = outlines(x, y);
+        if (outline != Outline::none && outline != Outline::still) return;
+        const float contrast = find_contrast(x, y), unit = static_cast<float>(tolerated) * threshold(x, y);
+        if (contrast > strong_contrast * unit) {
+            outline = Outline::strong;
+        } else if (contrast > least_contrast * unit) {
+            outline = Outline::still;
+        }
     });
 }
 

@@ -17,6 +17,7 @@ enum class Outline : std::uint8_t {
     still = 1,   ///< several faces, which move alike, or a contrast
     moving = 2,  ///< several faces, some of which move differently
     small = 3,   ///< an object that is smaller than pixels may lie in it, or beside it
+    strong = 4,  ///< as `still`, with a contrast of many times what is tolerated
 };
 
 /// Faces differ where pixel centres show several objects, or where one object has a step or a crease: along a plane the
@@ -32,7 +33,9 @@ void mark_small_objects(Image<Outline>& outlines, const CameraView& view, const 
                         const ShadingScene& shading);
 
 /// Marks pixels without an outline as `still` where the luminances of the nine differ by more than half of what is
-/// tolerated, as at shadows and in textures: a few samples of one pixel may miss what those of another meet.
+/// tolerated, as at shadows and in textures: a few samples of one pixel may miss what those of another meet. Where they
+/// differ by more than eight times as much as is tolerated, as at the image of a lamp in a mirror, pixels without a
+/// moving outline become `strong`: the error of a few samples would be seen even spread over the pixels around.
 /// @param estimate   quick estimate of the frame, at pixel centres
 /// @param threshold  cd/m2
 /// @param tolerated  luminance of the estimate that is tolerated, per cd/m2 of the threshold

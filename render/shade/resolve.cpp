@@ -13,6 +13,16 @@ bool shows_the_same(const PixelSamples& a, const PixelSamples& b) {
     return b.valid() > 0 && (a.coverage() > 0.0f) == (b.coverage() > 0.0f) && a.first_instance() == b.first_instance();
 }
 
+/// What a pixel has lost that is seen.
+Rgb find_lost(const PixelSamples& pixel, double white) {
+    const Rgb mean = pixel.mean();
+    Rgb lost = pixel.lost();
+    for (int c = 0; c < 3; ++c) {
+        if (mean[c] > white) lost[c] = 0.0f;
+    }
+    return lost;
+}
+
 /// The pixel's share of what was lost around it: light is given in equal parts, and taken from what there is, so that
 /// no pixel falls below 0.
 Rgb find_weight(const PixelSamples& pixel, const Rgb& lost) {
@@ -26,13 +36,13 @@ Rgb find_weight(const PixelSamples& pixel, const Rgb& lost) {
 
 }  // namespace
 
-void spread_lost_light(Image<PixelSamples>& pixels, int reach) {
+void spread_lost_light(Image<PixelSamples>& pixels, int reach, double white) {
     Image<Rgb> gained(pixels.width, pixels.height);
     for (int y = 0; y < pixels.height; ++y) {
         for (int x = 0; x < pixels.width; ++x) {
             const PixelSamples& from = pixels(x, y);
             if (!from.has_kept_mean()) continue;
-            const Rgb lost = from.lost();
+            const Rgb lost = find_lost(from, white);
             const auto visit = [&](const auto& give) {
                 visit_around(pixels, x, y, reach, [&](int nx, int ny) {
                     if (shows_the_same(from, pixels(nx, ny))) give(nx, ny, find_weight(pixels(nx, ny), lost));

@@ -10,9 +10,11 @@ namespace aleph {
 /// Gives what the means of pixels have lost since they were kept to the pixels around that show the same object, the
 /// pixel itself too, in equal parts; what they have gained is taken from these in proportion to their light. The light
 /// of the picture is then what decisions without own samples leave, and a rare bright sample is no longer one bright
-/// pixel. Pixels that show nothing but the background change only because of such pixels.
+/// pixel. Pixels that show nothing but the background change only because of such pixels. A channel that
+/// is shown as white has lost nothing that is seen.
 /// @param reach  pixels on either side
-void spread_lost_light(Image<PixelSamples>& pixels, int reach);
+/// @param white  radiance that the display shows as white
+void spread_lost_light(Image<PixelSamples>& pixels, int reach, double white);
 
 /// Fills colour, coverage and numbers of samples.
 void resolve_pixels(const Image<PixelSamples>& pixels, double exposure, bool with_indirect, bool with_variance,

@@ -131,5 +131,24 @@ TEST(Outlines, ContrastsBeyondHalfOfWhatIsToleratedAreMarked) {
     EXPECT_EQ(outlines(0, 1), Outline::none);
 }
 
+TEST(Outlines, ContrastsOfManyTimesWhatIsToleratedAreStrong) {
+    Image<Outline> outlines(6, 3, Outline::none);
+    outlines(1, 1) = Outline::still;
+    outlines(2, 1) = Outline::moving;
+    outlines(3, 1) = Outline::small;
+    Image<Rgb> estimate(6, 3, Rgb(0.0f));
+    estimate(2, 1) = Rgb(1.0f);
+    const Image<float> threshold(6, 3, 10.0f);
+    Image<Outline> weak = outlines;
+    mark_contrasts(weak, estimate, threshold, 0.013);  // eight times as much is 1.04
+    EXPECT_EQ(count(weak, Outline::strong), 0);
+    mark_contrasts(outlines, estimate, threshold, 0.012);
+    EXPECT_EQ(count(outlines, Outline::strong), 7);
+    EXPECT_EQ(outlines(1, 1), Outline::strong);
+    EXPECT_EQ(outlines(2, 1), Outline::moving);
+    EXPECT_EQ(outlines(3, 1), Outline::small);
+    EXPECT_EQ(outlines(4, 1), Outline::none);
+}
+
 }  // namespace
 }  // namespace aleph

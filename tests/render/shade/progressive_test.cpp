@@ -26,7 +26,7 @@ Image<PixelSamples> sample_picture(const SamplingPlan& plan, std::uint32_t seed,
             }
         }
     });
-    spread_lost_light(pixels, 2 * plan.reach);
+    spread_lost_light(pixels, 2 * plan.reach, plan.white);
     return pixels;
 }
 
@@ -186,12 +186,14 @@ TEST(ProgressiveSampling, PixelsThatMissedWhatIsDarkDoNotCountAsWhite) {
     for (const PixelSamples& pixel : pixels.pixels) EXPECT_EQ(pixel.taken(), 1024);
 }
 
-TEST(ProgressiveSampling, SmallObjectsBeginWithMoreSamples) {
+TEST(ProgressiveSampling, SmallObjectsAndStrongContrastsBeginWithMoreSamples) {
     SamplingPlan plan = make_plan(Sampling::threshold, 64, 6, 1, 1.0f);
     plan.outlines = Image<Outline>(6, 1, Outline::none);
+    plan.outlines(3, 0) = Outline::strong;
     plan.outlines(4, 0) = Outline::small;
     const Image<PixelSamples> pixels = sample_picture(plan, 1, rarely_lit(0.0));
     EXPECT_EQ(pixels(1, 0).taken(), own_samples);
+    EXPECT_EQ(pixels(3, 0).taken(), 32);
     EXPECT_EQ(pixels(4, 0).taken(), 32);
     plan.most = 8;
     EXPECT_EQ(sample_picture(plan, 1, rarely_lit(0.0))(4, 0).taken(), 8);
@@ -265,7 +267,7 @@ TEST(LostLight, StaysOnItsObject) {
     pixels(2, 1).keep_mean();
     for (int i = 0; i < 8; ++i) add(2, 1, 1.0f);
     EXPECT_NEAR(luminance(pixels(2, 1).lost()), 32.0, 1e-4);
-    spread_lost_light(pixels, 2);
+    spread_lost_light(pixels, 2, 10.0);
     for (const auto [x, y] : all_pixels(7, 3)) {
         const double own = x == 2 && y == 1 ? 5.0 : 1.0;
         EXPECT_NEAR(luminance(pixels(x, y).mean()), own + (x < 4 ? 32.0 / 12.0 : 0.0), 1e-4) << x << " " << y;
@@ -284,10 +286,25 @@ TEST(LostLight, IsTakenFromWhatThereIsAndNotFromTheBackground) {
     light[LightPart::surface] = Rgb(3.0f);
     pixels(1, 0).add(light);
     EXPECT_FLOAT_EQ(luminance(pixels(1, 0).lost()), -1.5f);
-    spread_lost_light(pixels, 2);
+    spread_lost_light(pixels, 2, 10.0);
     EXPECT_EQ(pixels(0, 0).mean(), Rgb(0.0f));
     EXPECT_FLOAT_EQ(luminance(pixels(1, 0).mean()), 0.0f) << "no other pixel has light to take";
     EXPECT_FLOAT_EQ(luminance(pixels(2, 0).mean()), 0.5f);
+}
+
+TEST(LostLight, IsNoneWhereAChannelIsShownWhite) {
+    Image<PixelSamples> pixels(2, 1);
+    SampleLight light;
+    light.place.instance = 0;
+    pixels(0, 0).add(light);
+    light[LightPart::surface] = Rgb(9.0f, 3.0f, 0.0f);
+    pixels(1, 0).add(light);
+    pixels(1, 0).keep_mean();
+    light[LightPart::surface] = Rgb(7.0f, 1.0f, 0.0f);
+    pixels(1, 0).add(light);
+    spread_lost_light(pixels, 1, 7.5);
+    EXPECT_EQ(pixels(0, 0).mean(), Rgb(0.0f, 0.5f, 0.0f));
+    EXPECT_EQ(pixels(1, 0).mean(), Rgb(8.0f, 2.5f, 0.0f));
 }
 
 }  // namespace
