@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "engine/base/errors.h"
-#include "engine/base/file_descriptor.h"
 
 namespace aleph {
 
@@ -52,6 +51,13 @@ void flush_to_disk(const fs::path& file, const fs::path& named) {
 fs::path temporary_path(const fs::path& target) {
     static const std::uint32_t own = std::random_device()();
     return hidden_beside(target, fmt::format("{}{:010}.part", ::getpid(), own));
+}
+
+bool is_named(const FileDescriptor& file, const fs::path& path) {
+    struct stat opened {
+    }, named{};
+    return ::fstat(file.get(), &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+           opened.st_ino == named.st_ino;
 }
 
 void create_folder_of(const fs::path& path) {
@@ -97,11 +103,45 @@ fs::path hidden_beside(const fs::path& path, std::string_view suffix) {
     return path.parent_path() / hidden;
 }
 
+std::string without_process(std::string_view name) {
+    if (!name.starts_with('.') || !name.ends_with(".part")) return {};
+    name.remove_suffix(std::string_view(".part").size());
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string_view::npos || name.find_first_not_of("0123456789", dot + 1) != std::string_view::npos)
+        return {};
+    return std::string(name.substr(0, dot + 1));
+}
+
+LockedFile open_locked(const fs::path& file, const fs::path& named) {
+    for (;;) {
+        LockedFile opened{FileDescriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))};
+        if (opened.file.get() < 0) fail_output(named, "cannot create a file in this folder", errno);
+        opened.locked = opened.file.set_lock(0, F_WRLCK, true) == 0;
+        // Another process may have removed the file before the lock was given.
+        if (!opened.locked || is_named(opened.file, file)) return opened;
+    }
+}
+
+void remove_leftovers(const fs::path& path) {
+    const fs::path target = follow_links(path), folder = target.parent_path();
+    const std::string own = hidden_beside(target, "").filename().string();
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored)) {
+        if (without_process(entry.path().filename().string()) != own) continue;
+        const FileDescriptor file(::open(entry.path().c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+        if (file.get() >= 0 && file.set_lock(0, F_WRLCK) == 0 && is_named(file, entry.path()))
+            ::unlink(entry.path().c_str());
+    }
+}
+
 void write_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {
     const fs::path target = checked_target(path);
     const fs::path temporary = temporary_path(target);
+    const LockedFile held = open_locked(temporary, path);
     try {
         write(temporary);
+        std::error_code error;
+        if (fs::file_size(temporary, error) == 0) throw OutputError(shown(path), "nothing was written");
         flush_to_disk(temporary, path);
         if (::rename(temporary.c_str(), target.c_str()) != 0)
             fail_output(path, "cannot rename the temporary file", errno);
@@ -118,8 +158,7 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
 void try_output(const fs::path& path) {
     create_folder_of(path);
     const fs::path temporary = temporary_path(checked_target(path));
-    const FileDescriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
-    if (file.get() < 0) fail_output(path, "cannot create a file in this folder", errno);
+    const LockedFile held = open_locked(temporary, path);  // not while another thread writes it
     ::unlink(temporary.c_str());
 }
 

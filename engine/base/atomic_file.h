@@ -3,16 +3,37 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
+
+#include "engine/base/file_descriptor.h"
 
 namespace aleph {
 
 /// Runs write(temporary path), flushes the file to the disk, then renames it to `path`. The temporary file is
-/// `.name.<process id><ten random digits>.part` beside the target and is removed if anything throws. An existing file
-/// is replaced, unless it is read-only or not a regular file; a symbolic link is followed.
+/// `.name.<process id><ten random digits>.part` beside the target and is removed if anything throws; it is locked while
+/// it is written. An existing file is replaced, unless it is read-only or not a regular file; a symbolic link is
+/// followed.
 /// @throws OutputError naming `path`; whatever `write` throws
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// Removes temporary files of `path` that killed processes have left: those that no process has locked.
+void remove_leftovers(const std::filesystem::path& path);
+
+/// The name of a temporary file (write_atomically) without the process and ".part": `.name.`. Empty: it is none.
+std::string without_process(std::string_view name);
+
+/// A file that is open, made where it is missing.
+struct LockedFile {
+    FileDescriptor file;
+    bool locked = false;  ///< its first byte; false where the file system has no locks
+};
+
+/// Waits for the lock. A file that another process removes meanwhile is made again.
+/// @param named  for the message
+/// @throws OutputError naming `named`
+LockedFile open_locked(const std::filesystem::path& file, const std::filesystem::path& named);
 
 /// The file that a path means: symbolic links in its last part are followed, those to missing files too.
 std::filesystem::path follow_links(std::filesystem::path path);

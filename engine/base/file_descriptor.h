@@ -1,6 +1,7 @@
 #pragma once
-// An open file, closed at the end of the scope.
+// An open file, closed at the end of the scope, and locks of its bytes.
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,6 +31,21 @@ class FileDescriptor {
             bytes.remove_prefix(static_cast<std::size_t>(written));
         }
         return true;
+    }
+    /// Locks a byte, which need not exist, or ends its lock (open file description locks of Linux). The system ends
+    /// locks with the process, however that ends.
+    /// @param kind  F_RDLCK, F_WRLCK or F_UNLCK
+    /// @return 0, or the error; EAGAIN where another open file has the lock
+    int set_lock(off_t byte, short kind, bool wait = false) const {
+        struct flock lock {};
+        lock.l_type = kind;
+        lock.l_whence = SEEK_SET;
+        lock.l_start = byte;
+        lock.l_len = 1;
+        while (::fcntl(fd_, wait ? F_OFD_SETLKW : F_OFD_SETLK, &lock) != 0) {
+            if (errno != EINTR) return errno == EACCES ? EAGAIN : errno;
+        }
+        return 0;
     }
     int get() const { return fd_; }  ///< below 0: not open
     /// Returns whether that worked.

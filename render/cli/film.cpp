@@ -42,6 +42,7 @@ std::string describe_rate(const FrameRate& rate) {
 
 /// Puts a file in place of another; across file systems too, where that is a link.
 void move_file(const fs::path& from, const fs::path& to) {
+    remove_leftovers(to);  // by the one process that makes the film
     write_atomically(to, [&](const fs::path& temporary) {
         std::error_code error;
         fs::rename(from, temporary, error);

@@ -44,12 +44,6 @@ struct MapsOptions {
 
 const FrameRequest maps_request{.frame = false, .maps = true, .progress = {}};
 
-/// Returns whether --set KEY is of use without a scene. Keys that do not exist are reported by apply_settings.
-bool needs_scene(const std::string& key) {
-    const auto found = std::ranges::find(setting_table(), key, &Setting::key);
-    return found != setting_table().end() && found->needs_scene;
-}
-
 void refuse_what_needs_a_scene(const MapsOptions& options) {
     if (!options.common.scene.empty() || options.images.size() > 1) {
         throw InputError("", "--images",
@@ -58,13 +52,7 @@ void refuse_what_needs_a_scene(const MapsOptions& options) {
     }
     if (!options.common.camera.empty()) throw InputError("", "--camera", "this needs a scene");
     if (!options.common.crop.empty()) throw InputError("", "--crop", "this needs a scene");
-    for (const auto& [key, value] : options.common.settings) {
-        if (needs_scene(key)) throw InputError("", key, "this setting needs a scene");
-        const auto* text = std::get_if<std::string>(&value);
-        if (key == "motion" && text != nullptr && (*text == "model" || *text == "raster")) {
-            throw InputError("", key, fmt::format("\"{}\" needs a scene; choose flow, image or census", *text));
-        }
-    }
+    refuse_settings_of_scenes(options.common.settings);
 }
 
 /// "frame.####.exr" to "frame-maps".

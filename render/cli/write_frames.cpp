@@ -69,6 +69,7 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
     const bool keeps_file =
         !cache.empty() && std::filesystem::path(cache).has_filename() && !std::filesystem::is_directory(cache);
     if (keeps_file) outputs.push_back({cache, "--cache"});
+    for (const OutputFile& shared : outputs) remove_leftovers(shared.path);
     if (!options.film.empty()) outputs.push_back({options.film, "--output"});
     for (const std::filesystem::path& frame : frames) outputs.push_back({frame, "--output"});
     refuse_overwriting(prepared.read, outputs);

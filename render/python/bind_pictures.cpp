@@ -79,6 +79,8 @@ ChannelImage take_picture(const py::object& object, const std::string& what) {
 
 py::dict compare(const py::object& a, const py::object& b, const py::object& threshold, double display_white,
                  double tolerance) {
+    if (!(tolerance >= 0.0)) throw InputError("", "tolerance", "must not be negative");
+    if (!(display_white > 0.0)) throw InputError("", "display_white", "must be above 0");
     const ChannelImage first = take_picture(a, "a"), second = take_picture(b, "b");
     std::optional<ChannelImage> map;
     if (py::isinstance<Frame>(threshold)) {
@@ -112,13 +114,19 @@ py::dict find_seen(const py::sequence& a, const py::sequence& b, const py::seque
             "", "seen",
             fmt::format("{}, {} and {} frames: expected three lists of one length", a.size(), b.size(), maps.size()));
     SequenceComparison comparison({}, cuts);
+    std::optional<std::int64_t> before;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const py::object map = maps[i];
         if (!py::isinstance<Frame>(map))
             throw InputError("", fmt::format("maps[{}]", i), "expected a Frame of the reference, with its maps");
+        const auto number = map.attr("number").cast<std::int64_t>();
+        if (before && number <= *before)
+            throw InputError("", fmt::format("maps[{}]", i),
+                             fmt::format("frame {} does not come after frame {}", number, *before));
+        before = number;
         const ChannelImage channels = frame_channels(map.cast<const Frame&>());
-        comparison.add(map.attr("number").cast<std::int64_t>(), take_picture(a[i], fmt::format("a[{}]", i)),
-                       take_picture(b[i], fmt::format("b[{}]", i)), {.threshold = nullptr, .visible = &channels});
+        comparison.add(number, take_picture(a[i], fmt::format("a[{}]", i)), take_picture(b[i], fmt::format("b[{}]", i)),
+                       {.threshold = nullptr, .visible = &channels});
     }
     comparison.finish();
     const VisibleShares shares = comparison.summary().visible.value();

@@ -1,5 +1,6 @@
 // Loading, saving, and what belongs to the whole scene.
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <cmath>
@@ -22,7 +23,14 @@ py::object from_json(const std::string& text) {
 }
 
 std::string to_json(const py::object& object) {
-    return py::module_::import("json").attr("dumps")(object).cast<std::string>();
+    const auto plain = [](const py::object& value) -> py::object {
+        const py::module_ numpy = py::module_::import("numpy");
+        if (py::isinstance(value, numpy.attr("ndarray")) || py::isinstance(value, numpy.attr("generic")))
+            return value.attr("tolist")();
+        throw py::type_error(fmt::format("{} is no value of a scene", std::string(py::repr(value))));
+    };
+    const py::object dumps = py::module_::import("json").attr("dumps");
+    return dumps(object, py::arg("default") = py::cpp_function(plain)).cast<std::string>();
 }
 
 std::shared_ptr<Scene> load(const py::object& source, const py::object& folder) {

@@ -88,8 +88,9 @@ struct GivenSettings {
 /// The scene's settings with the arguments in their places. Numbers of the scene (exposure) go there. Functions may be
 /// `vision`; `adapter`(aleph, accuracy), which gives the accuracy of each pixel; and `sampling`(x, y, samples, error,
 /// deviation, tolerance), True where a pixel has enough samples.
-/// @param keeps_to_error  without a setting that chooses the work, an error of 1 is asked for
+/// @param of_scene  without a setting that chooses the work, an error of 1 is asked for; false: of pictures, and
+/// settings that need a scene are refused
 /// @throws InputError
-GivenSettings read_settings(Scene& scene, const py::dict& arguments, bool keeps_to_error);
+GivenSettings read_settings(Scene& scene, const py::dict& arguments, bool of_scene);
 
 }  // namespace aleph::python

@@ -8,6 +8,7 @@
 
 #include "engine/base/errors.h"
 #include "render/python/arrays.h"
+#include "render/settings/setting_table.h"
 
 namespace aleph::python {
 
@@ -149,7 +150,7 @@ std::unique_ptr<VisionModel> make_vision(const std::string& name, const py::func
     return std::make_unique<PythonVision>(name, elevation, threshold);
 }
 
-GivenSettings read_settings(Scene& scene, const py::dict& arguments, bool keeps_to_error) {
+GivenSettings read_settings(Scene& scene, const py::dict& arguments, bool of_scene) {
     GivenSettings given;
     SettingMap map;
     for (const auto& [name, value] : arguments) {
@@ -169,7 +170,10 @@ GivenSettings read_settings(Scene& scene, const py::dict& arguments, bool keeps_
             throw InputError("", key, "a function can be the vision, the adapter or the sampling");
         }
     }
-    if (keeps_to_error) add_default_error(scene.source.settings, map);
+    if (of_scene)
+        add_default_error(scene.source.settings, map);
+    else
+        refuse_settings_of_scenes(map);
     apply_settings(given.settings, scene.source.settings, scene.source.file);
     set_scene_numbers(scene, map, "");
     apply_settings(given.settings, map, "");

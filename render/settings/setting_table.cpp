@@ -251,4 +251,15 @@ std::string find_mismatch(const Setting& setting, const SettingValue& value) {
     return fmt::format("expected {}; found {}", describe_values(setting), found);
 }
 
+void refuse_settings_of_scenes(const SettingMap& map) {
+    for (const auto& [key, value] : map) {
+        const auto found = std::ranges::find(setting_table(), key, &Setting::key);
+        if (found != setting_table().end() && found->needs_scene)
+            throw InputError("", key, "this setting needs a scene");
+        const auto* text = std::get_if<std::string>(&value);
+        if (key == "motion" && text != nullptr && (*text == "model" || *text == "raster"))
+            throw InputError("", key, fmt::format("\"{}\" needs a scene; choose flow, image or census", *text));
+    }
+}
+
 }  // namespace aleph

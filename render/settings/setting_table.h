@@ -45,4 +45,8 @@ std::optional<PictureSize> parse_picture_size(const std::string& text);
 /// Why the setting cannot have this value; empty if it can.
 std::string find_mismatch(const Setting& setting, const SettingValue& value);
 
+/// Refuses what is of no use to pictures without a scene. Keys that do not exist are reported by apply_settings.
+/// @throws InputError naming the key
+void refuse_settings_of_scenes(const SettingMap& map);
+
 }  // namespace aleph

@@ -71,6 +71,7 @@ void write_cache_file(const std::filesystem::path& path, const Fingerprint& fing
         out.add(records.seen);
         out.add(records.further);
     }
+    remove_leftovers(path);
     write_file(path, seal(magic, out.take()));
 }
 

@@ -96,6 +96,13 @@ def test_maps_take_motion():
     assert np.allclose(first.velocity[8, 20], 5 / 31 * 30, rtol=1e-5)
 
 
+def test_maps_of_pictures_refuse_what_needs_a_scene():
+    images = [np.zeros((8, 8, 3), np.float32)] * 2
+    for settings in {"size": (8, 8)}, {"spp": 4}:
+        with pytest.raises(aleph.InputError, match="this setting needs a scene"):
+            aleph.maps(images, fps=24, **settings)
+
+
 def test_compare(ball, program, tmp_path):
     coarse, fine = aleph.render(ball, 3, **QUICK), aleph.render(ball, 3, size=(32, 32), spp=64, light_step=0)
     result = aleph.compare(coarse, fine, fine)
@@ -108,6 +115,9 @@ def test_compare(ball, program, tmp_path):
     assert by_array["thresholds_beyond"] == result["thresholds_beyond"] > 0
     grey = aleph.compare(fine.color + 0.01, fine.color, fine.threshold)
     assert grey["thresholds_beyond"] == pytest.approx(100 * (1 > fine.threshold).mean(), abs=0.5)
+    for wrong in {"tolerance": -1}, {"tolerance": np.nan}, {"display_white": 0}:
+        with pytest.raises(aleph.InputError, match=f"{next(iter(wrong))}: must"):
+            aleph.compare(fine, fine, fine, **wrong)
 
 
 def test_seen(ball):
@@ -122,6 +132,9 @@ def test_seen(ball):
         aleph.seen(frames, frames[1:], frames)
     with pytest.raises(aleph.InputError, match=r"maps\[0\]: expected a Frame"):
         aleph.seen(frames, frames, brighter)
+    for wrong in frames[::-1], [frames[0]] * 3:
+        with pytest.raises(aleph.InputError, match=r"maps\[1\]: frame \d does not come after frame \d"):
+            aleph.seen(frames, frames, wrong)
 
 
 def test_study_gives_columns(cornell, tmp_path):
@@ -152,6 +165,10 @@ def test_a_study_takes_no_arguments_of_a_scene(cornell):
     for arguments in {"sweep": {"spp": [2]}}, {"size": (16, 12)}:
         with pytest.raises(TypeError, match="a study has these itself"):
             aleph.study(study, **arguments)
+    for frames in 0, [0], np.array([0]), "0":
+        assert aleph.study(cornell, frames, {"spp": [1]}, size=(4, 3), reference={"passes": 2, "spp": 1})["frame"] == [0]
+    with pytest.raises(TypeError):
+        aleph.study(cornell, [5.5], {"spp": [1]})
     with pytest.raises(TypeError, match="a scene file needs sweep, variants or pictures"):
         aleph.study(cornell, frames=[2])
     for scene in aleph.load(cornell), aleph.load(cornell).to_dict():

@@ -106,6 +106,14 @@ def test_scene_as_dict_and_file(ball, tmp_path):
     assert np.array_equal(ball.nodes["ball"].translation, [0.125, 0, 0])
 
 
+def test_dicts_may_hold_numbers_of_numpy():
+    scene = {"aleph": 1, "nodes": [{"name": "eye", "translation": np.array([1, 2, 3.5]), "scale": [np.float32(2), np.int64(1), 1],
+                                    "camera": {"orthographic": np.bool_(True)}}]}
+    assert np.array_equal(aleph.load(scene).nodes["eye"].translation, [1, 2, 3.5])
+    with pytest.raises(TypeError, match="object .* is no value of a scene"):
+        aleph.load({"aleph": 1, "nodes": [{"name": object()}]})
+
+
 def test_folder_of_textures():
     scene = {"aleph": 1, "images": {"wood": "floor.png"}, "nodes": [
         {"name": "floor", "shape": {"type": "quad"}, "material": {"base_color_texture": "wood"}}]}

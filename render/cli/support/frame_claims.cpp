@@ -1,12 +1,10 @@
 #include "render/cli/support/frame_claims.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 
 #include <cerrno>
 #include <exception>
 #include <map>
-#include <string_view>
 #include <system_error>
 
 #include "engine/base/atomic_file.h"
@@ -21,23 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Bytes of the file that are locked; they need not exist.
-constexpr off_t gate_byte = 0;                       // while a process comes or goes
+constexpr off_t gate_byte = 0;                       // of open_locked: while a process comes or goes
 constexpr off_t user_byte = 1;                       // shared by all that render here
 constexpr off_t frame_byte = (off_t{1} << 31) + 16;  // plus the frame, which may be below 0
-
-/// @param kind  F_RDLCK, F_WRLCK or F_UNLCK
-/// @return 0, or the error; EAGAIN where another process has the lock
-int set_lock(int fd, off_t byte, short kind, bool wait = false) {
-    struct flock lock {};
-    lock.l_type = kind;
-    lock.l_whence = SEEK_SET;
-    lock.l_start = byte;
-    lock.l_len = 1;
-    while (::fcntl(fd, wait ? F_OFD_SETLKW : F_OFD_SETLK, &lock) != 0) {
-        if (errno != EINTR) return errno == EACCES ? EAGAIN : errno;
-    }
-    return 0;
-}
 
 std::string read_all(int fd) {
     std::string text(256, '\0');
@@ -61,16 +45,6 @@ fs::path lock_file(const ClaimedOutput& output) {
     return hidden_beside(file.parent_path() / name, "lock");
 }
 
-/// The name of a temporary file (write_atomically) without the process and ".part"; empty: it is none.
-std::string without_process(std::string_view name) {
-    if (!name.starts_with('.') || !name.ends_with(".part")) return {};
-    name.remove_suffix(std::string_view(".part").size());
-    const std::size_t dot = name.rfind('.');
-    if (dot == std::string_view::npos || name.find_first_not_of("0123456789", dot + 1) != std::string_view::npos)
-        return {};
-    return std::string(name.substr(0, dot + 1));
-}
-
 /// Frames of one file name are one frame.
 std::string identity_of(const ClaimedOutput& output) {
     if (output.file(0) != output.file(1)) return output.identity;
@@ -79,28 +53,15 @@ std::string identity_of(const ClaimedOutput& output) {
 
 }  // namespace
 
-bool FrameLocks::open() {
-    for (;;) {
-        lock_ = FileDescriptor(::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-        if (lock_.get() < 0) fail_output(file_, "cannot create a file in this folder", errno);
-        if (set_lock(lock_.get(), gate_byte, F_WRLCK, true) != 0) return false;
-        // Another process may have removed the file before the lock was given.
-        struct stat opened {
-        }, named{};
-        if (::fstat(lock_.get(), &opened) == 0 && ::stat(file_.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
-            opened.st_ino == named.st_ino) {
-            return true;
-        }
-    }
-}
-
 FrameLocks::FrameLocks(fs::path file, const std::string& identity) : file_(std::move(file)) {
-    works_ = open();
+    LockedFile opened = open_locked(file_, file_);
+    lock_ = std::move(opened.file);
+    works_ = opened.locked;
     if (!works_) {
         ::unlink(file_.c_str());
         return;
     }
-    if (set_lock(lock_.get(), user_byte, F_WRLCK) == 0) {
+    if (lock_.set_lock(user_byte, F_WRLCK) == 0) {
         if (!write_all(lock_.get(), identity)) {
             const int error = errno;
             ::unlink(file_.c_str());
@@ -112,22 +73,22 @@ FrameLocks::FrameLocks(fs::path file, const std::string& identity) : file_(std::
                           "another process renders these files from another scene or with other settings; wait for it, "
                           "or give another --output");
     }
-    set_lock(lock_.get(), user_byte, F_RDLCK);
-    set_lock(lock_.get(), gate_byte, F_UNLCK);
+    lock_.set_lock(user_byte, F_RDLCK);
+    lock_.set_lock(gate_byte, F_UNLCK);
 }
 
 FrameLocks::~FrameLocks() {
     if (!works_) return;
-    set_lock(lock_.get(), gate_byte, F_WRLCK, true);
-    if (set_lock(lock_.get(), user_byte, F_WRLCK) == 0) ::unlink(file_.c_str());
+    lock_.set_lock(gate_byte, F_WRLCK, true);
+    if (lock_.set_lock(user_byte, F_WRLCK) == 0) ::unlink(file_.c_str());
 }
 
 bool FrameLocks::lock(int frame) {
-    return !works_ || set_lock(lock_.get(), frame_byte + frame, F_WRLCK) != EAGAIN;
+    return !works_ || lock_.set_lock(frame_byte + frame, F_WRLCK) != EAGAIN;
 }
 
 void FrameLocks::unlock(int frame) {
-    if (works_) set_lock(lock_.get(), frame_byte + frame, F_UNLCK);
+    if (works_) lock_.set_lock(frame_byte + frame, F_UNLCK);
 }
 
 fs::path checkpoint_file(const fs::path& file) {

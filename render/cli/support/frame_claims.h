@@ -13,9 +13,8 @@
 
 namespace aleph {
 
-/// Locks on bytes of one file beside the frames (open file description locks of Linux): the system ends them with the
-/// process, however that ends. The file holds the fingerprint of what is rendered, and is removed by the last process
-/// that uses it.
+/// Locks on bytes of one file beside the frames (FileDescriptor::set_lock). The file holds the fingerprint of what is
+/// rendered, and is removed by the last process that uses it.
 class FrameLocks {
   public:
     /// Where the file system has no locks, nothing is locked.
@@ -30,8 +29,6 @@ class FrameLocks {
     void unlock(int frame);
 
   private:
-    bool open();
-
     std::filesystem::path file_;
     FileDescriptor lock_;
     bool works_ = true;

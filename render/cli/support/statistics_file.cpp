@@ -136,7 +136,7 @@ void StatisticsFile::set_verified(const VerifiedStatistics& verified) {
 
 void StatisticsFile::finish() {
     if (path_.empty()) return;
-    if (changed_) write();
+    if (changed_ || frames_.empty()) write();
     std::error_code error;
     std::filesystem::remove(rows_file(path_), error);
 }

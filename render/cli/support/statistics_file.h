@@ -62,7 +62,8 @@ class StatisticsFile {
     /// Says what verification found; the same.
     void set_verified(const VerifiedStatistics& verified);
 
-    /// Writes what is not written yet. Rows of frames that were only noted or taken over go.
+    /// Writes what is not written yet; the file without frames where there are none. Rows of frames that were only
+    /// noted or taken over go.
     /// @throws OutputError
     void finish();
 

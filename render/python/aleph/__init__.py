@@ -10,6 +10,7 @@ import csv as _csv
 import io as _io
 import os as _os
 import tempfile as _tempfile
+from operator import index as _index
 
 from ._aleph import (
     Camera, Frame, InputError, Light, Material, Mesh, Node, OutputError, Scene, Sequence, Track, __version__,
@@ -49,7 +50,7 @@ def study(scene, frames="", sweep=None, *, variants=None, pictures=None, size=(3
 
     scene: a scene file, a study file, or a study as a dict (`scenes/studies/study.schema.json`); the arguments after
         it are for a scene file.
-    frames: a list of numbers, or text such as "0-89x10"; empty: the middle of the shot.
+    frames: a number or a list of them, or text such as "0-89x10"; empty: the middle of the shot.
     sweep: lists of values by setting, such as {"error": [0.5, 1, 2]}; every combination is a variant.
     variants: settings by name, such as {"mine": {"vision": "mine"}}.
     pictures: frames that other programs made, such as {"other": "other.####.exr"}: judged without costs.
@@ -61,6 +62,8 @@ def study(scene, frames="", sweep=None, *, variants=None, pictures=None, size=(3
     """
     if isinstance(scene, Scene) or isinstance(scene, dict) and "aleph" in scene:
         raise TypeError("a study reads its scene from a file: Scene.save writes one")
+    if not isinstance(frames, str):
+        frames = ",".join(str(_index(frame)) for frame in (frames if hasattr(frames, "__iter__") else [frames]))
     chosen = sweep or variants or pictures
     one = isinstance(scene, dict) or not chosen
     if one and (frames or chosen or settings or reference or metrics or viewers or seeds != 1 or size != (320, 240)):
@@ -71,7 +74,7 @@ def study(scene, frames="", sweep=None, *, variants=None, pictures=None, size=(3
         asked = {"scenes": [{"scene": _os.path.abspath(_os.fspath(scene))}],
                  "size": size if isinstance(size, str) else "{}x{}".format(*size), "seeds": list(range(seeds))}
         if frames:
-            asked["scenes"][0]["frames"] = frames if isinstance(frames, str) else ",".join(str(int(f)) for f in frames)
+            asked["scenes"][0]["frames"] = frames
         asked["variants"] = [
             *({"name": name, "settings": chosen} for name, chosen in (variants or {}).items()),
             *({"name": name, "pictures": _os.path.abspath(files)} for name, files in (pictures or {}).items())]

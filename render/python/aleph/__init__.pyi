@@ -173,7 +173,7 @@ def compare(a: _Picture, b: _Picture, threshold: npt.NDArray[Any] | Frame | None
             display_white: float = 100.0, tolerance: float = 0.0) -> dict[str, Any]: ...
 def seen(a: _Sequence[_Picture], b: _Sequence[_Picture], maps: _Sequence[Frame], *,
          cuts: _Sequence[int] = ()) -> dict[str, float | None]: ...
-def study(scene: _Path | Mapping[str, Any], frames: str | _Sequence[int] = "",
+def study(scene: _Path | Mapping[str, Any], frames: str | int | _Sequence[int] = "",
           sweep: Mapping[str, _Sequence[Any]] | None = None, *,
           variants: Mapping[str, Mapping[str, Any]] | None = None, pictures: Mapping[str, str] | None = None, size: str | tuple[int, int] = (320, 240),
           settings: Mapping[str, Any] | None = None, reference: Mapping[str, Any] | None = None,

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <future>
 #include <thread>
 
 #include "engine/base/atomic_file.h"
@@ -92,6 +93,40 @@ TEST(Output, OU05_AnyFailureInsideRemovesTheTemporary) {
     // A writer that writes nothing, without an error, is a failure too.
     EXPECT_THROW(write_atomically(folder / "a.txt", [](const fs::path&) {}), OutputError);
     EXPECT_EQ(entries_in(folder.path()), 0u);
+}
+
+TEST(Output, OU07_LeftoversOfKilledProcessesGoAndFilesInUseStay) {
+    const ScratchFolder folder;
+    fs::create_symlink("a.txt", folder / "link.txt");
+    const std::vector<std::string> left{".a.txt.1234567890123.part", ".a.txt.7.part"};
+    const std::vector<std::string> kept{".a.txt.x1.part", ".b.txt.7.part", "a.txt.7.part"};
+    for (const auto* names : {&left, &kept})
+        for (const std::string& name : *names) std::ofstream(folder / name) << "part";
+    write_atomically(folder / "link.txt", [&](const fs::path& temporary) {
+        std::ofstream(temporary) << "whole";
+        remove_leftovers(folder / "link.txt");
+        EXPECT_EQ(read_bytes(temporary), "whole");
+    });
+    EXPECT_EQ(read_bytes(folder / "a.txt"), "whole");
+    for (const std::string& name : left) EXPECT_FALSE(fs::exists(folder / name)) << name;
+    for (const std::string& name : kept) EXPECT_TRUE(fs::exists(folder / name)) << name;
+}
+
+/// As scripts do that render in several threads: each file is whole, by one or the other.
+TEST(Output, OU07_ThreadsWriteOneFileInTurn) {
+    const ScratchFolder folder;
+    const auto write_often = [&](char letter) {
+        for (int i = 0; i < 50; ++i) {
+            try_output(folder / "a.txt");
+            write_file(folder / "a.txt", std::string(100'000, letter));
+        }
+    };
+    std::future<void> one = std::async(std::launch::async, write_often, 'a'),
+                      other = std::async(std::launch::async, write_often, 'b');
+    EXPECT_NO_THROW(one.get());
+    EXPECT_NO_THROW(other.get());
+    const std::string found = read_bytes(folder / "a.txt");
+    EXPECT_TRUE(found == std::string(100'000, found.front()));
 }
 
 TEST(Output, OU06_MissingFolderAndWrongKindsOfTarget) {

@@ -177,6 +177,18 @@ TEST_F(KilledRender, MapsAndTheLightOfKeyframesAreResumed) {
     EXPECT_EQ(read_bytes(folder_ / "out/f.0012.exr"), read_bytes(folder_ / "whole/f.0012.exr"));
 }
 
+TEST_F(KilledRender, HiddenFilesBesideStatisticsAndLightGo) {
+    const Words lit = words("1-2", folder_ / "out/f.####.exr",
+                            {"--stats", folder_ / "out/s.json", "--cache", folder_ / "out/l", "--light-step", "3",
+                             "--accuracy", ".2", "--resume"});
+    ASSERT_EQ(run(lit).code, 0);
+    const Words names = names_in(folder_ / "out");
+    for (const std::string name : {"s.json", "l", "f.0001.exr", ".f.0001.exr.checkpoint"})
+        std::ofstream(folder_ / "out" / ("." + name + ".1234567890123.part")) << "part";
+    EXPECT_EQ(run(lit).code, 0);
+    EXPECT_EQ(names_in(folder_ / "out"), names);
+}
+
 TEST_F(KilledRender, TwoProcessesDivideTheFramesOrRefuse) {
     const Words divided = words("1-12", folder_ / "out/f.####.exr", {"--resume"});
     ASSERT_EQ(run(words("1-12", folder_ / "whole/f.####.exr")).code, 0);

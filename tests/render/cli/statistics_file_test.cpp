@@ -56,6 +56,14 @@ TEST_F(StatisticsFileTest, HasTheFirstFrameAtOnceAndAllAtTheEnd) {
     EXPECT_EQ(read_bytes(path_), whole({7, 8, 9}, 2.0));
 }
 
+/// As where all frames were finished before, without statistics.
+TEST_F(StatisticsFileTest, IsThereWithoutFrames) {
+    std::ofstream(path_) << "of another render";
+    StatisticsFile file(path_, scene_, settings_, 1.0);
+    file.finish();
+    EXPECT_EQ(frames(), std::vector<int>{});
+}
+
 TEST_F(StatisticsFileTest, HasTheFinishedFramesAfterAnError) {
     try {
         StatisticsFile file(path_, scene_, settings_, 1.0);

@@ -37,7 +37,7 @@ Json schema_of(const Setting& setting) {
     Json schema{{"description", sentence(setting)}};
     switch (setting.type) {
         case SettingType::size: {
-            schema["title"] = "text like \"640x480\"";
+            schema["title"] = "text like \"640x480\", each number from 1 to 65536";
             schema["type"] = "string";
             // 1 to 65536
             const std::string side =
@@ -56,7 +56,7 @@ Json schema_of(const Setting& setting) {
             break;
         case SettingType::names: {
             const std::string name = fmt::format("({})", fmt::join(setting.choices, "|"));
-            schema["title"] = "names separated by commas";
+            schema["title"] = fmt::format("names separated by commas, of {}", fmt::join(setting.choices, ", "));
             schema["type"] = "string";
             schema["pattern"] = "^ *(" + name + " *(, *" + name + " *)*)?$";
             break;
