@@ -9,9 +9,8 @@ namespace aleph {
 
 namespace {
 
-/// alpha of the records, over the picture's; but for pictures of great accuracy it is the loosest one. Less where an
-/// error is asked for: a whole room behind a door would be too bright, by 3 % where it is white.
-constexpr double looser = 2.5, looser_with_error = 1.25, loosest_record = 0.7;
+/// alpha of the records, over the picture's; but for pictures of great accuracy it is the loosest one.
+constexpr double looser = 2.5, loosest_record = 0.7;
 
 constexpr double sampled_accuracy = 0.05;  // stands for that of a picture without records
 
@@ -33,8 +32,7 @@ int choose_fewest_rays(const PictureSettings& picture) {
 /// lasts from frame to frame, and that is seen where noise of its size is not.
 float choose_alpha(const RenderSettings& settings) {
     const double asked = settings.cache.accuracy, picture = asked > 0.0 ? asked : sampled_accuracy;
-    const double times = settings.error > 0.0 ? looser_with_error : looser;
-    return static_cast<float>(std::max(picture, std::min(times * picture, loosest_record)));
+    return static_cast<float>(std::max(picture, std::min(looser * picture, loosest_record)));
 }
 
 }  // namespace

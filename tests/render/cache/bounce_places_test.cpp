@@ -177,20 +177,6 @@ TEST(FurtherBounces, OneFewerThanThePictureHas) {
     EXPECT_EQ(light().bounces, 0);
 }
 
-TEST(FurtherBounces, RecordsReachLessFarWhereAnErrorIsAskedFor) {
-    Rooms rooms(3, 2);
-    const std::vector<IrradianceRecord> records{{.radius = 1.0f, .normal = up, .irradiance = Rgb(3.0f)}};
-    const auto find_accuracy = [&](double picture, double error) {
-        rooms.settings.cache.accuracy = picture;
-        rooms.settings.error = error;
-        return restore_further_bounces(rooms.context, records)->accuracy;
-    };
-    EXPECT_NEAR(find_accuracy(0.08, 0.0), 0.2, 1e-6);
-    EXPECT_NEAR(find_accuracy(0.08, 1.0), 0.1, 1e-6);
-    EXPECT_NEAR(find_accuracy(0.4, 0.0), 0.7, 1e-6);
-    EXPECT_NEAR(find_accuracy(0.8, 1.0), 0.8, 1e-6);
-}
-
 TEST(FurtherBounces, RecordsCloseGapsBeyondTheirReach) {
     Rooms rooms(3, 2);
     IrradianceCache cache = make_cache(rooms.stage.shading);
