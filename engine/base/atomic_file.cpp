@@ -81,6 +81,30 @@ void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& n
     }
 }
 
+/// write_atomically.
+void replace_file(const fs::path& path, const std::function<void(const fs::path& temporary)>& write,
+                  bool may_be_empty) {
+    const fs::path target = checked_target(path);
+    const fs::path temporary = temporary_path(target);
+    const LockedFile held = open_locked(temporary, path);
+    try {
+        write(temporary);
+        std::error_code error;
+        if (!may_be_empty && fs::file_size(temporary, error) == 0)
+            throw OutputError(shown(path), "nothing was written");
+        flush_to_disk(temporary, path);
+        if (::rename(temporary.c_str(), target.c_str()) != 0)
+            fail_output(path, "cannot rename the temporary file", errno);
+    } catch (...) {
+        ::unlink(temporary.c_str());
+        throw;
+    }
+    // The name is part of the folder. Some file systems refuse to flush folders; the file is complete either way.
+    const FileDescriptor folder(
+        ::open(target.has_parent_path() ? target.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folder.get() >= 0) ::fsync(folder.get());
+}
+
 }  // namespace
 
 fs::path follow_links(fs::path path) {
@@ -135,24 +159,7 @@ void remove_leftovers(const fs::path& path) {
 }
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {
-    const fs::path target = checked_target(path);
-    const fs::path temporary = temporary_path(target);
-    const LockedFile held = open_locked(temporary, path);
-    try {
-        write(temporary);
-        std::error_code error;
-        if (fs::file_size(temporary, error) == 0) throw OutputError(shown(path), "nothing was written");
-        flush_to_disk(temporary, path);
-        if (::rename(temporary.c_str(), target.c_str()) != 0)
-            fail_output(path, "cannot rename the temporary file", errno);
-    } catch (...) {
-        ::unlink(temporary.c_str());
-        throw;
-    }
-    // The name is part of the folder. Some file systems refuse to flush folders; the file is complete either way.
-    const FileDescriptor folder(
-        ::open(target.has_parent_path() ? target.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (folder.get() >= 0) ::fsync(folder.get());
+    replace_file(path, write, false);
 }
 
 void try_output(const fs::path& path) {
@@ -169,7 +176,8 @@ void create_folder(const fs::path& folder) {
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {
-    write_atomically(path, [&](const fs::path& temporary) { write_bytes(temporary, bytes, path); });
+    const auto write = [&](const fs::path& temporary) { write_bytes(temporary, bytes, path); };
+    replace_file(path, write, bytes.empty());
 }
 
 }  // namespace aleph

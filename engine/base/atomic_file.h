@@ -14,7 +14,7 @@ namespace aleph {
 /// `.name.<process id><ten random digits>.part` beside the target and is removed if anything throws; it is locked while
 /// it is written. An existing file is replaced, unless it is read-only or not a regular file; a symbolic link is
 /// followed.
-/// @throws OutputError naming `path`; whatever `write` throws
+/// @throws OutputError naming `path`, also where nothing was written; whatever `write` throws
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 

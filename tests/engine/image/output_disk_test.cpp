@@ -93,6 +93,8 @@ TEST(Output, OU05_AnyFailureInsideRemovesTheTemporary) {
     // A writer that writes nothing, without an error, is a failure too.
     EXPECT_THROW(write_atomically(folder / "a.txt", [](const fs::path&) {}), OutputError);
     EXPECT_EQ(entries_in(folder.path()), 0u);
+    write_file(folder / "empty.txt", "");
+    EXPECT_EQ(fs::file_size(folder / "empty.txt"), 0u);
 }
 
 TEST(Output, OU07_LeftoversOfKilledProcessesGoAndFilesInUseStay) {
