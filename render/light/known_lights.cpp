@@ -14,6 +14,7 @@ namespace {
 
 constexpr int all_places = 1024, many_places = 64, few_places = 8;
 constexpr int few_test_rays = 1 << 14, most_test_rays = 1 << 18;
+constexpr float most_share = 0.5f;
 constexpr std::uint32_t met_key = 0x6d657473u;  // no other random numbers have it
 
 /// Illuminance that a light brings to the places, in the mean.
@@ -95,7 +96,7 @@ HiddenLights list_hidden(const LightingContext& context, const std::vector<Reach
     double seen = 0.0, hidden = 0.0;
     for (const Reach& reach : reaches) (reach.seen ? seen : hidden) += reach.without_shadows;
     HiddenLights found;
-    found.share = 2.0f / std::sqrt(static_cast<float>(places));
+    found.share = std::min(most_share, 2.0f / std::sqrt(static_cast<float>(places)));
     if (!(seen > 0.0 && found.share * seen < hidden)) return {};  // also where one of them is not a number
     found.scale = std::max(static_cast<float>(found.share * seen / hidden), 1e-12f);
     found.which.resize(context.shading.instances.size() + context.shading.pose->lights.size() + 1);
@@ -131,7 +132,7 @@ KnownLights find_known_lights(const LightingContext& context, const CameraView& 
     const std::vector<ViewedSurface> met = find_met_places(lighting, seen, counts);
     const std::vector<Reach> at_seen = find_reaches(lighting, seen, counts);
     std::vector<Reach> at_met = find_reaches(lighting, met, counts);
-    // What the camera sees may be met too.
+    // Rays meet what the camera sees, too.
     for (std::size_t i = 0; i < at_met.size(); ++i)
         at_met[i].seen = at_met[i].seen || (at_seen[i].seen && at_seen[i].without_shadows > 0.0);
     known.unseen = list_hidden(lighting, at_seen, seen.size());

@@ -9,7 +9,7 @@ namespace aleph {
 
 /// Lights that reach none of some places.
 struct HiddenLights {
-    float share = 0.0f;       ///< samples of these lights for each of the others: 2 / sqrt(places)
+    float share = 0.0f;       ///< samples of these lights for each of the others: 2 / sqrt(places), at most 1 / 2
     float scale = 1.0f;       ///< of their strength, with which they bring that share of what the others bring
     std::vector<bool> which;  ///< ShadingScene::instances, then ScenePose::lights, then the environment
 

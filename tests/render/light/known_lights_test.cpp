@@ -53,6 +53,25 @@ TEST(KnownLights, MC23_TheSunCostsNothingAtLightingKeyframes) {
     EXPECT_LT(both, 1.5 * lamp);
 }
 
+/// Under a lid, in a picture that shows nothing else: few of the places lie on it.
+TEST(KnownLights, MC23_HiddenLightsHaveAShareOfTheSamplesHoweverLittleIsSeen) {
+    Scene scene;
+    const int grey = add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true);
+    add_mesh(scene, make_quad(0.03, 0.03, grey), glm::dvec3(0.0), z_to_up);
+    add_mesh(scene, make_quad(0.1, 0.1, grey), {0.0, 0.05, 0.0}, z_to_down);
+    add_light(scene, Light::Kind::point, glm::dvec3(0.001), {0.04, 0.02, 0.0});
+    add_light(scene, Light::Kind::directional, glm::dvec3(10.0), glm::dvec3(0.0), z_to_up);
+    add_camera(scene, {0.0, 0.04, 0.3}, glm::dvec3(0.0));
+    const Stage stage(std::move(scene), 120, 90);
+    RayCounts counts;
+    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    const auto shown = std::ranges::count_if(centers.hits.pixels, [](const Hit& hit) { return hit.instance == 0; });
+    ASSERT_GT(shown, 0);
+    const HiddenLights hidden = find_known_lights(stage.lighting(), stage.view, centers, counts).unseen;
+    ASSERT_FALSE(hidden.empty());
+    EXPECT_LE(hidden.share, 0.5f);
+}
+
 /// Ways of light from one place, with lights as they are known or by power alone.
 struct SpotLight {
     Mean direct, indirect;
