@@ -1,5 +1,5 @@
 #pragma once
-// What rays from a picture tell of its lights, so that samples go where light comes from.
+// Knowledge of a picture's lights, found by rays before its samples, which then go where light comes from.
 
 #include "render/light/light_choice.h"
 #include "render/light/sky_openings.h"
@@ -10,7 +10,7 @@ namespace aleph {
 /// Lights that reach none of some places.
 struct HiddenLights {
     float share = 0.0f;       ///< samples of these lights for each of the others: 2 / sqrt(places), at most 1 / 2
-    float scale = 1.0f;       ///< of their strength, with which they bring that share of what the others bring
+    float scale = 1.0f;       ///< factor of their strength, with which they bring `share` of what the others bring
     std::vector<bool> which;  ///< ShadingScene::instances, then ScenePose::lights, then the environment
 
     bool empty() const { return which.empty(); }

@@ -6,7 +6,7 @@
 namespace aleph {
 
 struct LightCut {
-    static constexpr int few = 16;       ///< so many lights are all in the cut
+    static constexpr int few = 16;       ///< so many lights, without a tree of their own, are all in the cut
     static constexpr int capacity = 24;  ///< nodes
     const LightTree* tree = nullptr;
     int size = 0;
@@ -17,7 +17,8 @@ struct LightCut {
     float total = 0.0f;                   ///< of the weights; infinite or not a number if a weight is
 };
 
-/// Few lights: all of them. Else groups are divided, that of the largest bound first, until there are enough nodes.
+/// Few lights and no tree: all of them. Else groups are divided, that of the largest bound first, until there are
+/// enough nodes.
 /// @param tree  of the lights; null: LightSet::tree
 LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, const LightTree* tree = nullptr);
 
