@@ -80,8 +80,7 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     StageClock clock;
     FrameCounts of_spans;
     double span_seconds = 0.0;
-    if (options.at_sample && carried == nullptr)
-        options.spans = find_shutter_spans(s, frame, prepared, options, request, of_spans);
+    if (options.at_sample) of_spans = find_shutter_light(s, frame, prepared, request, carried != nullptr, options);
     clock.add_to(span_seconds);
     const LightingContext lighting = s.here.lighting();
     const IndirectContext context{.lighting = lighting,

@@ -1,5 +1,7 @@
 #include "render/frame/frame_scene.h"
 
+#include "render/light/find_sky_openings.h"
+
 namespace aleph {
 
 void FrameScene::pose(double seconds, int camera, int width, int height) {
@@ -54,6 +56,13 @@ void FrameScene::find_known_lights(const SampleHits& centers, RayCounts& counts)
 
 void FrameScene::take_known_lights(const FrameScene& other) {
     known_ = other.known_;
+    if (known_.openings) move_openings(glm::vec3(other.rays_->anchor() - rays_->anchor()), *known_.openings);
+    make_light_trees();
+}
+
+void FrameScene::add_known_lights(const FrameScene& other, const SampleHits& centers, RayCounts& counts) {
+    aleph::add_known_lights(aleph::find_known_lights(other.lighting(), posed_->view, centers, counts),
+                            glm::vec3(other.rays_->anchor() - rays_->anchor()), known_);
     make_light_trees();
 }
 

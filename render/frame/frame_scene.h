@@ -44,6 +44,9 @@ class FrameScene {
     void find_known_lights(const SampleHits& centers, RayCounts& counts);
     /// The same, from the pose of another time. To be called after prepare.
     void take_known_lights(const FrameScene& other);
+    /// Adds what is found in the pose of another time.
+    /// @param centers  first hits of this pose
+    void add_known_lights(const FrameScene& other, const SampleHits& centers, RayCounts& counts);
     /// Leaves out of shading what a plan for this frame skips. To be called after prepare.
     void leave_out(const EffectsPlan& effects);
     /// Leaves effects out of shading; the lights stay, unless direct light is among the effects.

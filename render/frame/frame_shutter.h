@@ -5,12 +5,12 @@
 
 namespace aleph {
 
-/// Computes light at as many times as nearly all of it needs. Moves `shutter`.
+/// Finds how far the light of the shutter's centre, or of lighting keyframes, differs from that of other times. Without
+/// keyframes it computes light at as many times as nearly all of it needs. Moves `shutter`.
 /// @param prepared  with the limits that samples are taken to
-/// @param counts    of the records
-/// @return none: light of the shutter's centre does, or that of samples' own paths
-std::vector<ShutterSpan> find_shutter_spans(SequenceState& s, std::int64_t frame, const PreparedFrame& prepared,
-                                            const SampleOptions& options, const FrameRequest& request,
-                                            FrameCounts& counts);
+/// @param carried  there is light of lighting keyframes
+/// @param options  gets `spans` and `from_center`
+FrameCounts find_shutter_light(SequenceState& s, std::int64_t frame, const PreparedFrame& prepared,
+                               const FrameRequest& request, bool carried, SampleOptions& options);
 
 }  // namespace aleph

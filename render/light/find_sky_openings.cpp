@@ -94,6 +94,7 @@ struct CellRange {
     int side = 0;
     glm::ivec2 low{grid}, high{-1};
 
+    bool empty() const { return high.x < low.x || high.y < low.y; }
     void add(const CellRange& other) {
         low = glm::min(low, other.low);
         high = glm::max(high, other.high);
@@ -181,7 +182,51 @@ SkyOpening make_opening(const SkyOpenings& box, const CellRange& range) {
     return opening;
 }
 
+/// The cells of a box that an opening of another one is in.
+CellRange find_cells(const SkyOpenings& box, const SkyOpening& opening) {
+    CellRange range{opening.side, {}, {}};
+    const std::array<int, 2> along = other_axes(opening.side / 2);
+    for (int i = 0; i < 2; ++i) {
+        const float low = box.low[along[i]], cell = (box.high - box.low)[along[i]] / grid;
+        range.low[i] = std::max(0, static_cast<int>(std::floor((opening.low[i] - low) / cell)));
+        range.high[i] = std::min(grid, static_cast<int>(std::ceil((opening.high[i] - low) / cell))) - 1;
+    }
+    return range;
+}
+
+void set_openings(std::vector<CellRange>& cells, SkyOpenings& box) {
+    join(cells);
+    box.openings.clear();
+    for (const CellRange& range : cells) box.openings.push_back(make_opening(box, range));
+}
+
 }  // namespace
+
+void add_openings(const SkyOpenings& other, std::optional<SkyOpenings>& openings) {
+    if (!openings) {
+        openings = other;
+        return;
+    }
+    std::vector<CellRange> cells;
+    for (const SkyOpenings* of : {static_cast<const SkyOpenings*>(&*openings), &other}) {
+        for (const SkyOpening& opening : of->openings) {
+            const CellRange range = find_cells(*openings, opening);
+            if (!range.empty()) cells.push_back(range);
+        }
+    }
+    set_openings(cells, *openings);
+}
+
+void move_openings(const glm::vec3& shift, SkyOpenings& openings) {
+    openings.low += shift;
+    openings.high += shift;
+    for (SkyOpening& opening : openings.openings) {
+        const auto [a, b] = other_axes(opening.side / 2);
+        opening.low += glm::vec2(shift[a], shift[b]);
+        opening.high += glm::vec2(shift[a], shift[b]);
+        for (glm::vec3& corner : opening.corners) corner += shift;
+    }
+}
 
 std::optional<SkyOpenings> find_sky_openings(const LightingContext& context, const CameraView& view,
                                              const SampleHits& centers, RayCounts& counts) {
@@ -198,11 +243,10 @@ std::optional<SkyOpenings> find_sky_openings(const LightingContext& context, con
     SkyOpenings found;
     set_box(paths, found);
     std::vector<CellRange> ranges = find_open_cells(paths, found);
-    join(ranges);
+    set_openings(ranges, found);
     int open = 0;
     for (const CellRange& range : ranges) open += range.area();
     if (static_cast<float>(open) > most_open * 6 * grid * grid) return std::nullopt;
-    for (const CellRange& range : ranges) found.openings.push_back(make_opening(found, range));
     return found;
 }
 

@@ -13,4 +13,10 @@ namespace aleph {
 std::optional<SkyOpenings> find_sky_openings(const LightingContext& context, const CameraView& view,
                                              const SampleHits& centers, RayCounts& counts);
 
+/// Adds those of another time, whose coordinates are the same.
+void add_openings(const SkyOpenings& other, std::optional<SkyOpenings>& openings);
+
+/// Brings them to coordinates in which all lies elsewhere. @param shift  m
+void move_openings(const glm::vec3& shift, SkyOpenings& openings);
+
 }  // namespace aleph

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "engine/base/sampling.h"
@@ -105,6 +106,13 @@ HiddenLights list_hidden(const LightingContext& context, const std::vector<Reach
     return found;
 }
 
+/// Keeps those that are hidden in both.
+void keep_hidden(const HiddenLights& other, HiddenLights& hidden) {
+    for (std::size_t i = 0; i < hidden.which.size(); ++i)
+        hidden.which[i] = hidden.which[i] && !other.empty() && other.which[i];
+    if (std::ranges::none_of(hidden.which, std::identity{})) hidden = {};
+}
+
 /// A tree in which the strength of lights is multiplied by one of two factors.
 LightTree make_tree_of_parts(const ShadingScene& shading, const LightSet& lights, const HiddenLights& hidden,
                              float of_hidden, float of_others) {
@@ -138,6 +146,16 @@ KnownLights find_known_lights(const LightingContext& context, const CameraView& 
     known.unseen = list_hidden(lighting, at_seen, seen.size());
     known.unmet = list_hidden(lighting, at_met, met.size());
     return known;
+}
+
+void add_known_lights(const KnownLights& other, const glm::vec3& shift, KnownLights& known) {
+    if (other.openings) {
+        SkyOpenings there = *other.openings;
+        move_openings(shift, there);
+        add_openings(there, known.openings);
+    }
+    keep_hidden(other.unseen, known.unseen);
+    keep_hidden(other.unmet, known.unmet);
 }
 
 KnownLightTrees::KnownLightTrees(const ShadingScene& shading, const LightSet& lights, const KnownLights& known) {

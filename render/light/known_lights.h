@@ -30,6 +30,10 @@ struct KnownLights {
 KnownLights find_known_lights(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                               RayCounts& counts);
 
+/// Adds what is known of another time. Hidden are lights that are hidden at both.
+/// @param shift  m, from the coordinates of that time to these
+void add_known_lights(const KnownLights& other, const glm::vec3& shift, KnownLights& known);
+
 /// The lights by what is known of them.
 struct KnownLightTrees {
     SplitLights seen;  ///< LightingContext::seen; no groups if nothing is hidden

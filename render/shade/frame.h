@@ -19,6 +19,7 @@ struct SampleOptions {
     std::function<SampleScene(int sample, int time_class)> at_sample;
     bool light_lasts = true;             ///< while the shutter is open; otherwise that of the frame's time is not used
     std::vector<ShutterSpan> spans;      ///< with light at times of the shutter, in place of the frame's; none: without
+    LightChanges from_center;            ///< ShutterTimes::from_center, where `spans` are not used
     const KeyframeRisk* risk = nullptr;  ///< of carried light; null: it need not be checked
     /// Errors that the samples may have; null: not known, which Sampling::uniform alone allows.
     const VisibleLimits* limits = nullptr;

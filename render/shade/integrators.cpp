@@ -70,6 +70,7 @@ class CacheIntegrator final : public LightIntegrator {
         if (!blurred_ || !cached_) return;
         shading_.shutter =
             &shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_);
+        shutter_->add_changes(input_.options.from_center, 1.0f);
     }
 
     void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) override {

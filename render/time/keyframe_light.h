@@ -10,6 +10,7 @@
 #include "render/cache/cache_fill.h"
 #include "render/estimate/estimate.h"
 #include "render/time/lighting_keyframes.h"
+#include "render/time/shutter_probes.h"
 
 namespace aleph {
 
@@ -17,6 +18,7 @@ namespace aleph {
 struct KeyPose {
     PosedView posed;
     ShadingScene shading;
+    ProbedLight probed{};  ///< while a shutter is open; empty: nothing differs from its centre
 };
 
 /// View of a lighting keyframe's camera.

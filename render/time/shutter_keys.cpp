@@ -10,8 +10,6 @@ namespace aleph {
 
 namespace {
 
-using KeySpan = std::pair<KeyTime, KeyTime>;
-
 constexpr double nearly_all = 0.9;            // of the light that is wanted
 constexpr double least_gain = 0.25;           // share of what is not known yet, for twice as many spans
 constexpr double least_share = 0.25;          // of it, so that light at several times pays
@@ -19,10 +17,6 @@ constexpr double before_jump = 1.0 / 2048.0;  // frames
 
 double find_weight(double open, double close, double at) {
     return close > open ? std::clamp((at - open) / (close - open), 0.0, 1.0) : 0.0;
-}
-
-bool is_same(const KeyPose& a, const KeyPose& b) {
-    return find_movers(a.shading, b.shading).empty() && find_dimming(a.shading, a.shading, 0.0f, b.shading) == 0.0f;
 }
 
 /// Returns whether light is not to be interpolated from one pose to another that follows at once.
@@ -48,26 +42,44 @@ double find_known_share(const ShutterPlaces& places, const ShutterLight& light, 
     return static_cast<double>(known) / static_cast<double>(places.surfaces.size());
 }
 
-double find_known_share(const ShutterPlaces& places, const std::vector<KeySpan>& spans, const PoseAt& pose) {
+ProbedLight find_mean(const ShutterPlaces& places, const std::vector<std::shared_ptr<const KeyPose>>& poses) {
+    std::vector<const ProbedLight*> lights;
+    for (const auto& pose : poses) lights.push_back(&places.probed_at(*pose));
+    return mean_light(lights);
+}
+
+/// Finds LightChanges of the spans, too.
+double find_known_share(const ShutterPlaces& places, std::vector<KeySpan>& spans, const PoseAt& pose) {
     double known = 0.0, length = 0.0;
-    for (const auto& [first, last] : spans) {
+    for (auto& [first, last, changes] : spans) {
         const double time = last.at - first.at;
         const auto middle = pose(0.5 * (first.at + last.at));
-        const ShutterLight light(first.pose->shading, last.pose->shading, 0.5f, middle->shading, nullptr);
+        ShutterLight light(first.pose->shading, last.pose->shading, 0.5f, middle->shading, nullptr);
+        changes = find_light_changes(places.surfaces, places.picture(), find_mean(places, {first.pose, last.pose}),
+                                     places.probed_at(*middle));
+        light.add_changes(changes, 1.0f);
         known += time * find_known_share(places, light, middle->shading);
         length += time;
     }
     return length > 0.0 ? known / length : 0.0;
 }
 
-bool centre_does(const ShutterInterval& shutter, const ShutterPlaces& places, const PoseAt& pose) {
-    double known = 0.0;
+std::vector<std::shared_ptr<const KeyPose>> look_around_center(const ShutterInterval& shutter, const PoseAt& pose) {
     constexpr int looks = 4;
-    for (int i = 0; i < looks; ++i) {
-        const auto at = pose(std::lerp(shutter.open, shutter.close, (i + 0.5) / looks));
-        known += find_known_share(places, {places.shading, at->shading, nullptr, nullptr}, at->shading) / looks;
+    std::vector<std::shared_ptr<const KeyPose>> poses;
+    for (int i = 0; i < looks; ++i) poses.push_back(pose(std::lerp(shutter.open, shutter.close, (i + 0.5) / looks)));
+    return poses;
+}
+
+bool center_does(const ShutterPlaces& places, const std::vector<std::shared_ptr<const KeyPose>>& poses,
+                 const LightChanges& changes) {
+    double known = 0.0;
+    for (const auto& at : poses) {
+        ShutterLight light(places.shading, at->shading, nullptr, nullptr);
+        light.add_changes(changes, 1.0f);
+        known += find_known_share(places, light, at->shading);
     }
-    return known >= nearly_all;
+    return known >= nearly_all * static_cast<double>(poses.size());
 }
 
 /// Parts of the shutter between jumps.
@@ -79,24 +91,25 @@ std::vector<KeySpan> cut_at_jumps(const ShutterInterval& shutter, const std::vec
         if (!(time - before_jump > begin.at && time < shutter.close)) continue;
         const KeyTime before = key(time - before_jump), after = key(time);
         if (!jumps(*before.pose, *after.pose)) continue;
-        parts.emplace_back(begin, before);
+        parts.push_back({begin, before});
         begin = after;
     }
-    parts.emplace_back(begin, key(shutter.close));
+    parts.push_back({begin, key(shutter.close)});
     return parts;
 }
 
 std::vector<KeySpan> divide(const std::vector<KeySpan>& parts, double length, const PoseAt& pose) {
     std::vector<KeySpan> spans;
-    for (const auto& [first, last] : parts) {
+    for (const auto& [first, last, changes] : parts) {
         const double time = last.at - first.at;
-        const bool still = is_same(*first.pose, *last.pose) && is_same(*first.pose, *pose(0.5 * (first.at + last.at)));
+        const ShadingScene &from = first.pose->shading, &middle = pose(0.5 * (first.at + last.at))->shading;
+        const bool still = is_same(from, last.pose->shading) && is_same(from, middle);
         const int count = still ? 1 : std::max(1, static_cast<int>(std::lround(time / length)));
         KeyTime begin = first;
         for (int i = 1; i <= count; ++i) {
             const double at = first.at + time * i / count;
             const KeyTime end = i == count ? last : KeyTime{at, pose(at)};
-            spans.emplace_back(begin, end);
+            spans.push_back({begin, end});
             begin = end;
         }
     }
@@ -109,7 +122,10 @@ LightInSpan::LightInSpan(const ShutterSpan& span, double at, const ShadingScene&
     : light_(span.before->at->shading, span.after ? span.after->at->shading : span.before->at->shading,
              span.after ? static_cast<float>(find_weight(span.open, span.close, at)) : 0.0f, sample, &between_),
       between_(span.before, span.after, find_weight(span.open, span.close, at),
-               light_.has_movers() ? BetweenKeys::smooth : BetweenKeys::linear) {}
+               light_.has_movers() ? BetweenKeys::smooth : BetweenKeys::linear) {
+    const auto weight = static_cast<float>(find_weight(span.open, span.close, at));
+    light_.add_changes(span.changes, 4.0f * weight * (1.0f - weight));
+}
 
 const ShutterSpan* find_span(const std::vector<ShutterSpan>& spans, double at) {
     const auto holds = [at](const ShutterSpan& span) { return span.open <= at && at <= span.close; };
@@ -117,12 +133,22 @@ const ShutterSpan* find_span(const std::vector<ShutterSpan>& spans, double at) {
     return found == spans.end() ? nullptr : &*found;
 }
 
-std::vector<KeySpan> choose_spans(const ShutterInterval& shutter, const std::vector<double>& jump_times,
-                                  const ShutterPlaces& places, const PoseAt& pose, int most) {
-    if (places.surfaces.empty() || !(shutter.close > shutter.open)) return {};
-    if (jump_times.empty() && centre_does(shutter, places, pose)) return {};
+bool is_same(const ShadingScene& a, const ShadingScene& b) {
+    return find_movers(a, b).empty() && find_dimming(a, a, 0.0f, b) == 0.0f;
+}
+
+ShutterTimes choose_times(const ShutterInterval& shutter, const std::vector<double>& jump_times,
+                          const ShutterPlaces& places, const PoseAt& pose, int most) {
+    ShutterTimes times;
+    if (places.surfaces.empty() || !(shutter.close > shutter.open)) return times;
+    if (jump_times.empty()) {
+        const auto around = look_around_center(shutter, pose);
+        times.from_center =
+            find_light_changes(places.surfaces, places.picture(), places.probed, find_mean(places, around));
+        if (center_does(places, around, times.from_center)) return times;
+    }
     const std::vector<KeySpan> parts = cut_at_jumps(shutter, jump_times, pose);
-    std::vector<KeySpan> spans;
+    std::vector<KeySpan>& spans = times.spans;
     double share = 0.0;
     for (int count = 1; count <= most && share < nearly_all; count *= 2) {
         std::vector<KeySpan> finer = divide(parts, (shutter.close - shutter.open) / count, pose);
@@ -132,16 +158,19 @@ std::vector<KeySpan> choose_spans(const ShutterInterval& shutter, const std::vec
             share = known;
         }
     }
-    if (share < least_share) return {};
-    for (auto& [first, last] : spans)
-        if (is_same(*first.pose, *last.pose)) last.pose = nullptr;
-    return spans;
+    if (share < least_share) spans.clear();
+    for (auto& [first, last, changes] : spans)
+        if (is_same(first.pose->shading, last.pose->shading)) last.pose = nullptr;
+    return times;
 }
 
-KeyframeRecords find_lasting(const KeyframeLight& light, const KeyPose& to, float accuracy) {
+KeyframeRecords find_lasting(const KeyframeLight& light, const ShutterPlaces& places, const KeyPose& to,
+                             float accuracy) {
     const ShadingScene& from = light.at->shading;
     const std::vector<ShutterMover> movers = find_movers(from, to.shading);
-    const float dimmed = find_dimming(from, from, 0.0f, to.shading) + find_shadow_change(from, movers);
+    const LightChanges changes =
+        find_light_changes(places.surfaces, places.picture(), places.probed_at(*light.at), places.probed_at(to));
+    const float dimmed = std::max(find_dimming(from, from, 0.0f, to.shading), changes.largest());
     KeyframeRecords lasting;
     for (const IrradianceRecord& record : light.cache.records()) {
         const glm::vec3 at_rest(0.0f);

@@ -14,6 +14,7 @@ namespace aleph {
 struct ShutterSpan {
     double open = 0.0, close = 0.0;                      ///< frames
     std::shared_ptr<const KeyframeLight> before, after;  ///< null: nothing changes after the first
+    LightChanges changes{};                              ///< from the mean of both, in the middle
 };
 
 /// Light at one time of the shutter.
@@ -47,18 +48,38 @@ struct ShutterPlaces {
     std::vector<PixelSurface> surfaces;
     const ShadingScene& shading;   ///< of the surfaces, at the shutter's centre
     const Image<float>& accuracy;  ///< alpha per pixel
+    ProbedLight probed{};          ///< at the shutter's centre; empty while all poses are as that
+
+    const ProbedLight& probed_at(const KeyPose& pose) const { return pose.probed.empty() ? probed : pose.probed; }
+    glm::ivec2 picture() const { return {accuracy.width, accuracy.height}; }
 };
+
+/// First and last time of a span.
+struct KeySpan {
+    KeyTime first, last;
+    LightChanges changes{};  ///< of ShutterSpan
+};
+
+struct ShutterTimes {
+    /// None: light of the shutter's centre does, or most of it changes too fast for any number of spans.
+    std::vector<KeySpan> spans;
+    /// From the light of the centre to the mean of the shutter: what changes evenly with time cancels. Of no use where
+    /// light jumps.
+    LightChanges from_center;
+};
+
+/// Returns whether things and lights are the same in two poses. The cameras may differ.
+bool is_same(const ShadingScene& a, const ShadingScene& b);
 
 /// Chooses the spans for light at these places: as many as nearly all of it needs, while each doubling makes much more
 /// of it known.
 /// @param jumps  frames, at which light may jump, in order
 /// @param most   spans
-/// @return first and last times of spans; none: light of the shutter's centre does, or most of it changes too fast for
-///     any number of spans
-std::vector<std::pair<KeyTime, KeyTime>> choose_spans(const ShutterInterval& shutter, const std::vector<double>& jumps,
-                                                      const ShutterPlaces& places, const PoseAt& pose, int most);
+ShutterTimes choose_times(const ShutterInterval& shutter, const std::vector<double>& jumps, const ShutterPlaces& places,
+                          const PoseAt& pose, int most);
 
 /// Records that hold in another pose too, to this accuracy.
-KeyframeRecords find_lasting(const KeyframeLight& light, const KeyPose& to, float accuracy);
+KeyframeRecords find_lasting(const KeyframeLight& light, const ShutterPlaces& places, const KeyPose& to,
+                             float accuracy);
 
 }  // namespace aleph

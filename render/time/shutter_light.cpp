@@ -263,10 +263,7 @@ ShutterLight::ShutterLight(const ShadingScene& frame, const ShadingScene& sample
 ShutterLight::ShutterLight(const ShadingScene& before, const ShadingScene& after, float weight,
                            const ShadingScene& sample, const CarriedLight* between)
     : carried_(between), dimmed_(find_dimming(before, after, weight, sample)) {
-    const auto add = [&](const ShadingScene& at, float share) {
-        keys_.push_back(make_key(at, share, sample));
-        dimmed_ += share * find_shadow_change(at, keys_.back().movers);
-    };
+    const auto add = [&](const ShadingScene& at, float share) { keys_.push_back(make_key(at, share, sample)); };
     add(before, 1.0f - weight);
     if (!(weight > 0.0f)) return;
     add(after, weight);
@@ -300,6 +297,8 @@ std::optional<ShutterLight::Reading> ShutterLight::find_change(const PixelSurfac
         reading.change += key.weight * (hidden + find_light_change(key.movers, point->position, moved));
     }
     reading.change = std::max(reading.change, turned);
+    if (changes_ != nullptr)
+        reading.change = std::max(reading.change, changes_share_ * changes_->at(surface.x, surface.y));
     return reading;
 }
 

@@ -9,7 +9,7 @@
 // - What moves. A sphere of radius r at distance d hides at most F = min(1, r^2 / d^2) of the light that arrives. If it
 //   moves by s, F changes by no more than min(F, 3 F s / d). The sum over all things that move is at most alpha.
 // - What fades. Of the light from things whose material changes by a share, so much may change.
-// - Lights that things hide at one time and not at another (shutter_shadows.h).
+// - Light that things let in or shut out far away is measured by a few paths (shutter_probes.h).
 // - Lights that move. What one brings from a distance d changes by about 3 (s / d + a) of it, a the angle by
 //   which it turns or its cone widens. All of the light may be that of the one that changes most.
 // - Lights that brighten or dim, by a share of the brighter one. More than a quarter ends all such light (LightBreaks).
@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "render/cache/indirect_context.h"
+#include "render/time/shutter_probes.h"
 
 namespace aleph {
 
@@ -83,6 +84,13 @@ class ShutterLight {
     ShutterLight(const ShadingScene& before, const ShadingScene& after, float weight, const ShadingScene& sample,
                  const CarriedLight* between);
 
+    /// Takes the changes of light that are measured (shutter_probes.h) as well. Keeps a reference.
+    /// @param share  of them, at the sample's time
+    void add_changes(const LightChanges& changes, float share) {
+        changes_ = &changes;
+        changes_share_ = share;
+    }
+
     /// Returns whether light is that of the shutter's centre, and nothing but the camera differs at the sample's time.
     bool is_still() const { return at_center_ && keys_.front().movers.empty() && dimmed_ == 0.0f; }
     /// Returns whether a thing or a light is elsewhere, turned or of another material at a time that is read.
@@ -120,7 +128,9 @@ class ShutterLight {
     std::vector<Key> keys_;  ///< one or two
     const CarriedLight* carried_;
     const IrradianceCache* cache_ = nullptr;
-    float dimmed_;  ///< share of all light that lights which dim or are hidden may change
+    float dimmed_;                           ///< share of all light that lights which dim may change
+    const LightChanges* changes_ = nullptr;  ///< null: none are measured
+    float changes_share_ = 0.0f;
     bool at_center_ = false;
 };
 

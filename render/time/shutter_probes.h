@@ -1,0 +1,42 @@
+#pragma once
+// How much indirect light changes while the shutter is open, by few paths from some places of the picture. They find
+// what changes light far away: a lid on a lamp, a slide before a spot, a door to a bright room, a blind.
+
+#include <algorithm>
+#include <array>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "render/light/light_choice.h"
+#include "render/pixels/pixel_surfaces.h"
+
+namespace aleph {
+
+/// Luminance of the indirect irradiance at each place; negative: hidden.
+using ProbedLight = std::vector<float>;
+
+/// A few paths of up to three bounces from each place. They have the same random numbers at all times, so that light
+/// that does not change makes no difference.
+/// @param lighting  at any time; the places may be of another one
+ProbedLight probe_light(const LightingContext& lighting, const std::vector<PixelSurface>& places, RayCounts& counts);
+
+/// Share of the light that differs between two times, in parts of the picture.
+struct LightChanges {
+    static constexpr int across = 4;
+
+    glm::ivec2 picture{0};  ///< pixels; 0: nothing changes
+    std::array<float, across * across> shares{};
+
+    std::size_t part(int x, int y) const { return y * across / picture.y * across + x * across / picture.x; }
+    float at(int x, int y) const { return picture.x == 0 ? 0.0f : shares[part(x, y)]; }
+    float largest() const { return *std::ranges::max_element(shares); }
+};
+
+/// Of the larger one of both; none if one is empty.
+LightChanges find_light_changes(const std::vector<PixelSurface>& places, glm::ivec2 picture, const ProbedLight& known,
+                                const ProbedLight& sample);
+
+/// The mean of several times, negative where one is; none if one is empty.
+ProbedLight mean_light(const std::vector<const ProbedLight*>& lights);
+
+}  // namespace aleph
