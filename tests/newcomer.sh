@@ -61,8 +61,10 @@ answers 0 "wrote begin.json" aleph new begin.json
 answers 2 "is there already" aleph new begin.json
 answers 2 "ends in .json" aleph new begin.glb
 answers 0 "frames    0 to 47 at 24 a second" aleph explain begin.json
+answers 0 "warning: frame 99 lies outside the shot, which has the frames 0 to 47" aleph explain begin.json --frames 99 --size 16x12
 silent aleph render begin.json "${quick[@]}" --frames 24 -q -o begin.png
-rm begin.*
+answers 0 "wrote new/folder/begin.json" aleph new new/folder/begin.json
+rm -r begin.* new
 
 cat >first.json <<'JSON'
 {"aleph": 1, "fps": 30, "frames": [0, 59],
