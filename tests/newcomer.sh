@@ -127,6 +127,7 @@ answers 0 'warning: every pixel is black' aleph render below.json --frames 0 "${
 rm below.*
 
 # Options.
+answers 2 'reference is required' aleph compare first.json
 answers 2 'there is no option --frame; did you mean "--frames"?' aleph render first.json --frame 0
 answers 2 'did you mean "--spp"?' aleph render first.json --sapp 4
 answers 2 'there is no command rendr; did you mean "render"?' aleph rendr first.json

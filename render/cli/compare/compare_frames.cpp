@@ -235,7 +235,7 @@ bool names_sequence(const std::string& argument) {
 
 int compare_frames(const CompareOptions& options) {
     const bool is_sequence = names_sequence(options.first);
-    ComparedFiles files{find_frames(options.first, "first"), find_frames(options.second, "second"), {}, {}};
+    ComparedFiles files{find_frames(options.first, "picture"), find_frames(options.second, "reference"), {}, {}};
     files.thresholds = find_maps(options, options.threshold, "--threshold", files.first);
     files.seen = find_maps(options, options.seen, "--seen", files.first);
     check_partners(options, files.first, files.second, files.thresholds, files.seen);
