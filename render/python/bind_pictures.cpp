@@ -43,25 +43,30 @@ py::sequence take_list(const py::object& object, const char* what) {
     return object;
 }
 
-/// The frames that begin a new shot, of pictures 0 to `count` - 1.
-void warn_of_cuts_outside(const std::vector<std::int64_t>& cuts, std::size_t count) {
-    for (const std::int64_t cut : cuts) {
-        const auto fault = describe_frame_outside(cut, {0, static_cast<std::int64_t>(count) - 1});
-        if (fault) return warn("cuts: " + *fault);
+/// Frames that begin a new shot.
+/// @throws InputError
+std::vector<std::int64_t> take_cuts(const py::object& object) {
+    try {
+        return object.cast<std::vector<std::int64_t>>();
+    } catch (const py::cast_error&) {
+        throw InputError("", "cuts", "expected a list of frame numbers, such as [24, 48]");
     }
 }
 
 std::vector<std::shared_ptr<Frame>> make_maps(const py::object& image_list, const py::object& fps,
-                                              const py::object& motion, const std::vector<std::int64_t>& cuts,
-                                              int threads, const py::object& on_progress, const py::kwargs& settings) {
+                                              const py::object& motion, const py::object& cuts, int threads,
+                                              const py::object& on_progress, const py::kwargs& settings) {
     const py::sequence images = take_list(image_list, "images");
     const auto shot_object = std::make_shared<Scene>();
     py::cast(shot_object).attr("fps") = fps;
     Scene& shot = *shot_object;
-    shot.film.cuts = cuts;
+    shot.film.cuts = take_cuts(cuts);
     if (images.size() == 0) throw InputError("", "images", "there are none");
-    warn_of_cuts_outside(cuts, images.size());
-    if (!motion.is_none() && py::len(motion) != images.size())
+    for (const std::int64_t cut : shot.film.cuts) {
+        const FrameRange range{0, static_cast<std::int64_t>(images.size()) - 1};
+        if (const auto fault = describe_frame_outside(cut, range)) warn("cuts: " + *fault);
+    }
+    if (!motion.is_none() && take_list(motion, "motion").size() != images.size())
         throw InputError("", "motion", fmt::format("{} arrays for {} images", py::len(motion), images.size()));
     std::map<std::int64_t, PictureFrame> pictures;
     for (std::size_t i = 0; i < images.size(); ++i) {
@@ -126,14 +131,14 @@ py::dict compare(const py::object& a, const py::object& b, const py::object& thr
 }
 
 py::dict find_seen(const py::object& pictures, const py::object& reference, const py::object& reference_maps,
-                   const std::vector<std::int64_t>& cuts) {
+                   const py::object& cuts) {
     const py::sequence a = take_list(pictures, "a"), b = take_list(reference, "b"),
                        maps = take_list(reference_maps, "maps");
     if (a.size() != b.size() || a.size() != maps.size() || a.size() == 0)
         throw InputError(
             "", "seen",
             fmt::format("{}, {} and {} frames: expected three lists of one length", a.size(), b.size(), maps.size()));
-    SequenceComparison comparison({}, cuts);
+    SequenceComparison comparison({}, take_cuts(cuts));
     std::optional<std::int64_t> before;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const py::object map = maps[i];
@@ -162,7 +167,7 @@ py::dict find_seen(const py::object& pictures, const py::object& reference, cons
 
 void bind_pictures(py::module_& module) {
     module.def("maps", &make_maps, py::arg("images") = py::none(), py::kw_only(), py::arg("fps") = py::none(),
-               py::arg("motion") = py::none(), py::arg("cuts") = std::vector<std::int64_t>(), py::arg("threads") = 0,
+               py::arg("motion") = py::none(), py::arg("cuts") = py::list(), py::arg("threads") = 0,
                py::arg("on_progress") = py::none(), R"(Maps of pictures that other programs made.
 
 images: a sequence of arrays (h, w, 3), linear floats with exposure (white = 1) or sRGB bytes.
@@ -182,7 +187,7 @@ threshold: a Frame of the reference, or its thresholds (h, w) in cd/m2, for a di
 Returns a dict: same, max, rms, relative_mse, beyond (percent of the pixels that differ by more than `tolerance`), and
 with thresholds thresholds_max and thresholds_beyond (percent of the pixels with a visible difference in luminance).)");
     module.def("seen", &find_seen, py::arg("a") = py::none(), py::arg("b") = py::none(), py::arg("maps") = py::none(),
-               py::kw_only(), py::arg("cuts") = std::vector<std::int64_t>(),
+               py::kw_only(), py::arg("cuts") = py::list(),
                R"(What a viewer sees of the differences of two sequences.
 
 a, b: lists of pictures of consecutive frames, as of compare; b is the reference.

@@ -156,13 +156,16 @@ def test_missing_folders_are_made(ball, tmp_path):
     (lambda: aleph.maps([np.zeros((2, 2, 3))]), "fps", "frames per second, such as 30"),
     (lambda: aleph.maps(fps=24), "images", r"aleph.maps\(images, fps=24\)"),
     (lambda: aleph.maps(5, fps=24), "images", r"aleph.maps\(images, fps=24\)"),
+    (lambda: aleph.maps([np.zeros((2, 2, 3))], fps=24, cuts=1), "cuts", r"such as \[24, 48\]"),
+    (lambda: aleph.maps([np.zeros((2, 2, 3))], fps=24, motion=5), "motion", "expected a list"),
+    (lambda: aleph.study(ROOT / "scenes/cornell/scene.json"), "", "needs what is compared, such as sweep="),
     (lambda: aleph.compare(np.zeros((2, 2, 3))), "b", "expected an array"),
     (lambda: aleph.seen([np.zeros((2, 2, 3))], [np.zeros((2, 2, 3))]), "maps", "expected a list"),
     (lambda: aleph.render(frame=3), "scene", "such as 'scene.json'"),
     (lambda: aleph.Sequence(), "scene", "such as 'scene.json'"),
     (lambda: aleph.load(), "scene", "such as 'scene.json'"),
 ])
-def test_missing_arguments_are_named(call, place, reason):
+def test_missing_and_wrong_arguments_are_named(call, place, reason):
     with pytest.raises(aleph.InputError, match=reason) as raised:
         call()
     assert raised.value.place == place
