@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/base/atomic_file.h"
 #include "engine/load/format_rows.h"
 #include "engine/load/warnings.h"
 #include "engine/pose/pose.h"
@@ -63,9 +62,7 @@ Scene load_scene_text(std::string_view text, const std::filesystem::path& folder
 
 std::vector<std::string> save_scene(const Scene& scene, const std::filesystem::path& path,
                                     const SceneFormats& formats) {
-    const SceneFormat& format = require_format(formats, FormatUse::save, path, path.string(), "");
-    try_output(path);
-    return format.save(scene, path);
+    return require_format(formats, FormatUse::save, path, path.string(), "").save(scene, path);
 }
 
 }  // namespace aleph

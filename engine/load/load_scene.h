@@ -26,7 +26,7 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits = {
 /// @throws InputError with place and reason
 Scene load_scene_text(std::string_view text, const std::filesystem::path& folder, const LoadLimits& limits = {});
 
-/// Writes a scene file (.json) or binary glTF (.glb), completely or not at all. Makes missing folders.
+/// Writes a scene file (.json) or binary glTF (.glb), completely or not at all.
 /// load_scene returns a scene equal to that of a .json, apart from `file` and `warnings`: a camera or a light that was
 /// added is written like the rest. Includes stay includes. In another folder than that of SceneSource::file the paths
 /// of includes and images change accordingly. A .glb holds what includes brought, and motion as engine/gltf/write says.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
@@ -206,7 +207,13 @@ degrees, linear Rec.709.)");
              "From the space of a node, by name, to the world at a frame: (4, 4) for column vectors.")
         .def("worlds", &world_matrices, py::arg("frame"), "The same of all nodes, (nodes, 4, 4).")
         .def(
-            "save", [](const Scene& s, const py::object& path) { return save_scene(s, to_path(path)); },
+            "save",
+            [](const Scene& s, const py::object& to) {
+                const std::filesystem::path path = to_path(to);
+                require_format(scene_formats(), FormatUse::save, path, path.string(), "");
+                try_output(path);
+                return save_scene(s, path);
+            },
             py::arg("path"),
             "Writes a scene file (.json) or binary glTF (.glb). Makes missing folders. Returns what the file cannot "
             "hold, a list of "
