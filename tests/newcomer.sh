@@ -61,8 +61,10 @@ answers 0 "wrote begin.json" aleph new begin.json
 answers 2 "is there already" aleph new begin.json
 answers 2 "ends in .json" aleph new begin.glb
 answers 0 "frames    0 to 47 at 24 a second" aleph explain begin.json
+answers 0 "warning: frame 99 lies outside the shot, which has the frames 0 to 47" aleph explain begin.json --frames 99 --size 16x12
 silent aleph render begin.json "${quick[@]}" --frames 24 -q -o begin.png
-rm begin.*
+answers 0 "wrote new/folder/begin.json" aleph new new/folder/begin.json
+rm -r begin.* new
 
 cat >first.json <<'JSON'
 {"aleph": 1, "fps": 30, "frames": [0, 59],
@@ -125,6 +127,7 @@ answers 0 'warning: every pixel is black' aleph render below.json --frames 0 "${
 rm below.*
 
 # Options.
+answers 2 'reference is required' aleph compare first.json
 answers 2 'there is no option --frame; did you mean "--frames"?' aleph render first.json --frame 0
 answers 2 'did you mean "--spp"?' aleph render first.json --sapp 4
 answers 2 'there is no command rendr; did you mean "render"?' aleph rendr first.json

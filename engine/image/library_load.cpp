@@ -22,11 +22,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* file_name = "libaleph_images.so";
 
+[[noreturn]] void refuse(const std::string& reason) {
+    throw InputError("", "", fmt::format("PNG, JPEG and HDR files need {}: {}", file_name, reason));
+}
+
 /// Beside the program or Python module, as it is built, or where CMake installs it.
+/// @throws InputError
 fs::path find_file() {
     const fs::path folder = fs::canonical(code_file()).parent_path();
-    const fs::path beside = folder / file_name;
-    return fs::exists(beside) ? beside : folder / ALEPH_IMAGES_FOLDER / file_name;
+    const fs::path installed = (folder / ALEPH_IMAGES_FOLDER).lexically_normal();
+    for (const fs::path& place : {folder, installed})
+        if (fs::exists(place / file_name)) return place / file_name;
+    refuse(fmt::format("it is not in {} or {}; it is built with the program: copy it to one of them, or use EXR files",
+                       printable(folder.string(), 400), printable(installed.string(), 400)));
 }
 
 const ImageLibrary* load() {
@@ -35,9 +43,7 @@ const ImageLibrary* load() {
     void* const function = library != nullptr ? ::dlsym(library, "aleph_image_library") : nullptr;
     if (function == nullptr) {
         const char* const reason = ::dlerror();
-        throw InputError("", "",
-                         fmt::format("PNG, JPEG and HDR files need {}: {}", file_name,
-                                     printable(reason ? reason : "no table", 400)));
+        refuse(printable(reason ? reason : "no table", 400));
     }
     return reinterpret_cast<decltype(&aleph_image_library)>(function)();
 }

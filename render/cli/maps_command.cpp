@@ -101,7 +101,8 @@ PreparedImages prepare_images(const MapsOptions& options) {
         prepared.settings.picture.width = first.channels.front().values.width;
         prepared.settings.picture.height = first.channels.front().values.height;
     }
-    shot.film.cuts = parse_cuts(options.cuts);
+    shot.film.cuts =
+        read_cuts(options.cuts, {images.files.begin()->first, images.files.rbegin()->first}, options.common.quiet);
     if (options.common.frames.empty()) {
         for (const auto& [frame, path] : images.files) prepared.frames.push_back(static_cast<int>(frame));
     } else {

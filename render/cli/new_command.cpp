@@ -22,6 +22,7 @@ void write_first_scene(const std::string& file) {
         throw InputError(printable(file, 4096), "", "the name of a scene file ends in .json");
     if (std::filesystem::exists(std::filesystem::symlink_status(path)))
         throw InputError(printable(file, 4096), "", "the file is there already; give another name");
+    try_output(path);
     write_file(path, first_scene);
     std::cout << "wrote " << printable(file, 4096) << "; its first lines say what to do with it\n";
 }

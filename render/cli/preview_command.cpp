@@ -42,6 +42,7 @@ constexpr const char* preview_footer =
 
 struct PreviewOptions {
     SceneOptions scene;
+    std::string size;
     bool motion = false;
     WatchOptions watch;
 };
@@ -180,13 +181,14 @@ PreviewFrames make_sheet_alone(PreparedScene& prepared, const SceneOptions& opti
 void preview_once(const PreviewOptions& given) {
     SceneOptions options = given.scene;
     options.has_resume = false;
+    if (!given.size.empty()) options.settings["size"] = given.size;
     PreparedScene prepared = prepare_scene(options);
     const PreviewFiles files = choose_files(options.output, prepared.name, options.quiet);
     options.output = files.film;
     const FilmFolder folder = choose_film(options, preview_request);
     refuse_overwriting(prepared.read, {{files.sheet, "--output"}});
     try_output(files.sheet);
-    shrink(prepared.settings.picture);
+    if (given.size.empty()) shrink(prepared.settings.picture);
     const std::size_t all = prepared.frames.size();
     prepared.frames = thin_out(prepared.frames, most_frames);
     spread_light(prepared.settings.cache, prepared.frames);
@@ -208,6 +210,9 @@ void add_preview_command(CLI::App& app, Command& command) {
     add_shot_options(*preview, options->scene,
                      "the film, name.mp4, .mov, .webm or .gif, made by the program ffmpeg, with the sheet name.png "
                      "beside it; or name.png, the sheet alone; default: SCENE.preview.mp4");
+    add_text(
+        *preview, "--size", "WIDTHxHEIGHT", options->size,
+        fmt::format("size of the frames; default: the scene's shape, with sides of at most {} pixels", longest_side));
     preview->add_flag("--motion", options->motion,
                       fmt::format("draw lines of motion: from points of the picture, marked red, to where they are {} "
                                   "frames later at their present speed",

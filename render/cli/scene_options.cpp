@@ -145,12 +145,23 @@ struct LoadedFiles {
 
 }  // namespace
 
-void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range) {
+void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range, const char* option) {
     for (const int frame : frames) {
         const std::optional<std::string> fault = describe_frame_outside(frame, range);
         if (!fault) continue;
-        std::cerr << "aleph: warning: " << *fault << '\n';
+        std::cerr << "aleph: warning: " << option << *fault << '\n';
         return;
+    }
+}
+
+std::vector<std::int64_t> read_cuts(const std::string& text, const FrameRange& range, bool quiet) {
+    if (text.empty()) return {};
+    try {
+        const std::vector<int> frames = parse_frame_list(text);
+        if (!quiet) warn_of_frames_outside(frames, range, "--cuts: ");
+        return {frames.begin(), frames.end()};
+    } catch (const InputError& e) {
+        throw InputError("", "--cuts", e.reason());
     }
 }
 

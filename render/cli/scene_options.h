@@ -77,7 +77,13 @@ void apply_given(RenderSettings& settings, const SettingMap& given);
 RenderSettings join_settings(Scene& scene, SettingMap given, bool keeps_to_error);
 
 /// Prints a warning of the first frame that lies outside of the shot.
-void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range);
+/// @param option  begins the warning
+void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range, const char* option = "");
+
+/// The frames that --cuts names, which begin a new shot; none for empty text. Prints a warning as
+/// warn_of_frames_outside, unless `quiet`.
+/// @throws InputError (place "--cuts") as parse_frame_list
+std::vector<std::int64_t> read_cuts(const std::string& text, const FrameRange& range, bool quiet);
 
 /// A scene with its settings.
 struct PreparedScene {

@@ -11,6 +11,7 @@
 #include "render/output/frame_files.h"
 #include "render/python/arrays.h"
 #include "render/python/bindings.h"
+#include "render/settings/frame_list.h"
 #include "render/settings/motion_source.h"
 
 namespace aleph::python {
@@ -35,15 +36,37 @@ MotionField take_motion(const py::object& object, const std::string& what) {
     return motion;
 }
 
-std::vector<std::shared_ptr<Frame>> make_maps(const py::sequence& images, const py::object& fps,
-                                              const py::object& motion, const std::vector<std::int64_t>& cuts,
-                                              int threads, const py::object& on_progress, const py::kwargs& settings) {
+/// @throws InputError
+py::sequence take_list(const py::object& object, const char* what) {
+    if (!py::isinstance<py::sequence>(object))
+        throw InputError("", what, "expected a list with one item for each frame, as in aleph.maps(images, fps=24)");
+    return object;
+}
+
+/// Frames that begin a new shot.
+/// @throws InputError
+std::vector<std::int64_t> take_cuts(const py::object& object) {
+    try {
+        return object.cast<std::vector<std::int64_t>>();
+    } catch (const py::cast_error&) {
+        throw InputError("", "cuts", "expected a list of frame numbers, such as [24, 48]");
+    }
+}
+
+std::vector<std::shared_ptr<Frame>> make_maps(const py::object& image_list, const py::object& fps,
+                                              const py::object& motion, const py::object& cuts, int threads,
+                                              const py::object& on_progress, const py::kwargs& settings) {
+    const py::sequence images = take_list(image_list, "images");
     const auto shot_object = std::make_shared<Scene>();
     py::cast(shot_object).attr("fps") = fps;
     Scene& shot = *shot_object;
-    shot.film.cuts = cuts;
+    shot.film.cuts = take_cuts(cuts);
     if (images.size() == 0) throw InputError("", "images", "there are none");
-    if (!motion.is_none() && py::len(motion) != images.size())
+    for (const std::int64_t cut : shot.film.cuts) {
+        const FrameRange range{0, static_cast<std::int64_t>(images.size()) - 1};
+        if (const auto fault = describe_frame_outside(cut, range)) warn("cuts: " + *fault);
+    }
+    if (!motion.is_none() && take_list(motion, "motion").size() != images.size())
         throw InputError("", "motion", fmt::format("{} arrays for {} images", py::len(motion), images.size()));
     std::map<std::int64_t, PictureFrame> pictures;
     for (std::size_t i = 0; i < images.size(); ++i) {
@@ -107,13 +130,15 @@ py::dict compare(const py::object& a, const py::object& b, const py::object& thr
     return out;
 }
 
-py::dict find_seen(const py::sequence& a, const py::sequence& b, const py::sequence& maps,
-                   const std::vector<std::int64_t>& cuts) {
+py::dict find_seen(const py::object& pictures, const py::object& reference, const py::object& reference_maps,
+                   const py::object& cuts) {
+    const py::sequence a = take_list(pictures, "a"), b = take_list(reference, "b"),
+                       maps = take_list(reference_maps, "maps");
     if (a.size() != b.size() || a.size() != maps.size() || a.size() == 0)
         throw InputError(
             "", "seen",
             fmt::format("{}, {} and {} frames: expected three lists of one length", a.size(), b.size(), maps.size()));
-    SequenceComparison comparison({}, cuts);
+    SequenceComparison comparison({}, take_cuts(cuts));
     std::optional<std::int64_t> before;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const py::object map = maps[i];
@@ -141,8 +166,8 @@ py::dict find_seen(const py::sequence& a, const py::sequence& b, const py::seque
 }  // namespace
 
 void bind_pictures(py::module_& module) {
-    module.def("maps", &make_maps, py::arg("images"), py::kw_only(), py::arg("fps"), py::arg("motion") = py::none(),
-               py::arg("cuts") = std::vector<std::int64_t>(), py::arg("threads") = 0,
+    module.def("maps", &make_maps, py::arg("images") = py::none(), py::kw_only(), py::arg("fps") = py::none(),
+               py::arg("motion") = py::none(), py::arg("cuts") = py::list(), py::arg("threads") = 0,
                py::arg("on_progress") = py::none(), R"(Maps of pictures that other programs made.
 
 images: a sequence of arrays (h, w, 3), linear floats with exposure (white = 1) or sRGB bytes.
@@ -152,16 +177,18 @@ each image: pixels to the next one, x right, y down, NaN where there is no count
 cuts: indices of images that begin a new shot.
 settings: as of aleph.render, such as vision="castle".
 Returns a list of Frames without a picture.)");
-    module.def("compare", &compare, py::arg("a"), py::arg("b"), py::arg("threshold") = py::none(), py::kw_only(),
-               py::arg("display_white") = 100.0, py::arg("tolerance") = 0.0,
+    module.def("compare", &compare, py::arg("a") = py::none(), py::arg("b") = py::none(),
+               py::arg("threshold") = py::none(), py::kw_only(), py::arg("display_white") = 100.0,
+               py::arg("tolerance") = 0.0,
                R"(Differences of a picture from a reference.
 
 a, b: arrays (h, w, 3) of linear floats or sRGB bytes, or Frames.
 threshold: a Frame of the reference, or its thresholds (h, w) in cd/m2, for a display of `display_white` cd/m2.
 Returns a dict: same, max, rms, relative_mse, beyond (percent of the pixels that differ by more than `tolerance`), and
 with thresholds thresholds_max and thresholds_beyond (percent of the pixels with a visible difference in luminance).)");
-    module.def("seen", &find_seen, py::arg("a"), py::arg("b"), py::arg("maps"), py::kw_only(),
-               py::arg("cuts") = std::vector<std::int64_t>(), R"(What a viewer sees of the differences of two sequences.
+    module.def("seen", &find_seen, py::arg("a") = py::none(), py::arg("b") = py::none(), py::arg("maps") = py::none(),
+               py::kw_only(), py::arg("cuts") = py::list(),
+               R"(What a viewer sees of the differences of two sequences.
 
 a, b: lists of pictures of consecutive frames, as of compare; b is the reference.
 maps: the Frames of the reference with their maps.

@@ -4,7 +4,11 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
@@ -22,27 +26,75 @@ py::object from_json(const std::string& text) {
     return py::module_::import("json").attr("loads")(text);
 }
 
-std::string to_json(const py::object& object) {
-    const auto plain = [](const py::object& value) -> py::object {
+namespace {
+
+/// json.dumps, which takes numbers and arrays of numpy too.
+/// @return why the value cannot be JSON; nothing where `text` is set to it
+std::optional<std::string> dump_json(const py::handle& value, std::string& text) {
+    const auto plain = [](const py::object& part) -> py::object {
         const py::module_ numpy = py::module_::import("numpy");
-        if (py::isinstance(value, numpy.attr("ndarray")) || py::isinstance(value, numpy.attr("generic")))
-            return value.attr("tolist")();
-        throw py::type_error(fmt::format("{} is no value of a scene", std::string(py::repr(value))));
+        if (py::isinstance(part, numpy.attr("ndarray")) || py::isinstance(part, numpy.attr("generic")))
+            return part.attr("tolist")();
+        throw py::type_error(fmt::format("{} is no value of a scene", std::string(py::repr(part))));
     };
     const py::object dumps = py::module_::import("json").attr("dumps");
-    return dumps(object, py::arg("default") = py::cpp_function(plain)).cast<std::string>();
+    try {
+        text = dumps(value, py::arg("default") = py::cpp_function(plain), py::arg("allow_nan") = false)
+                   .cast<std::string>();
+        return std::nullopt;
+    } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
+        if (PyFloat_Check(value.ptr()) != 0)
+            return fmt::format("expected a finite number, found {}", value.cast<double>());
+        return std::string(py::str(error.value()));
+    }
+}
+
+}  // namespace
+
+std::string to_json(const py::object& object) {
+    std::string text;
+    std::optional<std::string> fault = dump_json(object, text);
+    if (!fault) return text;
+    constexpr int deepest = 64;  // a list may hold itself
+    nlohmann::json::json_pointer place;
+    py::object inner = object;
+    for (int depth = 0; !inner.is_none() && depth < deepest; ++depth) {
+        py::object value = std::exchange(inner, py::none());
+        if (py::hasattr(value, "tolist")) value = value.attr("tolist")();
+        if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
+            value = py::module_::import("builtins").attr("enumerate")(value);
+        else if (!py::isinstance<py::dict>(value))
+            break;
+        for (const auto& [key, part] : py::dict(value)) {
+            const std::optional<std::string> found = dump_json(part, text);
+            if (!found) continue;
+            fault = found;
+            place /= std::string(py::str(key));
+            inner = py::reinterpret_borrow<py::object>(part);
+            break;
+        }
+    }
+    throw InputError("", place.to_string(), *fault);
+}
+
+void warn(const std::string& text) {
+    if (PyErr_WarnFormat(PyExc_UserWarning, 1, "%s", text.c_str()) != 0) throw py::error_already_set();
 }
 
 std::shared_ptr<Scene> load(const py::object& source, const py::object& folder) {
-    if (py::isinstance<py::dict>(source)) {
-        const std::string text = to_json(source);
-        const std::filesystem::path place = to_path(folder);
+    if (source.is_none())
+        throw InputError("", "scene", "expected the path of a scene file, such as 'scene.json', or a dict as in one");
+    const bool is_dict = py::isinstance<py::dict>(source);
+    const std::string text = is_dict ? to_json(source) : "";
+    const std::filesystem::path path = to_path(is_dict ? folder : source);
+    std::shared_ptr<Scene> scene;
+    {
         const py::gil_scoped_release release;
-        return std::make_shared<Scene>(load_scene_text(text, place));
+        scene = std::make_shared<Scene>(is_dict ? load_scene_text(text, path) : load_scene(path));
     }
-    const std::filesystem::path path = to_path(source);
-    const py::gil_scoped_release release;
-    return std::make_shared<Scene>(load_scene(path));
+    for (const std::string& warning : scene->source.warnings) warn(warning);
+    return scene;
 }
 
 namespace {
@@ -155,9 +207,16 @@ degrees, linear Rec.709.)");
              "From the space of a node, by name, to the world at a frame: (4, 4) for column vectors.")
         .def("worlds", &world_matrices, py::arg("frame"), "The same of all nodes, (nodes, 4, 4).")
         .def(
-            "save", [](const Scene& s, const py::object& path) { return save_scene(s, to_path(path)); },
+            "save",
+            [](const Scene& s, const py::object& to) {
+                const std::filesystem::path path = to_path(to);
+                require_format(scene_formats(), FormatUse::save, path, path.string(), "");
+                try_output(path);
+                return save_scene(s, path);
+            },
             py::arg("path"),
-            "Writes a scene file (.json) or binary glTF (.glb). Returns what the file cannot hold, a list of "
+            "Writes a scene file (.json) or binary glTF (.glb). Makes missing folders. Returns what the file cannot "
+            "hold, a list of "
             "sentences.")
         .def(
             "to_dict", [](const Scene& s) { return from_json(write_scene_text(without_includes(s, ""), "")); },
@@ -165,12 +224,12 @@ degrees, linear Rec.709.)");
         .def(
             "copy", [](const Scene& s) { return std::make_shared<Scene>(s); }, "A scene of its own.");
     bind_film(scene);
-    module.def("load", &load, py::arg("source"), py::arg("folder") = ".",
+    module.def("load", &load, py::arg("source") = py::none(), py::arg("folder") = ".",
                R"(Loads a scene.
 
 source: path of a .json, .gltf, .glb or .abc file, or a dict as in a scene file.
 folder: of a dict's textures and includes.
-Raises InputError with file and place.)");
+What is read and has no effect gives a UserWarning (Scene.warnings has all of them). Raises InputError with file and place.)");
 }
 
 }  // namespace aleph::python

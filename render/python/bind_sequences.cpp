@@ -103,8 +103,7 @@ class PythonSequence {
     /// As the command line does. A simulation that edits the scene step by step chooses its own numbers.
     void warn_of_frame_outside(std::int64_t number) const {
         if (edited_) return;
-        const std::optional<std::string> fault = describe_frame_outside(number, sequence_->range());
-        if (fault && PyErr_WarnEx(PyExc_UserWarning, fault->c_str(), 1) != 0) throw py::error_already_set();
+        if (const auto fault = describe_frame_outside(number, sequence_->range())) warn(*fault);
     }
 
     std::recursive_mutex mutex_;
@@ -134,7 +133,7 @@ settings: as of aleph.render.)")
         .def(py::init([](const py::object& scene, const std::string& camera, int threads, const py::kwargs& settings) {
                  return std::make_unique<PythonSequence>(scene, camera, threads, settings);
              }),
-             py::arg("scene"), py::kw_only(), py::arg("camera") = "", py::arg("threads") = 0)
+             py::arg("scene") = py::none(), py::kw_only(), py::arg("camera") = "", py::arg("threads") = 0)
         .def("render", &PythonSequence::render, py::arg("frame"), py::kw_only(), py::arg("maps") = true,
              py::arg("picture") = true, py::arg("on_progress") = py::none(),
              "Renders a frame; does not depend on the frames before. picture=False: its maps alone. "
@@ -143,7 +142,7 @@ settings: as of aleph.render.)")
              "Calls change(scene) between frames; the next frame's motion leads from the frame rendered last.")
         .def_property_readonly("frames", &PythonSequence::frames, "First and last frame.")
         .def_property_readonly("exposure", &PythonSequence::exposure, "Factor on radiance.");
-    module.def("render", &render, py::arg("scene"), py::arg("frame") = py::none(), py::kw_only(),
+    module.def("render", &render, py::arg("scene") = py::none(), py::arg("frame") = py::none(), py::kw_only(),
                py::arg("maps") = true, py::arg("camera") = "", py::arg("threads") = 0,
                py::arg("on_progress") = py::none(), R"(Renders a frame.
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/python/bindings.h"
 #include "render/study/prepared_study.h"
@@ -18,7 +19,10 @@ namespace {
 
 Study take_study(const py::object& source) {
     if (py::isinstance<py::dict>(source)) return parse_study(to_json(source), "");
-    return load_study(to_path(source));
+    const std::filesystem::path path = to_path(source);
+    if (is_study(path)) return load_study(path);
+    throw InputError(path.string(), "",
+                     "a scene needs what is compared, such as sweep={'error': [0.5, 1, 2]}; a study file has it");
 }
 
 /// A study's table as text, and what the page needs as JSON.

@@ -37,8 +37,12 @@ std::filesystem::path to_path(const py::object& path);
 /// json.loads of the text.
 py::object from_json(const std::string& text);
 
-/// json.dumps of the object.
+/// json.dumps of the object, which may hold numbers and arrays of numpy.
+/// @throws InputError with the JSON pointer of a part that cannot be JSON
 std::string to_json(const py::object& object);
+
+/// Python's warnings.warn. @throws where a filter makes the warning an error
+void warn(const std::string& text);
 
 /// aleph.load
 /// @param folder  of the files that a dict names

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/scene/place.h"
 #include "render/output/frame_files.h"
@@ -95,12 +96,15 @@ void add_perception(py::class_<Frame, std::shared_ptr<Frame>>& frame) {
 
 void save(const Frame& frame, const py::object& to) {
     const std::filesystem::path path = to_path(to);
-    const std::string ending = path.extension().string();
-    if (ending == ".exr") return write_exr(path, frame_channels(frame));
+    const bool is_exr = path.extension() == ".exr";
+    if (!is_exr && path.extension() != ".png")
+        throw InputError(path.string(), "save", "the name has to end in .exr or .png");
     const Image<Rgb>& color = frame.output.shaded.color;
-    if (color.empty()) throw InputError(path.string(), "save", "the frame has maps only, and no picture: write .exr");
-    if (ending == ".png") return write_png(path, color);
-    throw InputError(path.string(), "save", "the name has to end in .exr or .png");
+    if (!is_exr && color.empty())
+        throw InputError(path.string(), "save", "the frame has maps only, and no picture: write .exr");
+    try_output(path);
+    if (is_exr) return write_exr(path, frame_channels(frame));
+    write_png(path, color);
 }
 
 }  // namespace
@@ -126,7 +130,7 @@ void bind_frames(py::module_& module) {
             "The effects plan: for each effect its decision, reason and bound.")
         .def("save", &save, py::arg("path"),
              "Writes the picture as .png (sRGB), or the picture and all maps as .exr (`aleph maps --help` has the "
-             "channels).")
+             "channels). Makes missing folders.")
         .def("__repr__",
              [](const Frame& f) { return "<aleph.Frame " + std::to_string(f.output.statistics.frame) + ">"; });
 }

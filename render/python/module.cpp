@@ -19,7 +19,10 @@ void bind_errors(py::module_& module) {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             std::rethrow_exception(thrown);
-        } catch (const InputError& error) {
+        } catch (const InputError& thrown_error) {
+            // The scene of a dict has a folder in place of a file.
+            const bool in_dict = thrown_error.file().ends_with('/') && !thrown_error.place().empty();
+            const InputError error(in_dict ? "" : thrown_error.file(), thrown_error.place(), thrown_error.reason());
             const py::object raised = static_cast<const py::object&>(input_error)(error.what());
             raised.attr("file") = error.file();
             raised.attr("place") = error.place();

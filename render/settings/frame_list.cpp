@@ -84,16 +84,6 @@ std::vector<int> parse_frame_list(std::string_view text) {
     return frames;
 }
 
-std::vector<std::int64_t> parse_cuts(std::string_view text) {
-    if (text.empty()) return {};
-    try {
-        const std::vector<int> frames = parse_frame_list(text);
-        return {frames.begin(), frames.end()};
-    } catch (const InputError& e) {
-        throw InputError("", "--cuts", e.reason());
-    }
-}
-
 std::string format_frame_list(const std::vector<int>& frames) {
     const auto distance = [&](std::size_t i) { return std::int64_t{frames[i + 1]} - frames[i]; };
     std::string text;

@@ -16,10 +16,6 @@ namespace aleph {
 /// @throws InputError (place "--frames") on anything else, on more than 10 million frames, on frames beyond 32 bits
 std::vector<int> parse_frame_list(std::string_view text);
 
-/// Frames that begin a new shot; none for empty text.
-/// @throws InputError (place "--cuts") as parse_frame_list
-std::vector<std::int64_t> parse_cuts(std::string_view text);
-
 /// "1-10,12" for these frames, in their order.
 std::string format_frame_list(const std::vector<int>& frames);
 

@@ -22,7 +22,7 @@ tiny with.png
 library=$(find "$work/moved" -path "*/aleph/libaleph_images.so" -not -path "*python*")
 mv "$library" "$work/away.so"
 ! tiny without.png 2>"$work/missing.log" || { echo "a PNG file without its library"; exit 1; }
-grep -q "PNG, JPEG and HDR files need libaleph_images.so" "$work/missing.log"
+grep -q "PNG, JPEG and HDR files need libaleph_images.so: it is not in .*: copy it to one of them" "$work/missing.log"
 [ ! -e "$work/without.png" ]
 tiny without.exr
 mv "$work/away.so" "$library"

@@ -96,6 +96,13 @@ def test_maps_take_motion():
     assert np.allclose(first.velocity[8, 20], 5 / 31 * 30, rtol=1e-5)
 
 
+def test_cuts_outside_of_the_pictures_give_a_warning():
+    images = [np.zeros((8, 8, 3), np.float32)] * 2
+    for cut in -5, 2:
+        with pytest.warns(UserWarning, match=f"cuts: frame {cut} lies outside"):
+            assert len(aleph.maps(images, fps=24, cuts=[1, cut])) == 2
+
+
 def test_maps_of_pictures_refuse_what_needs_a_scene():
     images = [np.zeros((8, 8, 3), np.float32)] * 2
     for settings in {"size": (8, 8)}, {"spp": 4}:

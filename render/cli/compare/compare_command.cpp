@@ -104,8 +104,8 @@ constexpr const char* compare_footer =
 void add_compare_command(CLI::App& app, Command& command) {
     CLI::App* compare_app = app.add_subcommand("compare", "compare two pictures, or two sequences of frames");
     const auto options = std::make_shared<CompareOptions>();
-    compare_app->add_option("first", options->first, "a picture (EXR, PNG, JPEG, HDR), or a sequence")->required();
-    compare_app->add_option("second", options->second, "the reference")->required();
+    compare_app->add_option("picture", options->first, "a picture (EXR, PNG, JPEG, HDR), or a sequence")->required();
+    compare_app->add_option("reference", options->second, "what it is compared with, of the same kind")->required();
     add_text(*compare_app, "--threshold", "MAPS.exr", options->threshold,
              "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where their "
              "luminance differs by more than its threshold.Y; replaces --tolerance and --relative");

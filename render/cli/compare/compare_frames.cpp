@@ -9,10 +9,10 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
+#include "render/cli/scene_options.h"
 #include "render/cli/support/command.h"
 #include "render/cli/support/output_path.h"
 #include "render/cli/support/progress.h"
-#include "render/settings/frame_list.h"
 #include "render/settings/frame_pattern.h"
 
 namespace aleph {
@@ -235,12 +235,14 @@ bool names_sequence(const std::string& argument) {
 
 int compare_frames(const CompareOptions& options) {
     const bool is_sequence = names_sequence(options.first);
-    ComparedFiles files{find_frames(options.first, "first"), find_frames(options.second, "second"), {}, {}};
+    ComparedFiles files{find_frames(options.first, "picture"), find_frames(options.second, "reference"), {}, {}};
     files.thresholds = find_maps(options, options.threshold, "--threshold", files.first);
     files.seen = find_maps(options, options.seen, "--seen", files.first);
     check_partners(options, files.first, files.second, files.thresholds, files.seen);
     check_outputs(options, {&files.first, &files.second, &files.thresholds, &files.seen});
-    SequenceComparison sequence(options.settings, parse_cuts(options.cuts), [&](const VisibleMaps& visible) {
+    const FrameRange range{files.first.begin()->first, files.first.rbegin()->first};
+    const std::vector<std::int64_t> cuts = read_cuts(options.cuts, range, options.quiet);
+    SequenceComparison sequence(options.settings, cuts, [&](const VisibleMaps& visible) {
         if (!options.seen_out.empty())
             write_seen(output_file(options, options.seen_out, "--seen-out", visible.frame), visible);
     });

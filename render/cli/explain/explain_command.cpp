@@ -104,6 +104,7 @@ int explain(const ExplainOptions& options) {
     const RenderSettings settings = join_settings(scene, options.settings, true);
     std::vector<int> frames = options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);
     std::ranges::sort(frames);
+    warn_of_frames_outside(frames, frame_range(scene));
     if (options.fingerprint) {
         std::cout << format_fingerprint(make_fingerprint(scene, settings, list_camera_shots(scene, options.camera)))
                   << "\n";

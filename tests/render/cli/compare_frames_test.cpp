@@ -122,6 +122,20 @@ TEST(CompareFrames, VisibleDifferencesAsJsonTextAndPictures) {
     EXPECT_TRUE(fs::exists(s.folder / "seen.png"));
 }
 
+TEST(CompareFrames, CutsThatAreNoFramesGiveAWarning) {
+    const Sequences s({3, 4, 6}, {0.0f, 0.0f, 0.0f});
+    const auto warning_of = [&](const std::vector<std::string>& options) {
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(run_command({"compare", s.a, s.b, "--cuts"}, options).code, 0);
+        return testing::internal::GetCapturedStderr();
+    };
+    const std::string range = " lies outside the shot, which has the frames 3 to 6\n";
+    EXPECT_EQ(warning_of({"-5,4"}), "aleph: warning: --cuts: frame -5" + range);
+    EXPECT_EQ(warning_of({"4,7"}), "aleph: warning: --cuts: frame 7" + range);
+    EXPECT_EQ(warning_of({"4,7", "-q"}), "");
+    EXPECT_EQ(warning_of({"3-6"}), "");
+}
+
 TEST(CompareFrames, WrongKindsAreRefused) {
     const Sequences s({1, 2}, {0.0f, 0.0f});
     const std::string picture = s.a + "/new.0001.exr", maps = s.maps + "/m.0001.exr";

@@ -84,7 +84,9 @@ TEST(MapsImages, TheSourceOfMotionIsOpticalFlowUnlessAnotherIsNamed) {
 
 TEST(MapsImages, MotionToTheFrameBeforeIsThatOfThisFrameAndNothingMovesAcrossACut) {
     const Frames frames(1, 4);
-    ASSERT_EQ(frames.run({"--cuts", "3"}).code, 0);
+    testing::internal::CaptureStderr();
+    ASSERT_EQ(run_command({"maps", "--images", frames.pattern(), "-o", frames.out(), "--cuts", "3,99"}).code, 0);
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("--cuts: frame 99 lies outside the shot"));
     for (const int frame : {1, 2, 4}) {
         EXPECT_NEAR(median_of(*frames.maps(frame).find("backward.u")), -4.0, 0.1) << frame;
         EXPECT_NEAR(median_of(*frames.maps(frame).find("backward.v")), 8.0, 0.1) << frame;

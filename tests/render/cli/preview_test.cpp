@@ -65,6 +65,13 @@ TEST_F(Preview, TheSheetAloneNeedsNoFfmpeg) {
     EXPECT_TRUE(names[0].ends_with(".preview.png")) << names[0];
 }
 
+TEST_F(Preview, HasTheSizeThatIsAskedFor) {
+    ASSERT_EQ(run("p.mp4", {"--frames", "7,8", "--size", "300x200"}).code, 0);
+    EXPECT_EQ(probe_film(folder_ / "out/p.mp4", "width,height"), "300,200");
+    EXPECT_EQ(read_image(folder_ / "out/p.png").find("R")->width, 2 * 300);
+    expect_answer(run("p.png", {"--size", "wide"}), 2, "--size: ");
+}
+
 TEST_F(Preview, AStopLeavesNothingAndOffersNothing) {
     const fs::path frames = folder_ / "out/.p.mp4.frames";
     fs::create_directory(frames);
