@@ -72,9 +72,11 @@ void read_triangles(GltfReader& reader, const GltfMeshUse& use, int mode, const 
 
 /// Morph targets of a primitive, without weights.
 void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& place, Mesh& mesh) {
-    bool dropped_normals = false;
+    bool dropped_normals = false, dropped_others = false;
     for (const std::map<std::string, int>& source : primitive.targets) {
         MorphTarget target;
+        for (const auto& [name, accessor] : source)
+            if (name.starts_with("COLOR_") || name.starts_with("TEXCOORD_")) dropped_others = true;
         if (const auto found = source.find("POSITION"); found != source.end()) {
             target.positions = to_vectors<glm::vec3>(reader, found->second);
         }
@@ -89,6 +91,7 @@ void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, cons
     }
     mesh.deformation.target_weights.assign(mesh.deformation.targets.size(), Track<double>(0.0));
     if (dropped_normals) reader.warn(place, "the mesh is shaded flat, so its morph targets' normals are not used");
+    if (dropped_others) reader.warn(place, "morph targets of colours and texture coordinates are not used");
 }
 
 Mesh read_primitive(GltfReader& reader, const GltfMeshUse& use, const tinygltf::Primitive& primitive,

@@ -74,8 +74,9 @@ FrameRange frame_range(const Scene& scene) {
     }
     if (!(earliest <= latest)) return {};
 
-    // A key within rounding of a frame is on it: single-precision times are off by up to 6e-8 of themselves.
-    const auto slack = [](double frame) { return 1e-6 + 1.2e-7 * std::abs(frame); };
+    // A key within rounding of a frame is on it. Single-precision times are off by up to 6e-8 of themselves, and by
+    // more where an exporter adds them up: by 8e-5 of a frame after 126 frames.
+    const auto slack = [](double frame) { return 1e-3 + 1.2e-7 * std::abs(frame); };
     const double per_second = scene.film.frame_rate.per_second();
     constexpr auto limit = static_cast<double>(farthest_frame);
     const double begin = std::clamp(earliest * per_second, -limit, limit);

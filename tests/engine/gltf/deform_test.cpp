@@ -100,6 +100,16 @@ TEST_F(GltfDeform, FlatMeshTakesNoTargetNormals) {
     EXPECT_TRUE(has_warning(scene, "morph targets' normals are not used"));
 }
 
+TEST_F(GltfDeform, TargetsOfColoursAndTextureCoordinatesWarn) {
+    const char* const warning = "morph targets of colours and texture coordinates are not used";
+    EXPECT_FALSE(has_warning(load(morph_draft()), warning));
+    for (const char* const name : {"COLOR_0", "TEXCOORD_0"}) {
+        GltfDraft draft = morph_draft();
+        draft.primitive()["targets"][1][name] = draft.add_accessor(std::vector<float>(9, 0.0f), "VEC3", 3);
+        EXPECT_TRUE(has_warning(load(draft), warning)) << name;
+    }
+}
+
 TEST_F(GltfDeform, S12_11_BindsAreOptional) {
     GltfDraft draft = skin_draft();
     draft.json["skins"][0].erase("inverseBindMatrices");

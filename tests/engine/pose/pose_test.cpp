@@ -220,6 +220,11 @@ TEST(FrameRange, TakesTheNoiseOfSinglePrecisionTimes) {
         scene.nodes[0].visible = Track<double>({begin, end}, {1.0, 0.0});
         ASSERT_EQ(frame_range(scene), (FrameRange{first, first + 50}));
     }
+    float sum = 0.0f;  // times that are added up
+    for (int frame = 0; frame < 126; ++frame) sum += 1.0f / 30.0f;
+    ASSERT_LT(sum * 30.0, 126.0 - 5e-5);
+    scene.nodes[0].visible = Track<double>({0.0, double{sum}}, {1.0, 0.0});
+    EXPECT_EQ(frame_range(scene), (FrameRange{0, 126}));
     scene.nodes[0].visible = Track<double>({0.01, 0.02}, {1.0, 0.0});  // between two frames
     EXPECT_EQ(frame_range(scene), (FrameRange{1, 1}));
     scene.nodes[0].visible = Track<double>({-1e300, 1e300}, {1.0, 0.0});
