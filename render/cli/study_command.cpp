@@ -96,7 +96,7 @@ Study make_study(const StudyCommandOptions& options) {
         study.scenes.push_back({options.file, ""});
         study.title = fmt::format("{}: what accuracy costs in time", printable(name_scene(options.file)));
         study.settings["size"] = std::string("320x240");
-        study.viewers.push_back(default_viewer());
+        study.viewers.emplace_back();
         if (options.search) study.settings["bounces"] = 8.0;  // about all of the light, as the reference has it
     }
     for (const std::string& text : options.sweeps) {

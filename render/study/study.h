@@ -37,9 +37,9 @@ struct StudyVariant {
     bool forbids_more = false;                                 ///< beside what a scene forbids, not in its place
 };
 
-/// For whom errors are visible: a model of vision with its viewing conditions.
+/// For whom errors are visible: a model of vision with its viewing conditions. As it stands: as settings have it.
 struct StudyViewer {
-    std::string name;
+    std::string name = "own";
     SettingMap settings;  ///< vision, bands, grid, viewing.persistence, ...
 };
 
@@ -108,8 +108,5 @@ Study load_study(const std::filesystem::path& file);
 /// @param file  for messages and for relative paths
 /// @throws InputError
 Study parse_study(std::string_view text, const std::filesystem::path& file);
-
-/// The thesis's model of vision at its own viewing conditions, as settings have it.
-StudyViewer default_viewer();
 
 }  // namespace aleph

@@ -110,10 +110,6 @@ void read_lists(const JsonRef& root, const std::filesystem::path& folder, Study&
 
 }  // namespace
 
-StudyViewer default_viewer() {
-    return {"own", {}};
-}
-
 bool is_study(const std::filesystem::path& file) {
     if (file.extension() != ".json") return false;
     const nlohmann::json root = parse_json_text(read_text(file), file.string()).root;
@@ -142,7 +138,7 @@ Study parse_study(std::string_view text, const std::filesystem::path& path) {
     study.effects = json.root.value("effects", false);
     study.search = read_search(root);
     study.metrics = json.root.value("metrics", study.metrics);
-    if (study.viewers.empty()) study.viewers.push_back(default_viewer());
+    if (study.viewers.empty()) study.viewers.emplace_back();
     study.runs.repeats = json.root.value("repeats", study.runs.repeats);
     study.runs.seeds = json.root.value("seeds", study.runs.seeds);
     return study;
