@@ -20,11 +20,6 @@ constexpr int luminance_nodes = 15, velocity_nodes = 25, frequency_nodes = 28, t
 constexpr double lowest_velocity = 0.1, highest_velocity = 100.0;  // deg/s
 constexpr double lowest_frequency = 0.002;                         // cycles per pixel
 
-double node_luminance(int i) {
-    return castle_min_luminance *
-           std::pow(castle_max_luminance / castle_min_luminance, i / static_cast<double>(luminance_nodes - 1));
-}
-
 /// 0, then evenly spaced in its logarithm.
 double node_velocity(int i) {
     if (i == 0) return 0.0;
@@ -174,7 +169,7 @@ NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRa
         for (std::size_t b = 0; b < noise_bands; ++b) held[f].bands[b] = at(pattern_rho[b]);
     }
     parallel_each(luminance_nodes, 1, [&](std::size_t l) {
-        const double luminance = node_luminance(static_cast<int>(l));
+        const double luminance = LuminanceGrid::luminance(static_cast<int>(l), luminance_nodes - 1);
         std::vector<Sensitivities> of_noise, of_bands;
         for (const double frequency : rho) of_noise.emplace_back(frequency, luminance);
         for (const double frequency : pattern_rho) of_bands.emplace_back(frequency, luminance);

@@ -19,10 +19,10 @@ struct LuminanceGrid {
         float fraction = 0.0f;  ///< from there to the next node, [0,1]
     };
 
-    /// cd/m2
-    static double luminance(int node) {
+    /// cd/m2. @param parts  into which the scale is divided
+    static double luminance(int node, int parts = intervals) {
         return castle_min_luminance *
-               std::pow(castle_max_luminance / castle_min_luminance, static_cast<double>(node) / intervals);
+               std::pow(castle_max_luminance / castle_min_luminance, static_cast<double>(node) / parts);
     }
     /// @param luminance  cd/m2; NaN counts as the lowest
     static float clamp(float luminance) {

@@ -6,6 +6,7 @@
 
 #include "perception/vision/castle.h"
 #include "perception/vision/display_hold.h"
+#include "perception/vision/luminance_curve.h"
 #include "perception/vision/retinal_velocity.h"
 #include "render/compare/visible_difference.h"
 
@@ -17,22 +18,13 @@ constexpr int luminance_nodes = 29;  // 4 a decade
 constexpr int velocity_nodes = 33;   // 0, then geometric
 constexpr double lowest_velocity = 0.1, highest_velocity = 400.0;
 
-double node_luminance(int i) {
-    return castle_min_luminance *
-           std::pow(castle_max_luminance / castle_min_luminance, i / static_cast<double>(luminance_nodes - 1));
-}
-
 double node_velocity(int i) {
     if (i == 0) return 0.0;
     return lowest_velocity *
            std::pow(highest_velocity / lowest_velocity, (i - 1) / static_cast<double>(velocity_nodes - 2));
 }
 
-/// A place between two nodes.
-struct Place {
-    int node = 0;
-    float fraction = 0.0f;
-};
+using Place = LuminanceGrid::Place;
 
 Place place_of(double at, int nodes) {
     const double clamped = std::clamp(at, 0.0, nodes - 1.0);
@@ -101,7 +93,7 @@ VisibleFilter::VisibleFilter(int channel, double frequency, const ViewingConditi
             const double followed = std::min(tracking * node_velocity(v), pursuit_limit);
             const TemporalResponse of{channel,
                                       frequency,
-                                      node_luminance(l),
+                                      LuminanceGrid::luminance(l, luminance_nodes - 1),
                                       node_velocity(v) - followed,
                                       hold_transfer(frequency, followed, persistence, frame_rate),
                                       persistence,
