@@ -170,7 +170,8 @@ KeyframeRecords find_lasting(const KeyframeLight& light, const ShutterPlaces& pl
     const std::vector<ShutterMover> movers = find_movers(from, to.shading);
     const LightChanges changes =
         find_light_changes(places.surfaces, places.picture(), places.probed_at(*light.at), places.probed_at(to));
-    const float dimmed = std::max(find_dimming(from, from, 0.0f, to.shading), changes.largest());
+    const float dimmed =
+        std::max(find_dimming(from, from, 0.0f, to.shading) + find_shadow_change(from, movers), changes.largest());
     KeyframeRecords lasting;
     for (const IrradianceRecord& record : light.cache.records()) {
         const glm::vec3 at_rest(0.0f);

@@ -263,7 +263,10 @@ ShutterLight::ShutterLight(const ShadingScene& frame, const ShadingScene& sample
 ShutterLight::ShutterLight(const ShadingScene& before, const ShadingScene& after, float weight,
                            const ShadingScene& sample, const CarriedLight* between)
     : carried_(between), dimmed_(find_dimming(before, after, weight, sample)) {
-    const auto add = [&](const ShadingScene& at, float share) { keys_.push_back(make_key(at, share, sample)); };
+    const auto add = [&](const ShadingScene& at, float share) {
+        keys_.push_back(make_key(at, share, sample));
+        dimmed_ += share * find_shadow_change(at, keys_.back().movers);
+    };
     add(before, 1.0f - weight);
     if (!(weight > 0.0f)) return;
     add(after, weight);

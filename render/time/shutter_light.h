@@ -9,7 +9,8 @@
 // - What moves. A sphere of radius r at distance d hides at most F = min(1, r^2 / d^2) of the light that arrives. If it
 //   moves by s, F changes by no more than min(F, 3 F s / d). The sum over all things that move is at most alpha.
 // - What fades. Of the light from things whose material changes by a share, so much may change.
-// - Light that things let in or shut out far away is measured by a few paths (shutter_probes.h).
+// - Lights that things hide at one time and not at another (shutter_shadows.h).
+// - Other light that things let in or shut out far away: a few paths measure it (shutter_probes.h).
 // - Lights that move. What one brings from a distance d changes by about 3 (s / d + a) of it, a the angle by
 //   which it turns or its cone widens. All of the light may be that of the one that changes most.
 // - Lights that brighten or dim, by a share of the brighter one. More than a quarter ends all such light (LightBreaks).
@@ -128,7 +129,7 @@ class ShutterLight {
     std::vector<Key> keys_;  ///< one or two
     const CarriedLight* carried_;
     const IrradianceCache* cache_ = nullptr;
-    float dimmed_;                           ///< share of all light that lights which dim may change
+    float dimmed_;                           ///< share of all light that lights which dim or are hidden may change
     const LightChanges* changes_ = nullptr;  ///< null: none are measured
     float changes_share_ = 0.0f;
     bool at_center_ = false;

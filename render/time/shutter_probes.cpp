@@ -23,7 +23,7 @@ float probe_place(const LightingContext& lighting, RayTask& task, const SurfaceP
         RandomStream random({probe_key, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)});
         const glm::vec3 direction = basis.to_world(sample_cosine_hemisphere(random.next_2d()));
         if (!(glm::dot(direction, point.geometric) > 0.0f)) continue;
-        ++task.counts.path;
+        ++task.counts.shadow;
         sum += follow_ray(lighting, task, {point.ray_origin(), direction}, start_indirect(path_limits, lighting.around),
                           random);
     }
@@ -34,10 +34,12 @@ float probe_place(const LightingContext& lighting, RayTask& task, const SurfaceP
 
 ProbedLight probe_light(const LightingContext& lighting, const std::vector<PixelSurface>& places, RayCounts& counts) {
     ProbedLight light(places.size(), -1.0f);
-    cast_parallel(places.size(), 16, lighting.rays, counts, [&](int i, RayTask& task) {
+    RayCounts own;
+    cast_parallel(places.size(), 16, lighting.rays, own, [&](int i, RayTask& task) {
         const std::optional<SurfacePoint> point = carry_point(lighting.shading, places[i].hit, places[i].point);
         if (point) light[i] = probe_place(lighting, task, *point, i);
     });
+    counts.shadow += own.total();
     return light;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // How much indirect light changes while the shutter is open, by few paths from some places of the picture. They find
-// what changes light far away: a lid on a lamp, a slide before a spot, a door to a bright room, a blind.
+// what changes light far away: a blind, a door to a bright room.
 
 #include <algorithm>
 #include <array>
@@ -18,6 +18,7 @@ using ProbedLight = std::vector<float>;
 /// A few paths of up to three bounces from each place. They have the same random numbers at all times, so that light
 /// that does not change makes no difference.
 /// @param lighting  at any time; the places may be of another one
+/// @param counts    increased, rays as RayCounts::shadow
 ProbedLight probe_light(const LightingContext& lighting, const std::vector<PixelSurface>& places, RayCounts& counts);
 
 /// Share of the light that differs between two times, in parts of the picture.
@@ -32,7 +33,7 @@ struct LightChanges {
     float largest() const { return *std::ranges::max_element(shares); }
 };
 
-/// Of the larger one of both; none if one is empty.
+/// Of the larger one of both, as far as it is more than two standard errors of the paths; none if one is empty.
 LightChanges find_light_changes(const std::vector<PixelSurface>& places, glm::ivec2 picture, const ProbedLight& known,
                                 const ProbedLight& sample);
 
