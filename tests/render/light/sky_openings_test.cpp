@@ -4,35 +4,11 @@
 
 #include "render/frame/sequence.h"
 #include "render/light/find_sky_openings.h"
-#include "tests/support/scenes/render_scenes.h"
+#include "tests/support/scenes/window_room.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-constexpr double wall = 0.1;  // m, thick
-
-/// A room of 4 x 3 x 4 m with a window in the middle of its right wall, under a sky of 1 cd/m2.
-/// @param half  m, half the window's width and height
-Scene make_room_with_window(const glm::dvec2& half = glm::dvec2(0.5)) {
-    Scene scene;
-    const int grey = add_lambert(scene, glm::dvec3(0.5));
-    const auto add = [&](const glm::dvec3& low, const glm::dvec3& high) {
-        add_mesh(scene, make_box(high - low, grey), 0.5 * (low + high));
-    };
-    add({-2.0, -wall, -2.0}, {2.0, 0.0, 2.0});
-    add({-2.0, 3.0, -2.0}, {2.0, 3.0 + wall, 2.0});
-    add({-2.0 - wall, -wall, -2.0}, {-2.0, 3.0 + wall, 2.0});
-    add({-2.0 - wall, -wall, -2.0 - wall}, {2.0 + wall, 3.0 + wall, -2.0});
-    add({-2.0 - wall, -wall, 2.0}, {2.0 + wall, 3.0 + wall, 2.0 + wall});
-    add({2.0, -wall, -2.0}, {2.0 + wall, 1.5 - half.y, 2.0});
-    add({2.0, 1.5 + half.y, -2.0}, {2.0 + wall, 3.0 + wall, 2.0});
-    add({2.0, 1.5 - half.y, -2.0}, {2.0 + wall, 1.5 + half.y, -half.x});
-    add({2.0, 1.5 - half.y, half.x}, {2.0 + wall, 1.5 + half.y, 2.0});
-    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
-    add_camera(scene, {-1.5, 1.8, 1.5}, {-0.6, 1.0, -1.5}, 1.0);
-    return scene;
-}
 
 std::optional<SkyOpenings> find_openings(const Stage& stage) {
     RayCounts counts;
@@ -74,6 +50,43 @@ TEST(SkyOpenings, ANarrowOneIsFoundWhole) {
         const float cell = 3.0f / 32.0f;
         EXPECT_LT(slit.low.x + anchor.y, 0.6f + cell) << half;
         EXPECT_GT(slit.high.x + anchor.y, 2.4f - cell) << half;
+    }
+}
+
+TEST(SkyOpenings, ThoseOfTwoTimesBecomeOne) {
+    const Stage left(make_room_with_blind(place_blind(0.6))), right(make_room_with_blind(place_blind(-0.6)));
+    std::optional<SkyOpenings> both = find_openings(left);
+    const std::optional<SkyOpenings> other = find_openings(right);
+    ASSERT_TRUE(both.has_value() && other.has_value());
+    const glm::vec3 anchor(left.shading.anchor);
+    EXPECT_LT(both->openings.front().high.y + anchor.z, 0.3f);
+    EXPECT_GT(other->openings.front().low.y + anchor.z, -0.3f);
+    add_openings(*other, both);
+    ASSERT_EQ(both->openings.size(), 1u);
+    const float cell = 4.0f / 32.0f + 0.02f;
+    EXPECT_NEAR(both->openings.front().low.y + anchor.z, -0.5f, 2.0f * cell);
+    EXPECT_NEAR(both->openings.front().high.y + anchor.z, 0.5f, 2.0f * cell);
+
+    std::optional<SkyOpenings> none;
+    add_openings(*other, none);
+    ASSERT_TRUE(none.has_value());
+    EXPECT_EQ(none->openings.front().low, other->openings.front().low);
+}
+
+TEST(SkyOpenings, MoveAsOne) {
+    const Stage stage(make_room_with_window());
+    const SkyOpenings found = find_openings(stage).value();
+    SkyOpenings moved = found;
+    const glm::vec3 shift(16.0f, -32.0f, 48.0f);
+    move_openings(shift, moved);
+    const Receiver receiver = make_receivers(stage).front(), there{receiver.position + shift, receiver.normal};
+    const SeenOpenings seen = see_openings(found, receiver), seen_there = see_openings(moved, there);
+    for (const glm::vec2 u : {glm::vec2(0.1f, 0.3f), glm::vec2(0.8f, 0.6f)}) {
+        const glm::vec3 direction = sample_openings(found, seen, receiver.position, u),
+                        same = sample_openings(moved, seen_there, there.position, u);
+        EXPECT_NEAR(glm::distance(direction, same), 0.0f, 1e-4f);
+        EXPECT_NEAR(pdf_openings(moved, seen_there, there.position, direction),
+                    pdf_openings(found, seen, receiver.position, direction), 1e-2f);
     }
 }
 
