@@ -84,22 +84,13 @@ bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& pass
     return true;
 }
 
-int pass_sheets(const LightingContext& context, RayTask& task, Hit& hit, Ray& ray, Rgb& passed, std::uint64_t& count) {
-    int sheets = 0;
-    if (!context.shading.has_thin_glass) return sheets;
-    for (; sheets < max_sheets && hit.instance != no_index; ++sheets) {
-        if (!pass_sheet(context.shading, hit, ray, passed)) return sheets;
-        ++count;
-        hit = task.tracer.intersect(ray);
-    }
-    return sheets;
-}
-
 Hit find_beyond_sheets(const LightingContext& context, RayTask& task, Ray& ray, Rgb& passed, std::uint64_t& count) {
-    ++count;
-    Hit hit = task.tracer.intersect(ray);
-    pass_sheets(context, task, hit, ray, passed, count);
-    return hit;
+    for (int sheet = 0;; ++sheet) {
+        ++count;
+        const Hit hit = task.tracer.intersect(ray);
+        if (hit.instance == no_index || !context.shading.has_thin_glass || sheet == max_sheets) return hit;
+        if (!pass_sheet(context.shading, hit, ray, passed)) return hit;
+    }
 }
 
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {

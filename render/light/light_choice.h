@@ -66,12 +66,6 @@ inline constexpr int max_sheets = 64;
 /// pass. @return false: the surface is no such sheet
 bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& passed);
 
-/// Takes a ray beyond the smooth sheets of glass that it meets.
-/// @param hit  of the ray, then of what is beyond
-/// @param ray, passed, count  as below
-/// @return number of sheets
-int pass_sheets(const LightingContext& context, RayTask& task, Hit& hit, Ray& ray, Rgb& passed, std::uint64_t& count);
-
 /// What a ray hits beyond smooth sheets of glass.
 /// @param ray     moved beyond them
 /// @param passed  multiplied by what they let pass

@@ -18,14 +18,12 @@ constexpr double covered = 0.9999;  // share of a filter's square that lamps cov
 enum Seen : std::uint8_t { seen_surface, seen_lamp, seen_sky, seen_bright_sky };
 
 /// @param direction  of the ray that met it
-Seen find_seen(const ShadingScene& shading, const BeyondSheets& seen, const glm::vec3& direction, double exposure) {
-    const auto is_bright_enough = [&](const Rgb& light) {
-        return luminance(seen.passed * light) * exposure >= least_bright;
-    };
-    if (seen.hit.instance == no_index)
-        return is_bright_enough(environment_radiance(shading, direction)) ? seen_bright_sky : seen_sky;
-    const ShadingMaterial& material = shading.materials[shading.instances[seen.hit.instance].material];
-    const bool is_bright = material.emits && is_bright_enough(material.values.emission);
+Seen find_seen(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction, double exposure) {
+    if (hit.instance == no_index)
+        return luminance(environment_radiance(shading, direction)) * exposure >= least_bright ? seen_bright_sky
+                                                                                              : seen_sky;
+    const ShadingMaterial& material = shading.materials[shading.instances[hit.instance].material];
+    const bool is_bright = material.emits && luminance(material.values.emission) * exposure >= least_bright;
     return is_bright ? seen_lamp : seen_surface;
 }
 
@@ -36,14 +34,10 @@ Image<std::uint8_t> look_at_centers(const LightingContext& context, const Camera
     Image<std::uint8_t> seen(width + 2 * reach, height + 2 * reach);
     const auto make_ray = [&](int x, int y) { return make_sample_ray(view, centers.place, x, y); };
     const auto mark = [&](int left, int top, const Image<Hit>& hits) {
-        RayCounts counts;
-        cast_parallel(hits.size(), 256, context.rays, counts, [&](int i, RayTask& task) {
-            const int x = i % hits.width, y = i / hits.width;
-            const Ray ray = to_scene(context.rays, make_ray(left + x, top + y));
-            const BeyondSheets beyond = look_beyond_sheets(context, task, ray, hits(x, y));
-            seen(left + x + reach, top + y + reach) = find_seen(context.shading, beyond, ray.direction, exposure);
+        parallel_pixels(hits, 16, [&](int x, int y) {
+            const glm::vec3 direction(make_ray(left + x, top + y).direction);
+            seen(left + x + reach, top + y + reach) = find_seen(context.shading, hits(x, y), direction, exposure);
         });
-        rays_cast += counts.primary;
     };
     mark(0, 0, centers.hits);
     // Filters of the outermost pixels reach beyond the picture.
@@ -115,13 +109,6 @@ bool faces_camera(const CameraView& view, const ShadingScene& shading, const Emi
 }
 
 }  // namespace
-
-BeyondSheets look_beyond_sheets(const LightingContext& context, RayTask& task, Ray ray, const Hit& hit) {
-    BeyondSheets beyond{hit};
-    if (context.around.is_empty())
-        beyond.sheets = pass_sheets(context, task, beyond.hit, ray, beyond.passed, task.counts.primary);
-    return beyond;
-}
 
 PicturePolygon project_piece(const CameraView& view, const ShadingScene& shading, const BrightEdges& edges,
                              const BrightPiece& piece) {

@@ -15,16 +15,6 @@ namespace aleph {
 
 inline constexpr double least_bright = 0.5;  ///< luminance, of white
 
-/// What a camera ray shows beyond clear sheets of glass.
-struct BeyondSheets {
-    Hit hit;
-    Rgb passed{1.0f};  ///< share of light
-    int sheets = 0;
-};
-
-/// The hit itself where the camera is in a medium.
-BeyondSheets look_beyond_sheets(const LightingContext& context, RayTask& task, Ray ray, const Hit& hit);
-
 /// A triangle of a lamp, or a bright part of the environment's picture, that lies in the filter of a pixel, whether
 /// something hides it or not.
 struct BrightPiece {

@@ -53,21 +53,11 @@ std::span<const BrightPiece> pieces_of(const BrightEdges& edges, const EdgeLight
     return std::span(edges.pieces).subspan(edge.first, edge.last - edge.first);
 }
 
-Rgb find_emission(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BeyondSheets& seen,
+Rgb find_emission(const SampleScene& scene, RayTask& task, const SamplePlace& place, const Hit& hit,
                   const glm::vec3& direction, const glm::ivec2& pixel) {
-    const ShadingScene& shading = scene.lighting.shading;
-    if (seen.hit.instance == no_index) return seen.passed * environment_radiance(shading, direction);
-    const PixelSurface surface = make_pixel_surface(shading, scene.view, place, seen.hit, direction, pixel);
-    const Rgb emission = seen.passed * surface.material.emission;
-    return emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
-}
-
-/// What is seen, as far as it is in the pixel's EdgeLight.
-Rgb find_known(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
-               const EdgeLight& edge, const BeyondSheets& seen, const glm::vec3& direction) {
-    const bool is_known = (edge.sky && seen.hit.instance == no_index) ||
-                          meets(scene.lighting.shading, edges, seen.hit, direction, pieces_of(edges, edge));
-    return is_known ? find_emission(scene, task, place, seen, direction, {edge.x, edge.y}) : Rgb(0.0f);
+    if (hit.instance == no_index) return environment_radiance(scene.lighting.shading, direction);
+    const PixelSurface surface = make_pixel_surface(scene.lighting.shading, scene.view, place, hit, direction, pixel);
+    return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
 }
 
 /// Rays of one pixel.
@@ -166,10 +156,9 @@ class EdgeRays {
         intersect(count);
         Rgb sum(0.0f);
         for (int i = 0; i < count; ++i) {
-            const BeyondSheets seen = look_beyond_sheets(scene_.lighting, task_, rays_[i], hits_[i]);
-            if (meets(scene_.lighting.shading, edges_, seen.hit, rays_[i].direction, {&chosen[i]->piece, 1}))
-                sum +=
-                    weights[i] * find_emission(scene_, task_, place_, seen, rays_[i].direction, {light_.x, light_.y});
+            if (meets(scene_.lighting.shading, edges_, hits_[i], rays_[i].direction, {&chosen[i]->piece, 1}))
+                sum += weights[i] *
+                       find_emission(scene_, task_, place_, hits_[i], rays_[i].direction, {light_.x, light_.y});
         }
         return sum;
     }
@@ -184,10 +173,10 @@ class EdgeRays {
         intersect(count);
         Rgb sum(0.0f);
         for (int i = 0; i < count; ++i) {
-            const BeyondSheets seen = look_beyond_sheets(scene_.lighting, task_, rays_[i], hits_[i]);
-            const bool is_left = seen.hit.instance == no_index && !meets(scene_.lighting.shading, edges_, seen.hit,
+            const bool is_left = hits_[i].instance == no_index && !meets(scene_.lighting.shading, edges_, hits_[i],
                                                                          rays_[i].direction, pieces_of(edges_, light_));
-            if (whole_ || is_left) sum += find_known(scene_, task_, place_, edges_, light_, seen, rays_[i].direction);
+            if (whole_ || is_left)
+                sum += light_in_edge(scene_, task_, place_, edges_, light_, hits_[i], rays_[i].direction);
         }
         return sum;
     }
@@ -301,12 +290,11 @@ Rgb sample_edge_light(const SampleScene& scene, RayTask& task, const SamplePlace
     return EdgeRays(scene, task, place, edges, edge).cast(set, 0, rays_of_a_sample) / float{rays_of_a_sample};
 }
 
-void take_edge_light(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
-                     const EdgeLight& edge, const Hit& hit, SampleLight& light) {
-    const Ray ray = to_scene(scene.lighting.rays, make_sample_ray(scene.view, place, edge.x, edge.y));
-    const BeyondSheets seen = look_beyond_sheets(scene.lighting, task, ray, hit);
-    const LightPart part = seen.sheets > 0 ? LightPart::gloss : LightPart::surface;
-    light[part] -= find_known(scene, task, place, edges, edge, seen, ray.direction);
+Rgb light_in_edge(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
+                  const EdgeLight& edge, const Hit& hit, const glm::vec3& direction) {
+    const bool is_known = (edge.sky && hit.instance == no_index) ||
+                          meets(scene.lighting.shading, edges, hit, direction, pieces_of(edges, edge));
+    return is_known ? find_emission(scene, task, place, hit, direction, {edge.x, edge.y}) : Rgb(0.0f);
 }
 
 }  // namespace aleph

@@ -1,7 +1,6 @@
 #pragma once
 // Emission in pixels at bright edges. A camera ray that meets emission needs no shading: these pixels take it from
 // camera rays alone, as many as it needs, before their first sample. Samples then find the rest of the light.
-// Clear sheets of glass let them pass: a window has a pane.
 // Rays to lamps are spread over the parts of them that lie in the pixel's filter, and weighed by it: all meet a lamp
 // that covers a thousandth of the filter, where nothing hides it.
 
@@ -50,10 +49,8 @@ EdgeLights find_edge_light(const SampleScene& scene, const SamplePlace& place, c
 Rgb sample_edge_light(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
                       const EdgeLight& edge);
 
-/// Takes from a sample what its ray shows by itself of the pixel's EdgeLight. What glass shows is in LightPart::gloss:
-/// some of a pane's samples follow what it reflects, so that this part varies still, by as little as that is.
-/// @param hit  of the sample's ray
-void take_edge_light(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
-                     const EdgeLight& edge, const Hit& hit, SampleLight& light);
+/// The light that the hit of a sample's ray shows by itself, as far as it is in the pixel's EdgeLight.
+Rgb light_in_edge(const SampleScene& scene, RayTask& task, const SamplePlace& place, const BrightEdges& edges,
+                  const EdgeLight& edge, const Hit& hit, const glm::vec3& direction);
 
 }  // namespace aleph

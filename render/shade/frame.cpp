@@ -227,8 +227,7 @@ class FrameShading {
             }
             if (const EdgeLight* edge = edges_.find(x, y)) {
                 Rgb& seen = light[LightPart::surface];
-                seen += edge->mean;
-                take_edge_light(scene, task, at, edges_.edges, *edge, hit, light);
+                seen += edge->mean - light_in_edge(scene, task, at, edges_.edges, *edge, hit, direction);
                 if (options_.at_sample)
                     seen += sample_edge_light(scene, task, at, edges_.edges, *edge) -
                             sample_edge_light(center(), task.at_frame, at, edges_.edges, *edge);
