@@ -13,7 +13,7 @@ namespace {
 constexpr float least_survival = 0.05f;
 
 /// Chance that the smaller part of the light at smooth glass is followed as well, times its weight; at most 1.
-constexpr float split_survival = 10.0f;
+constexpr float split_survival = 30.0f;
 
 /// Known irradiance may err by more than the pixel's accuracy where the path has little weight, and where a wide lobe
 /// averages over many places, but by no more than this.
