@@ -36,7 +36,7 @@ Rgb find_weight(const PixelSamples& pixel, const Rgb& lost) {
 
 }  // namespace
 
-void spread_lost_light(Image<PixelSamples>& pixels, int reach, double white) {
+void spread_lost_light(Image<PixelSamples>& pixels, const Image<Outline>& outlines, int reach, double white) {
     Image<Rgb> gained(pixels.width, pixels.height);
     for (int y = 0; y < pixels.height; ++y) {
         for (int x = 0; x < pixels.width; ++x) {
@@ -45,7 +45,8 @@ void spread_lost_light(Image<PixelSamples>& pixels, int reach, double white) {
             const Rgb lost = find_lost(from, white);
             const auto visit = [&](const auto& give) {
                 visit_around(pixels, x, y, reach, [&](int nx, int ny) {
-                    if (shows_the_same(from, pixels(nx, ny))) give(nx, ny, find_weight(pixels(nx, ny), lost));
+                    if (shows_the_same(from, pixels(nx, ny)) && are_alike(outlines, x, y, nx, ny))
+                        give(nx, ny, find_weight(pixels(nx, ny), lost));
                 });
             };
             Rgb sum(0.0f);
