@@ -12,8 +12,8 @@ namespace aleph {
 /// pixel itself too, in equal parts; what they have gained is taken from these in proportion to their light. The light
 /// of the picture is then what decisions without own samples leave, and a rare bright sample is no longer one bright
 /// pixel. Pixels that show nothing but the background change only because of such pixels. A channel that
-/// is shown as white has lost nothing that is seen. Pixels with an outline share among themselves: what they lose may
-/// be light of another object, which may be much brighter.
+/// is shown as white has lost nothing that is seen. Pixels with an outline share among themselves, whatever their
+/// objects: what they lose may be light of another object, and which one their first samples saw is chance.
 /// @param outlines  empty: none has one
 /// @param reach  pixels on either side
 /// @param white  radiance that the display shows as white

@@ -28,14 +28,14 @@ TEST(LostLight, StaysOnItsObject) {
     }
 }
 
-TEST(LostLight, OfAnOutlineStaysOnIt) {
+TEST(LostLight, OfAnOutlineStaysOnOutlinesWhateverTheirFirstSamplesSaw) {
     Image<PixelSamples> pixels(9, 3);
     Image<Outline> outlines(9, 3, Outline::none);
     SampleLight light = grey_sample(1.0f), other = grey_sample(28.0f);
-    light.place.instance = other.place.instance = 0;
     for (const auto [x, y] : all_pixels(9, 3)) {
         if (x == 4) outlines(x, y) = y == 1 ? Outline::still : Outline::moving;
         const bool is_bright = y == 1 && (x == 4 || x == 7);
+        light.place.instance = other.place.instance = x == 4 ? y : 0;
         pixels(x, y).add(is_bright ? other : light);
         if (!is_bright) continue;
         pixels(x, y).keep_mean();
