@@ -83,7 +83,8 @@ class FrameShading {
 
     void resolve() {
         if (options_.part != nullptr && !options_.part_picture) return count_samples(pixels_, out_);
-        if (plan_.rule == Sampling::threshold) spread_lost_light(pixels_, 2 * plan_.reach, plan_.white);  // a cycle
+        if (plan_.rule == Sampling::threshold)
+            spread_lost_light(pixels_, plan_.outlines, 2 * plan_.reach, plan_.white);  // a cycle
         integrator_->resolve(pixels_, exposure_);
         if (options_.limits != nullptr && context_.settings.sampling.spp > 1) report_errors();
     }

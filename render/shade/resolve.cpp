@@ -8,10 +8,25 @@ namespace aleph {
 
 namespace {
 
-/// Returns whether both pixels show an object, or both show none, and their first samples saw the same.
-bool shows_the_same(const PixelSamples& a, const PixelSamples& b) {
-    return b.valid() > 0 && (a.coverage() > 0.0f) == (b.coverage() > 0.0f) && a.first_instance() == b.first_instance();
-}
+/// Pixels among which lost light is shared.
+class Sharing {
+  public:
+    Sharing(const Image<PixelSamples>& pixels, const Image<Outline>& outlines) : pixels_(pixels), outlines_(outlines) {}
+
+    /// Returns whether both pixels show an object, or both show none, and either both have an outline or neither, and
+    /// their first samples saw the same.
+    bool has(int x, int y, int other_x, int other_y) const {
+        const PixelSamples &a = pixels_(x, y), &b = pixels_(other_x, other_y);
+        if (b.valid() == 0 || (a.coverage() > 0.0f) != (b.coverage() > 0.0f)) return false;
+        if (!are_alike(outlines_, x, y, other_x, other_y)) return false;
+        const bool shows_several = !outlines_.empty() && outlines_(x, y) != Outline::none;
+        return shows_several || a.first_instance() == b.first_instance();
+    }
+
+  private:
+    const Image<PixelSamples>& pixels_;
+    const Image<Outline>& outlines_;
+};
 
 /// What a pixel has lost that is seen.
 Rgb find_lost(const PixelSamples& pixel, double white) {
@@ -36,7 +51,8 @@ Rgb find_weight(const PixelSamples& pixel, const Rgb& lost) {
 
 }  // namespace
 
-void spread_lost_light(Image<PixelSamples>& pixels, int reach, double white) {
+void spread_lost_light(Image<PixelSamples>& pixels, const Image<Outline>& outlines, int reach, double white) {
+    const Sharing sharing(pixels, outlines);
     Image<Rgb> gained(pixels.width, pixels.height);
     for (int y = 0; y < pixels.height; ++y) {
         for (int x = 0; x < pixels.width; ++x) {
@@ -45,7 +61,7 @@ void spread_lost_light(Image<PixelSamples>& pixels, int reach, double white) {
             const Rgb lost = find_lost(from, white);
             const auto visit = [&](const auto& give) {
                 visit_around(pixels, x, y, reach, [&](int nx, int ny) {
-                    if (shows_the_same(from, pixels(nx, ny))) give(nx, ny, find_weight(pixels(nx, ny), lost));
+                    if (sharing.has(x, y, nx, ny)) give(nx, ny, find_weight(pixels(nx, ny), lost));
                 });
             };
             Rgb sum(0.0f);
