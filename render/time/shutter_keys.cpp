@@ -154,9 +154,8 @@ ShutterTimes choose_times(const ShutterInterval& shutter, const std::vector<doub
                           const ShutterPlaces& places, const PoseAt& pose, int most) {
     ShutterTimes times;
     if (places.surfaces.empty() || !(shutter.close > shutter.open)) return times;
-    std::vector<KeyTime> looks;
+    const std::vector<KeyTime> looks = look_around_center(shutter, pose);
     if (jump_times.empty()) {
-        looks = look_around_center(shutter, pose);
         times.from_center = find_changes_from_center(places, looks);
         if (center_does(places, looks, times.from_center)) return times;
     }
