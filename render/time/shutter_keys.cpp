@@ -15,6 +15,10 @@ constexpr double least_gain = 0.25;           // share of what is not known yet,
 constexpr double least_share = 0.25;          // of it, so that light at several times pays
 constexpr double before_jump = 1.0 / 2048.0;  // frames
 
+/// Times at which the scene is looked at: -1 where the shutter opens, 1 where it closes. Their mean is exact for light
+/// of up to the fifth order in time (Chebyshev's equal weights), and nothing that turns evenly is in step with them.
+constexpr double look_places[] = {-0.794654472, -0.187592474, 0.187592474, 0.794654472};
+
 double find_weight(double open, double close, double at) {
     return close > open ? std::clamp((at - open) / (close - open), 0.0, 1.0) : 0.0;
 }
@@ -42,44 +46,53 @@ double find_known_share(const ShutterPlaces& places, const ShutterLight& light, 
     return static_cast<double>(known) / static_cast<double>(places.surfaces.size());
 }
 
-ProbedLight find_mean(const ShutterPlaces& places, const std::vector<std::shared_ptr<const KeyPose>>& poses) {
-    std::vector<const ProbedLight*> lights;
-    for (const auto& pose : poses) lights.push_back(&places.probed_at(*pose));
-    return mean_light(lights);
-}
-
-/// Finds LightChanges of the spans, too.
-double find_known_share(const ShutterPlaces& places, std::vector<KeySpan>& spans, const PoseAt& pose) {
+/// Finds LightChanges of the spans, too. @param looks  in order, times at which poses are known
+double find_known_share(const ShutterPlaces& places, std::vector<KeySpan>& spans, const std::vector<KeyTime>& looks,
+                        const PoseAt& pose) {
     double known = 0.0, length = 0.0;
     for (auto& [first, last, changes] : spans) {
-        const double time = last.at - first.at;
-        const auto middle = pose(0.5 * (first.at + last.at));
-        ShutterLight light(first.pose->shading, last.pose->shading, 0.5f, middle->shading, nullptr);
-        changes = find_light_changes(places.surfaces, places.picture(), find_mean(places, {first.pose, last.pose}),
-                                     places.probed_at(*middle));
+        const double time = last.at - first.at, middle = 0.5 * (first.at + last.at);
+        const ProbedLight &open = places.probed_at(*first.pose), &close = places.probed_at(*last.pose);
+        const auto look = [&](double at, const KeyPose& there) {
+            const auto weight = static_cast<float>(find_weight(first.at, last.at, at));
+            const ProbedLight expected = add_light({{&open, 1.0f - weight}, {&close, weight}});
+            changes.add(find_light_changes(places.surfaces, places.picture(), expected, places.probed_at(there)));
+        };
+        const auto halfway = pose(middle);
+        look(middle, *halfway);
+        for (const auto& [at, there] : looks)
+            if (first.at < at && at < last.at) look(at, *there);
+        ShutterLight light(first.pose->shading, last.pose->shading, 0.5f, halfway->shading, nullptr);
         light.add_changes(changes, 1.0f);
-        known += time * find_known_share(places, light, middle->shading);
+        known += time * find_known_share(places, light, halfway->shading);
         length += time;
     }
     return length > 0.0 ? known / length : 0.0;
 }
 
-std::vector<std::shared_ptr<const KeyPose>> look_around_center(const ShutterInterval& shutter, const PoseAt& pose) {
-    constexpr int looks = 4;
-    std::vector<std::shared_ptr<const KeyPose>> poses;
-    for (int i = 0; i < looks; ++i) poses.push_back(pose(std::lerp(shutter.open, shutter.close, (i + 0.5) / looks)));
-    return poses;
+std::vector<KeyTime> look_around_center(const ShutterInterval& shutter, const PoseAt& pose) {
+    std::vector<KeyTime> looks;
+    for (const double place : look_places) {
+        const double at = std::lerp(shutter.open, shutter.close, 0.5 + 0.5 * place);
+        looks.push_back({at, pose(at)});
+    }
+    return looks;
 }
 
-bool center_does(const ShutterPlaces& places, const std::vector<std::shared_ptr<const KeyPose>>& poses,
-                 const LightChanges& changes) {
+LightChanges find_changes_from_center(const ShutterPlaces& places, const std::vector<KeyTime>& looks) {
+    std::vector<WeighedLight> lights;
+    for (const KeyTime& look : looks) lights.push_back({&places.probed_at(*look.pose), 1.0f / std::size(look_places)});
+    return find_light_changes(places.surfaces, places.picture(), places.probed, add_light(lights));
+}
+
+bool center_does(const ShutterPlaces& places, const std::vector<KeyTime>& looks, const LightChanges& changes) {
     double known = 0.0;
-    for (const auto& at : poses) {
-        ShutterLight light(places.shading, at->shading, nullptr, nullptr);
+    for (const KeyTime& look : looks) {
+        ShutterLight light(places.shading, look.pose->shading, nullptr, nullptr);
         light.add_changes(changes, 1.0f);
-        known += find_known_share(places, light, at->shading);
+        known += find_known_share(places, light, look.pose->shading);
     }
-    return known >= nearly_all * static_cast<double>(poses.size());
+    return known >= nearly_all * static_cast<double>(looks.size());
 }
 
 /// Parts of the shutter between jumps.
@@ -141,18 +154,17 @@ ShutterTimes choose_times(const ShutterInterval& shutter, const std::vector<doub
                           const ShutterPlaces& places, const PoseAt& pose, int most) {
     ShutterTimes times;
     if (places.surfaces.empty() || !(shutter.close > shutter.open)) return times;
+    const std::vector<KeyTime> looks = look_around_center(shutter, pose);
     if (jump_times.empty()) {
-        const auto around = look_around_center(shutter, pose);
-        times.from_center =
-            find_light_changes(places.surfaces, places.picture(), places.probed, find_mean(places, around));
-        if (center_does(places, around, times.from_center)) return times;
+        times.from_center = find_changes_from_center(places, looks);
+        if (center_does(places, looks, times.from_center)) return times;
     }
     const std::vector<KeySpan> parts = cut_at_jumps(shutter, jump_times, pose);
     std::vector<KeySpan>& spans = times.spans;
     double share = 0.0;
     for (int count = 1; count <= most && share < nearly_all; count *= 2) {
         std::vector<KeySpan> finer = divide(parts, (shutter.close - shutter.open) / count, pose);
-        const double known = find_known_share(places, finer, pose), gain = known - share;
+        const double known = find_known_share(places, finer, looks, pose), gain = known - share;
         if (gain > least_gain * (1.0 - share)) {
             spans = std::move(finer);
             share = known;

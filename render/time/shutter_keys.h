@@ -14,7 +14,7 @@ namespace aleph {
 struct ShutterSpan {
     double open = 0.0, close = 0.0;                      ///< frames
     std::shared_ptr<const KeyframeLight> before, after;  ///< null: nothing changes after the first
-    LightChanges changes{};                              ///< from the mean of both, in the middle
+    LightChanges changes{};                              ///< from what is interpolated, in the middle
 };
 
 /// Light at one time of the shutter.

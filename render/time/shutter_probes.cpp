@@ -71,14 +71,20 @@ LightChanges find_light_changes(const std::vector<PixelSurface>& places, glm::iv
     return changes;
 }
 
-ProbedLight mean_light(const std::vector<const ProbedLight*>& lights) {
-    if (std::ranges::any_of(lights, [](const ProbedLight* light) { return light->empty(); })) return {};
-    ProbedLight mean(lights.front()->size(), 0.0f);
-    for (std::size_t i = 0; i < mean.size(); ++i) {
-        for (const ProbedLight* light : lights)
-            mean[i] = mean[i] < 0.0f || (*light)[i] < 0.0f ? -1.0f : mean[i] + (*light)[i] / lights.size();
+void LightChanges::add(const LightChanges& other) {
+    if (other.picture.x == 0) return;
+    picture = other.picture;
+    for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = std::max(shares[i], other.shares[i]);
+}
+
+ProbedLight add_light(const std::vector<WeighedLight>& lights) {
+    if (std::ranges::any_of(lights, [](const WeighedLight& one) { return one.light->empty(); })) return {};
+    ProbedLight sum(lights.front().light->size(), 0.0f);
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        for (const auto& [light, weight] : lights)
+            sum[i] = sum[i] < 0.0f || (*light)[i] < 0.0f ? -1.0f : sum[i] + weight * (*light)[i];
     }
-    return mean;
+    return sum;
 }
 
 }  // namespace aleph

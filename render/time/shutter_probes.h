@@ -31,13 +31,20 @@ struct LightChanges {
     std::size_t part(int x, int y) const { return y * across / picture.y * across + x * across / picture.x; }
     float at(int x, int y) const { return picture.x == 0 ? 0.0f : shares[part(x, y)]; }
     float largest() const { return *std::ranges::max_element(shares); }
+    /// Keeps the larger ones. @param other  in the same picture, or none
+    void add(const LightChanges& other);
 };
 
 /// Of the larger one of both, as far as it is more than two standard errors of the paths; none if one is empty.
 LightChanges find_light_changes(const std::vector<PixelSurface>& places, glm::ivec2 picture, const ProbedLight& known,
                                 const ProbedLight& sample);
 
-/// The mean of several times, negative where one is; none if one is empty.
-ProbedLight mean_light(const std::vector<const ProbedLight*>& lights);
+struct WeighedLight {
+    const ProbedLight* light;
+    float weight;
+};
+
+/// The sum of several times, negative where one is; none if one is empty.
+ProbedLight add_light(const std::vector<WeighedLight>& lights);
 
 }  // namespace aleph

@@ -42,8 +42,8 @@ TEST(ShutterProbes, ABlindThatMovesALittleIsNoChange) {
 
 TEST(ShutterProbes, WhatIsHiddenAtOneTimeDoesNotCount) {
     const ProbedLight first{1.0f, -1.0f, 2.0f, 3.0f}, second{3.0f, 4.0f, -1.0f, 3.0f}, none;
-    EXPECT_EQ(mean_light({&first, &second}), (ProbedLight{2.0f, -1.0f, -1.0f, 3.0f}));
-    EXPECT_TRUE(mean_light({&first, &none}).empty());
+    EXPECT_EQ(add_light({{&first, 0.5f}, {&second, 0.5f}}), (ProbedLight{2.0f, -1.0f, -1.0f, 3.0f}));
+    EXPECT_TRUE(add_light({{&first, 0.5f}, {&none, 0.5f}}).empty());
     const std::vector<PixelSurface> places(4);
     EXPECT_EQ(find_light_changes(places, {4, 4}, first, none).largest(), 0.0f);
     // Of the places that both know one changes by 2 and one by nothing: that may be chance.
