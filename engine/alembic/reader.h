@@ -12,8 +12,6 @@
 
 namespace aleph {
 
-inline constexpr double same_time = 1e-5;  ///< s; as Alembic takes times for equal
-
 struct AlembicReader {
     explicit AlembicReader(const AlembicArchive& source);
 
