@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/alembic/archive.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/append.h"
 
 namespace aleph {
 
