@@ -10,42 +10,15 @@
 #include "perception/visible_bands.h"
 #include "perception/vision/castle.h"
 #include "perception/vision/display_hold.h"
-#include "perception/vision/luminance_curve.h"
+#include "perception/vision/velocity_scale.h"
 
 namespace aleph {
 
 namespace {
 
 constexpr int luminance_nodes = 15, velocity_nodes = 25, frequency_nodes = 28, time_nodes = 8;
-constexpr double lowest_velocity = 0.1, highest_velocity = 100.0;  // deg/s
-constexpr double lowest_frequency = 0.002;                         // cycles per pixel
-
-/// 0, then evenly spaced in its logarithm.
-double node_velocity(int i) {
-    if (i == 0) return 0.0;
-    return lowest_velocity *
-           std::pow(highest_velocity / lowest_velocity, (i - 1) / static_cast<double>(velocity_nodes - 2));
-}
-
-using Place = LuminanceGrid::Place;
-
-Place place_at(float at, int nodes) {
-    const float clamped = std::min(std::max(at, 0.0f), static_cast<float>(nodes - 1));
-    const int node = std::min(static_cast<int>(clamped), nodes - 2);
-    return {node, clamped - static_cast<float>(node)};
-}
-
-Place luminance_place(float luminance) {
-    constexpr float per_octave = static_cast<float>(luminance_nodes - 1) / 23.253496664211536f;  // of 7 decades
-    return place_at((fast_log2(LuminanceGrid::clamp(luminance)) + 9.9657842846620870f) * per_octave, luminance_nodes);
-}
-
-Place velocity_place(float velocity) {
-    constexpr auto lowest = static_cast<float>(lowest_velocity);
-    constexpr float per_octave = static_cast<float>(velocity_nodes - 2) / 9.965784284662087f;  // of 3 decades
-    if (!(velocity > lowest)) return {0, velocity > 0.0f ? velocity / lowest : 0.0f};
-    return place_at(1.0f + fast_log2(velocity / lowest) * per_octave, velocity_nodes);
-}
+constexpr double lowest_frequency = 0.002;  // cycles per pixel
+const VelocityScale velocities(velocity_nodes, 100.0);
 
 /// A frequency over space, and the share of the noise's energy around it.
 struct Annulus {
@@ -107,7 +80,7 @@ class ShiftedResponses {
     ShiftedResponses(double rho, const FrameRate& frame_rate, NoiseOverTime over_time)
         : times_(over_time == NoiseOverTime::fresh ? time_nodes : 1) {
         for (int r = 0; r < velocity_nodes; ++r) {
-            const double shift = rho * node_velocity(r);
+            const double shift = rho * velocities.velocity(r);
             for (int t = 0; t < times_; ++t) {
                 const double omega = times_ == 1 ? 0.0 : 0.5 * frame_rate.per_second() * (t + 0.5) / times_;
                 for (const double shifted : {omega + shift, std::abs(omega - shift)})
@@ -164,7 +137,9 @@ NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRa
     for (std::size_t b = 0; b < noise_bands; ++b) pattern_rho[b] = shapes[b].frequency * viewing.pixels_per_degree;
     std::array<HeldShares, velocity_nodes> held{};
     for (int f = 0; f < velocity_nodes; ++f) {
-        const auto at = [&](double of) { return hold_transfer(of, node_velocity(f), viewing.persistence, frame_rate); };
+        const auto at = [&](double of) {
+            return hold_transfer(of, velocities.velocity(f), viewing.persistence, frame_rate);
+        };
         for (int i = 0; i < frequency_nodes; ++i) held[f].squares[i] = std::pow(at(rho[i]), 2.0);
         for (std::size_t b = 0; b < noise_bands; ++b) held[f].bands[b] = at(pattern_rho[b]);
     }
@@ -178,7 +153,7 @@ NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRa
             for (int i = 0; i < frequency_nodes; ++i) squares[i] = noise[i].square(r, of_noise[i]);
             std::array<double, noise_bands> pattern{};
             for (std::size_t b = 0; b < noise_bands; ++b)
-                pattern[b] = of_bands[b].at(TemporalResponse(pattern_rho[b] * node_velocity(r)));
+                pattern[b] = of_bands[b].at(TemporalResponse(pattern_rho[b] * velocities.velocity(r)));
             for (int f = 0; f < velocity_nodes; ++f) {
                 std::array<double, noise_bands> energy{};
                 for (int i = 0; i < frequency_nodes; ++i)
@@ -194,7 +169,8 @@ NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRa
 }
 
 float NoiseVisibility::threshold(float luminance, float retinal, float tracked, const BandContrasts& contrasts) const {
-    const Place l = luminance_place(luminance), r = velocity_place(retinal), f = velocity_place(tracked);
+    const auto l = LuminanceGrid::place(fast_log2(LuminanceGrid::clamp(luminance)), luminance_nodes - 1);
+    const auto r = velocities.place(retinal), f = velocities.place(tracked);
     Bands sum{};
     for (int i = 0; i < 8; ++i) {
         const int a = i & 1, b = (i >> 1) & 1, c = i >> 2;

@@ -133,8 +133,9 @@ class AlembicArchive {
     std::vector<AlembicObject> objects_;
 };
 
-/// The sample at or before a time, the first before all. As in Alembic, a sample within 1e-5 s after the time counts as
-/// reached.
+inline constexpr double same_time = 1e-5;  ///< s; as Alembic takes times for equal
+
+/// The sample at or before a time, the first before all. A sample within same_time after the time counts as reached.
 /// @param count  samples, at least 1
 std::size_t alembic_floor(const TimeSampling& sampling, std::size_t count, double seconds);
 

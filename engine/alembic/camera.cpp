@@ -164,8 +164,7 @@ int read_camera(AlembicReader& reader, int object, const AlembicCompound& top) {
         reader.warn(object, "the camera's overscan is not used: the picture shows the film's frame");
         break;
     }
-    reader.part.cameras.push_back(std::move(camera));
-    return reader.camera_of[object] = static_cast<int>(reader.part.cameras.size()) - 1;
+    return reader.camera_of[object] = append(reader.part.cameras, std::move(camera));
 }
 
 }  // namespace aleph

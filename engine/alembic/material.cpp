@@ -104,8 +104,7 @@ Material make_neutral(const std::string& name) {
 }
 
 int add_material(AlembicReader& reader, const std::string& path, Material material) {
-    reader.part.materials.push_back(std::move(material));
-    return reader.material_of[path] = static_cast<int>(reader.part.materials.size()) - 1;
+    return reader.material_of[path] = append(reader.part.materials, std::move(material));
 }
 
 }  // namespace

@@ -254,8 +254,7 @@ std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const Alem
             if (faces[part].empty()) continue;
             Mesh mesh = cutter.cut(faces[part]);
             mesh.material = parts.materials[part];
-            meshes.push_back(static_cast<int>(reader.part.meshes.size()));
-            reader.part.meshes.push_back(std::move(mesh));
+            meshes.push_back(append(reader.part.meshes, std::move(mesh)));
         }
     }
     return meshes;

@@ -87,8 +87,7 @@ class TreeReader {
         }
         const std::size_t channels = node.transform.operations ? node.transform.operations->channels.size() : 0;
         reader_.archive.budget().charge(1, sizeof(Node) + node.name.size() + sizeof(double) * channels);
-        reader_.part.nodes.push_back(std::move(node));
-        return static_cast<int>(reader_.part.nodes.size()) - 1;
+        return append(reader_.part.nodes, std::move(node));
     }
 
     const std::vector<int>& meshes_of(int object, const AlembicCompound& top, const std::string& schema) {

@@ -8,11 +8,9 @@
 #include <vector>
 
 #include "engine/alembic/archive.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/append.h"
 
 namespace aleph {
-
-inline constexpr double same_time = 1e-5;  ///< s; as Alembic takes times for equal
 
 struct AlembicReader {
     explicit AlembicReader(const AlembicArchive& source);

@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::size_t digest_bytes = 16;  // before the values of every sample
 constexpr std::uint64_t max_rank = 64;    // dimensions of one array
-constexpr double reached = 1e-5;          // s; a sample this near after a time counts as reached
 
 /// Bytes of one plain value, in the order of PlainType; text has none.
 constexpr std::array<std::size_t, 14> widths{1, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8, 0, 0};
@@ -112,7 +111,7 @@ AlembicSamples AlembicArchive::samples(const AlembicProperty& property) const {
 std::size_t alembic_floor(const TimeSampling& sampling, std::size_t count, double seconds) {
     std::size_t floor = find_samples(sampling, count, seconds).floor;
     const bool reaches_next = floor + 1 < count && seconds > sample_time(sampling, 0) &&
-                              sample_time(sampling, floor + 1) - seconds <= reached;
+                              sample_time(sampling, floor + 1) - seconds <= same_time;
     return reaches_next ? floor + 1 : floor;
 }
 

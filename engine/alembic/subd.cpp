@@ -172,8 +172,7 @@ std::vector<int> read_subdivision(AlembicReader& reader, int object, const Alemb
         if (cage.faces.sizes.size() > many_faces) cage.level = 1;
         add_uv(reader, object, geom, run, cage);
 
-        const int number = static_cast<int>(reader.part.cages.size());
-        reader.part.cages.push_back(std::move(cage));
+        const int number = append(reader.part.cages, std::move(cage));
         for (std::size_t part = 0; part < parts.materials.size(); ++part) {
             Mesh mesh;
             mesh.name = name;
@@ -181,8 +180,7 @@ std::vector<int> read_subdivision(AlembicReader& reader, int object, const Alemb
             mesh.subdivision.cage = number;
             mesh.subdivision.part = static_cast<int>(part);
             mesh.present = run.present;
-            meshes.push_back(static_cast<int>(reader.part.meshes.size()));
-            reader.part.meshes.push_back(std::move(mesh));
+            meshes.push_back(append(reader.part.meshes, std::move(mesh)));
         }
         tessellate(reader, object, number);
     }

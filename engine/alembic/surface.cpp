@@ -97,8 +97,7 @@ void read_point_cache(AlembicReader& reader, int object, const Sampled& points, 
                 archive.fail(object, fmt::format("point {} of sample {} is not finite", i, sample));
         }
     }
-    run.points = static_cast<int>(reader.part.point_caches.size());
-    reader.part.point_caches.push_back(std::move(cache));
+    run.points = append(reader.part.point_caches, std::move(cache));
 }
 
 /// A run is shown from its begin to that of the next one.

@@ -36,12 +36,12 @@ void convert_channels(const AlembicReader& reader, int object, const OperationSt
         const bool angle_only = kind == Kind::rotate_x || kind == Kind::rotate_y || kind == Kind::rotate_z;
         if (angle_only || kind == Kind::rotate) channels[count - 1] *= radians_per_degree;
         if (kind == Kind::matrix) {  // row by row for row vectors: column by column for column vectors
-            const bool affine = channels[3] == 0.0 && channels[7] == 0.0 && channels[11] == 0.0 && channels[15] == 1.0;
             const bool nearly =
                 std::abs(channels[3]) + std::abs(channels[7]) + std::abs(channels[11]) + std::abs(channels[15] - 1.0) <=
                 1e-6;
             if (!nearly) reader.archive.fail(object, "its matrix is not affine: the last column must be 0 0 0 1");
-            if (!affine) channels[3] = channels[7] = channels[11] = 0.0, channels[15] = 1.0;
+            channels[3] = channels[7] = channels[11] = 0.0;
+            channels[15] = 1.0;
         }
         channels += count;
     }

@@ -69,8 +69,7 @@ class MaterialReader {
 
 int MaterialReader::use_image(std::size_t index) {
     if (image_of_[index] == no_index) {
-        image_of_[index] = static_cast<int>(used_.size());
-        used_.push_back(index);
+        image_of_[index] = append(used_, index);
     }
     return image_of_[index];
 }
@@ -187,8 +186,7 @@ void read_materials(GltfReader& reader) {
 
 int default_material(GltfReader& reader) {
     if (reader.default_material == no_index) {
-        reader.default_material = static_cast<int>(reader.part.materials.size());
-        reader.part.materials.push_back(make_gltf_material());
+        reader.default_material = append(reader.part.materials, make_gltf_material());
         reader.part.materials.back().name = "default";
     }
     return reader.default_material;

@@ -144,8 +144,7 @@ int add_copy(GltfReader& reader, int original) {
     copy.deformation.skin = no_index;
     copy.deformation.joint_weights.clear();
     copy.deformation.joints_per_vertex = 0;
-    reader.part.meshes.push_back(std::move(copy));
-    return static_cast<int>(reader.part.meshes.size()) - 1;
+    return append(reader.part.meshes, std::move(copy));
 }
 
 int take_rigid(GltfReader& reader, int original) {
@@ -183,10 +182,9 @@ void read_meshes(GltfReader& reader) {
             GltfMeshUse use;
             use.mesh = i;
             use.primitive = k;
-            indices.push_back(static_cast<int>(reader.part.meshes.size()));
             Mesh read = read_primitive(reader, use, mesh.primitives[k], place);
             read.name = mesh.primitives.size() == 1 ? name : fmt::format("{}.{}", name, k);
-            reader.part.meshes.push_back(std::move(read));
+            indices.push_back(append(reader.part.meshes, std::move(read)));
             reader.uses.push_back(use);
         }
     }

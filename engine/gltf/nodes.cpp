@@ -133,9 +133,8 @@ void read_nodes(GltfReader& reader) {
         const auto* visibility = find_extension(raw, "KHR_node_visibility");
         if (visibility != nullptr && !visibility->value("visible", true)) node.visible = Track<double>(0.0);
         instances += node.meshes.size();
-        const int index = static_cast<int>(reader.part.nodes.size());
+        const int index = append(reader.part.nodes, std::move(node));
         reader.node_of[source_index] = index;
-        reader.part.nodes.push_back(std::move(node));
         if (instancing != nullptr) instances += read_instances(reader, *instancing, source_index, index);
         if (instances > max_instances) {
             throw InputError(reader.source.file, place, fmt::format("more than {} instances of meshes", max_instances));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/gltf/source.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/append.h"
 
 namespace aleph {
 

@@ -62,10 +62,7 @@ std::vector<glm::dmat4> read_inverse_binds(GltfReader& reader, const nlohmann::j
 /// The scene skin of a glTF skin; its joints follow once all nodes are read (read_skins).
 int use_skin(GltfReader& reader, std::size_t skin) {
     int& index = reader.skin_of[skin];
-    if (index == no_index) {
-        index = static_cast<int>(reader.part.skins.size());
-        reader.part.skins.emplace_back();
-    }
+    if (index == no_index) index = append(reader.part.skins, {});
     return index;
 }
 

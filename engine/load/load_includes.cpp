@@ -31,8 +31,7 @@ int add_axes_node(Scene& scene, int index) {
     node.transform.scale = glm::dvec3(include.scale);
     if (include.up == Include::Up::x) node.transform.rotation = glm::angleAxis(quarter, glm::dvec3(0.0, 0.0, 1.0));
     if (include.up == Include::Up::z) node.transform.rotation = glm::angleAxis(-quarter, glm::dvec3(1.0, 0.0, 0.0));
-    scene.nodes.push_back(std::move(node));
-    return static_cast<int>(scene.nodes.size()) - 1;
+    return append(scene.nodes, std::move(node));
 }
 
 template <class Accept>

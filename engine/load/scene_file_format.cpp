@@ -130,8 +130,7 @@ void make_environment_linear(Scene& scene) {
     if (is_texture(scene, scene.environment.image)) {
         SceneImage copy = picture;
         copy.name = unused_name(scene, copy.name);
-        scene.environment.image = static_cast<int>(scene.images.size());
-        scene.images.push_back(std::move(copy));
+        scene.environment.image = append(scene.images, std::move(copy));
     }
     SceneImage& own = scene.images[scene.environment.image];
     own.floats = to_linear(own.bytes);

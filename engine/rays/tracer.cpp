@@ -218,16 +218,11 @@ Met Tracer::meet(const Ray& ray, const Met* last) {
     RayLane lane;
     Crossing passed{};
     if (last != nullptr) {
-        const Hit& hit = last->hit;
-        passed = {.distance = hit.distance,
-                  .u = hit.u,
-                  .v = hit.v,
-                  .instance = hit.instance,
-                  .primitive = static_cast<unsigned>(hit.primitive),
-                  .back = last->back,
-                  .bordering = last->bordering,
-                  .normal = glm::vec3(0.0f),
-                  .alpha = last->alpha};
+        passed.distance = last->hit.distance;
+        passed.instance = last->hit.instance;
+        passed.primitive = static_cast<unsigned>(last->hit.primitive);
+        passed.back = last->back;
+        passed.bordering = last->bordering;
     }
     const bool traced = trace(ray, false, lane, [&](Traversal& traversal) {
         if (last == nullptr) return;

@@ -1,11 +1,19 @@
 #pragma once
-// Appends the content of an included file to the scene that includes it.
+// Appends elements to their lists, and the content of an included file to the scene that includes it.
 
 #include <optional>
+#include <type_traits>
 
 #include "engine/scene/scene.h"
 
 namespace aleph {
+
+/// @return the element's index
+template <class Element>
+int append(std::vector<Element>& list, std::type_identity_t<Element> element) {
+    list.push_back(std::move(element));
+    return static_cast<int>(list.size()) - 1;
+}
 
 /// Frame rate and times that a file states, for a scene that consists of that file.
 struct FileTiming {

@@ -44,7 +44,8 @@ Interpolation read_interpolation(const JsonRef& at, Interpolation absent) {
     const auto word = at.find_string("interpolation");
     if (!word) return absent;
     const auto found = std::ranges::find(interpolation_words, *word);
-    return static_cast<Interpolation>(found - interpolation_words.begin());  // one of them, by the schema
+    if (found == interpolation_words.end()) return Interpolation::linear;  // an easing, by the schema
+    return static_cast<Interpolation>(found - interpolation_words.begin());
 }
 
 /// @param list       of "keys", or of "values"

@@ -1,4 +1,4 @@
-// Outlines of tori and lathes. A lathe's smooth outline is a centripetal Catmull-Rom spline (Yuksel, Schaefer, Keyser
+// Outlines of round shapes. A lathe's smooth outline is a centripetal Catmull-Rom spline (Yuksel, Schaefer, Keyser
 // 2011, "Parameterization and applications of Catmull-Rom curves"): it neither loops nor overshoots between points.
 
 #include <algorithm>
@@ -164,10 +164,37 @@ std::vector<OutlineStrip> make_torus_outline(const Shape& shape) {
     return {strip};
 }
 
+/// From pole to pole.
+std::vector<OutlineStrip> make_sphere_outline(const Shape& shape) {
+    const int rows = std::max(2, shape.segments / 2);
+    OutlineStrip strip;
+    for (int i = 0; i <= rows; ++i) {
+        const double v = static_cast<double>(i) / rows, polar = std::numbers::pi * v;
+        const glm::dvec2 normal(i == rows ? 0.0 : std::sin(polar), std::cos(polar));
+        strip.push_back({normal * shape.radius, normal, v});
+    }
+    return {strip};
+}
+
+/// Without the caps.
+std::vector<OutlineStrip> make_cylinder_outline(const Shape& shape) {
+    const glm::dvec2 out(1.0, 0.0), top(shape.radius, 0.5 * shape.height), bottom(shape.radius, -0.5 * shape.height);
+    return {{{top, out, 0.0}, {bottom, out, 1.0}}};
+}
+
 }  // namespace
 
 std::vector<OutlineStrip> make_outline(const Shape& shape) {
-    return shape.kind == Shape::Kind::torus ? make_torus_outline(shape) : make_lathe_outline(shape);
+    switch (shape.kind) {
+        case Shape::Kind::sphere:
+            return make_sphere_outline(shape);
+        case Shape::Kind::cylinder:
+            return make_cylinder_outline(shape);
+        case Shape::Kind::torus:
+            return make_torus_outline(shape);
+        default:
+            return make_lathe_outline(shape);
+    }
 }
 
 std::size_t count_outline_pieces(const Shape& shape) {

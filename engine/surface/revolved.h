@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces of revolution about the y axis: outlines of tori and lathes, and the triangles between their rows.
+// Surfaces of revolution about the y axis: outlines of round shapes, and the triangles between their rows.
 
 #include <cstddef>
 #include <vector>
@@ -18,7 +18,7 @@ struct OutlinePoint {
 /// Smooth along its points; the next one begins at a sharp edge.
 using OutlineStrip = std::vector<OutlinePoint>;
 
-/// Outline of a torus or a lathe. Call validate (shapes.h) first.
+/// Outline of a shape that is neither quad nor box, without a cylinder's caps. Call validate (shapes.h) first.
 std::vector<OutlineStrip> make_outline(const Shape& shape);
 
 /// Pieces that make_outline cuts a lathe's profile into at most, without making them.

@@ -80,47 +80,6 @@ void add_box(Mesh& mesh, const Shape& shape) {
     }
 }
 
-int sphere_rows(const Shape& shape) {
-    return std::max(2, shape.segments / 2);
-}
-
-void add_sphere(Mesh& mesh, const Shape& shape) {
-    const int columns = shape.segments, rows = sphere_rows(shape);
-    // Seen from above the next column lies counter-clockwise, so a row's quads are (top, below, below right, top
-    // right).
-    const auto add_pole = [&](double y, double v) {
-        const glm::dvec3 normal(0.0, y, 0.0);
-        for (int i = 0; i < columns; ++i) {
-            add_vertex(mesh, shape, normal * shape.radius, normal, {(i + 0.5) / columns, v});
-        }
-    };
-    add_pole(1.0, 0.0);
-    for (int row = 1; row < rows; ++row) {
-        const double v = static_cast<double>(row) / rows;
-        const double polar = std::numbers::pi * v;
-        for (int i = 0; i <= columns; ++i) {
-            const glm::dvec3 normal = around(i, columns) * std::sin(polar) + glm::dvec3(0.0, std::cos(polar), 0.0);
-            add_vertex(mesh, shape, normal * shape.radius, normal, {static_cast<double>(i) / columns, v});
-        }
-    }
-    const std::uint32_t bottom = vertex_count(mesh);
-    add_pole(-1.0, 1.0);
-
-    const auto ring = [&](int row, int i) {
-        return static_cast<std::uint32_t>(columns + (row - 1) * (columns + 1) + i);
-    };
-    for (int i = 0; i < columns; ++i) mesh.triangles.emplace_back(i, ring(1, i), ring(1, i + 1));
-    for (int row = 1; row + 1 < rows; ++row) {
-        for (int i = 0; i < columns; ++i) {
-            mesh.triangles.emplace_back(ring(row, i), ring(row + 1, i), ring(row + 1, i + 1));
-            mesh.triangles.emplace_back(ring(row, i), ring(row + 1, i + 1), ring(row, i + 1));
-        }
-    }
-    for (int i = 0; i < columns; ++i) {
-        mesh.triangles.emplace_back(ring(rows - 1, i), bottom + static_cast<std::uint32_t>(i), ring(rows - 1, i + 1));
-    }
-}
-
 /// @param side  +1: the upper cap, -1: the lower
 void add_cap(Mesh& mesh, const Shape& shape, double side) {
     const glm::dvec3 normal(0.0, side, 0.0), center = normal * (0.5 * shape.height);
@@ -135,23 +94,6 @@ void add_cap(Mesh& mesh, const Shape& shape, double side) {
         const std::uint32_t here = first + 1 + i, next = first + 1 + (i + 1) % columns;
         mesh.triangles.emplace_back(first, side > 0.0 ? here : next, side > 0.0 ? next : here);
     }
-}
-
-void add_cylinder(Mesh& mesh, const Shape& shape) {
-    const glm::dvec3 up(0.0, 0.5 * shape.height, 0.0);
-    for (int i = 0; i <= shape.segments; ++i) {
-        const glm::dvec3 normal = around(i, shape.segments);
-        const double u = static_cast<double>(i) / shape.segments;
-        add_vertex(mesh, shape, normal * shape.radius + up, normal, {u, 0.0});
-        add_vertex(mesh, shape, normal * shape.radius - up, normal, {u, 1.0});
-    }
-    for (int i = 0; i < shape.segments; ++i) {
-        const auto top = static_cast<std::uint32_t>(2 * i);
-        mesh.triangles.emplace_back(top, top + 1, top + 3);
-        mesh.triangles.emplace_back(top, top + 3, top + 2);
-    }
-    add_cap(mesh, shape, 1.0);
-    add_cap(mesh, shape, -1.0);
 }
 
 }  // namespace
@@ -170,12 +112,12 @@ Mesh make_shape_mesh(const Shape& shape, int material, const std::string& name) 
         case Shape::Kind::box:
             add_box(mesh, shape);
             break;
-        case Shape::Kind::sphere:
-            add_sphere(mesh, shape);
-            break;
         case Shape::Kind::cylinder:
-            add_cylinder(mesh, shape);
+            add_revolved(mesh, shape, make_outline(shape));
+            add_cap(mesh, shape, 1.0);
+            add_cap(mesh, shape, -1.0);
             break;
+        case Shape::Kind::sphere:
         case Shape::Kind::torus:
         case Shape::Kind::lathe:
             add_revolved(mesh, shape, make_outline(shape));
@@ -191,10 +133,9 @@ std::size_t shape_triangle_count(const Shape& shape) {
             return 2;
         case Shape::Kind::box:
             return 12;
-        case Shape::Kind::sphere:
-            return 2 * segments * (static_cast<std::size_t>(sphere_rows(shape)) - 1);
         case Shape::Kind::cylinder:
             return 4 * segments;
+        case Shape::Kind::sphere:
         case Shape::Kind::torus:
             return count_revolved_triangles(make_outline(shape), shape.segments);
         case Shape::Kind::lathe: {

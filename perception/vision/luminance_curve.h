@@ -15,7 +15,7 @@ struct LuminanceGrid {
     static constexpr int nodes = intervals + 1;
 
     struct Place {
-        int node = 0;           ///< the lower neighbour, at most intervals - 1
+        int node = 0;           ///< the lower neighbour; the last interval is the highest
         float fraction = 0.0f;  ///< from there to the next node, [0,1]
     };
 
@@ -32,12 +32,14 @@ struct LuminanceGrid {
         return positive < highest ? positive : highest;
     }
     /// @param log_luminance  log2 of a clamped luminance
-    static Place place(float log_luminance) {
-        constexpr float log_lowest = -9.9657842846620870f;                                 // log2 of 1e-3
-        constexpr float per_octave = static_cast<float>(intervals) / 23.253496664211536f;  // log2 of 1e7
-        const float at = (log_luminance - log_lowest) * per_octave;
+    static Place place(float log_luminance, int parts = intervals) {
+        constexpr float log_lowest = -9.9657842846620870f, octaves = 23.253496664211536f;  // log2 of 1e-3 and of 1e7
+        return place_at((log_luminance - log_lowest) * (static_cast<float>(parts) / octaves), parts);
+    }
+    /// @param at  in intervals; clamped
+    static Place place_at(float at, int parts) {
         const float low = at > 0.0f ? at : 0.0f;
-        const int node = low < static_cast<float>(intervals - 1) ? static_cast<int>(low) : intervals - 1;
+        const int node = low < static_cast<float>(parts - 1) ? static_cast<int>(low) : parts - 1;
         const float fraction = low - static_cast<float>(node);
         return {node, fraction < 1.0f ? fraction : 1.0f};
     }

@@ -39,17 +39,6 @@ std::vector<std::string> missing_in(const ChannelImage& image, const ChannelImag
     return names;
 }
 
-void check_sizes(const ChannelImage& a, const ChannelImage& b) {
-    if (a.channels.empty() || b.channels.empty()) throw InputError("", "", "a picture has no channels");
-    const Image<float>& size_a = a.channels.front().values;
-    const Image<float>& size_b = b.channels.front().values;
-    if (!same_size(size_a, size_b)) {
-        throw InputError("", "",
-                         fmt::format("the pictures differ in size: {}x{} and {}x{}", size_a.width, size_a.height,
-                                     size_b.width, size_b.height));
-    }
-}
-
 std::vector<ChannelPair> match_all(const ChannelImage& a, const ChannelImage& b) {
     const auto only_a = missing_in(b, a), only_b = missing_in(a, b);
     if (!only_a.empty() || !only_b.empty()) {

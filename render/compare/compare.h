@@ -72,9 +72,7 @@ struct CompareResult {
 
     bool same() const { return !a.any() && !b.any() && exceeded.empty(); }
     std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-    double percent(std::size_t count) const {
-        return 100.0 * static_cast<double>(count) / static_cast<double>(pixels());
-    }
+    double percent(std::size_t count) const { return percent_of(static_cast<double>(count), pixels()); }
 };
 
 /// Compares `a` with the reference `b`. The same: no NaN or infinity in either (not even in both), at most `share`

@@ -20,11 +20,7 @@ struct Colours {
 Colours colours_of(const ChannelImage& a, const ChannelImage& b) {
     Colours colours{linear_colour(a), linear_colour(b)};
     if (colours.a.empty() || colours.b.empty()) throw InputError("", "luminance", "needs pictures with R, G and B");
-    if (!same_size(colours.a, colours.b)) {
-        throw InputError("", "",
-                         fmt::format("the pictures differ in size: {}x{} and {}x{}", colours.a.width, colours.a.height,
-                                     colours.b.width, colours.b.height));
-    }
+    check_sizes(a, b);
     return colours;
 }
 
@@ -53,6 +49,17 @@ double shown_variance(const Rgb& color, double variance) {
 
 }  // namespace
 
+void check_sizes(const ChannelImage& a, const ChannelImage& b) {
+    if (a.channels.empty() || b.channels.empty()) throw InputError("", "", "a picture has no channels");
+    const Image<float>& size_a = a.channels.front().values;
+    const Image<float>& size_b = b.channels.front().values;
+    if (!same_size(size_a, size_b)) {
+        throw InputError("", "",
+                         fmt::format("the pictures differ in size: {}x{} and {}x{}", size_a.width, size_a.height,
+                                     size_b.width, size_b.height));
+    }
+}
+
 std::optional<double> find_number(const ChannelImage& image, const std::string& key) {
     const auto found = image.metadata.find(key);
     const double* const number = found == image.metadata.end() ? nullptr : std::get_if<double>(&found->second);
@@ -79,10 +86,8 @@ ChannelImage decode_colour(ChannelImage image) {
 }
 
 Image<Rgb> linear_colour(const ChannelImage& image) {
-    Image<Rgb> colour = join_channels(image, "");
-    if (!is_encoded(image)) return colour;
-    for (Rgb& c : colour.pixels) c = {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)};
-    return colour;
+    if (is_encoded(image)) return join_channels(decode_colour(image), "");
+    return join_channels(image, "");
 }
 
 double display_white_of(const ChannelImage& a, const ChannelImage& b) {

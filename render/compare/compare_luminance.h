@@ -15,6 +15,9 @@ std::optional<double> find_number(const ChannelImage& image, const std::string& 
 /// The channels R, G and B whose names begin with a prefix, or nothing if one is missing.
 Image<Rgb> join_channels(const ChannelImage& image, const std::string& prefix);
 
+/// @throws InputError if the pictures differ in size, or one has no channels
+void check_sizes(const ChannelImage& a, const ChannelImage& b);
+
 /// Returns whether its values are sRGB, as those of 8-bit files are.
 bool is_encoded(const ChannelImage& image);
 /// Makes all channels but alpha of an encoded picture linear.

@@ -89,10 +89,7 @@ void VisibleCount::add(const VisibleMaps& maps, const Image<float>* saliency) {
 }
 
 VisibleShares VisibleCount::shares() const {
-    if (pixels_ == 0) return {};
-    const auto percent = [&](std::size_t count) {
-        return 100.0 * static_cast<double>(count) / static_cast<double>(pixels_);
-    };
+    const auto percent = [&](std::size_t count) { return percent_of(static_cast<double>(count), pixels_); };
     VisibleShares shares{percent(seen_), percent(flicker_), percent(lasting_)};
     if (has_saliency_ && looked_ > 0.0) shares.noticed = 100.0 * noticed_ / looked_;
     return shares;

@@ -55,9 +55,7 @@ struct SequenceSummary {
     std::optional<VisibleShares> visible;
 
     bool same() const { return different == 0; }
-    double percent(std::size_t count) const {
-        return pixels == 0 ? 0.0 : 100.0 * static_cast<double>(count) / static_cast<double>(pixels);
-    }
+    double percent(std::size_t count) const { return percent_of(static_cast<double>(count), pixels); }
 };
 
 /// Maps of the reference (`aleph maps`); both may be the same.

@@ -61,6 +61,11 @@ struct ReferenceNoise {
     std::size_t certain = 0;
 };
 
+/// 0 of no pixels.
+inline double percent_of(double count, std::size_t pixels) {
+    return pixels == 0 ? 0.0 : 100.0 * count / static_cast<double>(pixels);
+}
+
 /// Errors in units of the threshold.
 struct ThresholdFigures {
     std::size_t pixels = 0;
@@ -69,7 +74,7 @@ struct ThresholdFigures {
     double worst = 0.0;
     std::optional<ReferenceNoise> noise;  ///< if the reference has `variance.Y`
 
-    double percent(double count) const { return pixels == 0 ? 0.0 : 100.0 * count / static_cast<double>(pixels); }
+    double percent(double count) const { return percent_of(count, pixels); }
     double percent_beyond() const { return percent(static_cast<double>(beyond)); }
 };
 

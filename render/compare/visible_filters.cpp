@@ -6,8 +6,8 @@
 
 #include "perception/vision/castle.h"
 #include "perception/vision/display_hold.h"
-#include "perception/vision/luminance_curve.h"
 #include "perception/vision/retinal_velocity.h"
+#include "perception/vision/velocity_scale.h"
 #include "render/compare/visible_difference.h"
 
 namespace aleph {
@@ -15,35 +15,8 @@ namespace aleph {
 namespace {
 
 constexpr int luminance_nodes = 29;  // 4 a decade
-constexpr int velocity_nodes = 33;   // 0, then geometric
-constexpr double lowest_velocity = 0.1, highest_velocity = 400.0;
-
-double node_velocity(int i) {
-    if (i == 0) return 0.0;
-    return lowest_velocity *
-           std::pow(highest_velocity / lowest_velocity, (i - 1) / static_cast<double>(velocity_nodes - 2));
-}
-
-using Place = LuminanceGrid::Place;
-
-Place place_of(double at, int nodes) {
-    const double clamped = std::clamp(at, 0.0, nodes - 1.0);
-    const int node = std::min(static_cast<int>(clamped), nodes - 2);
-    return {node, static_cast<float>(clamped - node)};
-}
-
-Place luminance_place(float luminance) {
-    const double value = luminance > castle_min_luminance ? luminance : castle_min_luminance;
-    return place_of((std::log10(value) - std::log10(castle_min_luminance)) * 4.0, luminance_nodes);
-}
-
-Place velocity_place(float velocity) {
-    const double v = velocity > 0.0f ? velocity : 0.0;
-    if (v <= lowest_velocity) return {0, static_cast<float>(v / lowest_velocity)};
-    return place_of(
-        1.0 + std::log(v / lowest_velocity) / std::log(highest_velocity / lowest_velocity) * (velocity_nodes - 2),
-        velocity_nodes);
-}
+constexpr int velocity_nodes = 33;
+const VelocityScale velocities(velocity_nodes, 400.0);
 
 double sinc(double x) {
     const double angle = std::numbers::pi * x;
@@ -90,11 +63,11 @@ VisibleFilter::VisibleFilter(int channel, double frequency, const ViewingConditi
     float* out = nodes_.data();
     for (int l = 0; l < luminance_nodes; ++l) {
         for (int v = 0; v < velocity_nodes; ++v) {
-            const double followed = std::min(tracking * node_velocity(v), pursuit_limit);
+            const double followed = std::min(tracking * velocities.velocity(v), pursuit_limit);
             const TemporalResponse of{channel,
                                       frequency,
                                       LuminanceGrid::luminance(l, luminance_nodes - 1),
-                                      node_velocity(v) - followed,
+                                      velocities.velocity(v) - followed,
                                       hold_transfer(frequency, followed, persistence, frame_rate),
                                       persistence,
                                       rate};
@@ -111,7 +84,8 @@ VisibleFilter::VisibleFilter(int channel, double frequency, const ViewingConditi
 }
 
 float VisibleFilter::evaluate(float luminance, float velocity, float* weights) const {
-    const Place l = luminance_place(luminance), v = velocity_place(velocity);
+    const auto l = LuminanceGrid::place(fast_log2(LuminanceGrid::clamp(luminance)), luminance_nodes - 1);
+    const auto v = velocities.place(velocity);
     const auto stride = static_cast<std::size_t>(reach_ + 2);
     const float* low = nodes_.data() + (static_cast<std::size_t>(l.node) * velocity_nodes + v.node) * stride;
     const float* high = low + velocity_nodes * stride;

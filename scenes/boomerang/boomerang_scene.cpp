@@ -109,8 +109,7 @@ void add_boomerang(Scene& scene) {
     turn_about(scene, spin, {0.0, 1.0, 0.0},
                in_radians(even_track<double>(0.0, to_millionth(seconds), -40.0,
                                              -40.0 - boomerang_spin_degrees * boomerang_last_frame)));
-    scene.meshes.push_back(make_boomerang_mesh(material));
-    scene.nodes[spin].meshes = {static_cast<int>(scene.meshes.size()) - 1};
+    scene.nodes[spin].meshes = {append(scene.meshes, make_boomerang_mesh(material))};
 }
 
 /// Static in the first half, as in the figure of the thesis; then a slow move to the right that follows the boomerang:

@@ -27,8 +27,7 @@ TextureRef find_texture(const Scene& scene, const std::string& image) {
 }
 
 int add_material(Scene& scene, const Material& material) {
-    scene.materials.push_back(material);
-    return static_cast<int>(scene.materials.size()) - 1;
+    return append(scene.materials, material);
 }
 
 }  // namespace
@@ -52,8 +51,7 @@ int Group::add_mesh(const std::string& name, int mesh, const glm::dvec3& transla
 
 int Group::add_shape(const std::string& name, const Shape& shape, int material, const glm::dvec3& translation,
                      const glm::dquat& rotation) const {
-    scene.meshes.push_back(make_shape_mesh(shape, material, name));
-    return add_mesh(name, static_cast<int>(scene.meshes.size()) - 1, translation, rotation);
+    return add_mesh(name, append(scene.meshes, make_shape_mesh(shape, material, name)), translation, rotation);
 }
 
 int Group::add_rod(const std::string& name, const glm::dvec3& from, const glm::dvec3& to, double radius, int material,
@@ -93,8 +91,7 @@ void hang_camera(Scene& scene, double fov_degrees) {
     Camera camera;
     camera.name = "camera";
     camera.fov = glm::radians(fov_degrees);
-    scene.nodes.back().camera = static_cast<int>(scene.cameras.size());
-    scene.cameras.push_back(camera);
+    scene.nodes.back().camera = append(scene.cameras, camera);
 }
 
 void add_walking_camera(Scene& scene, const std::vector<CameraStop>& stops, double fov_degrees) {

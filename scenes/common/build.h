@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.h"
+#include "engine/scene/append.h"
 #include "engine/surface/shapes.h"
 
 namespace aleph {
@@ -14,9 +14,8 @@ inline const glm::dquat no_turn(1.0, 0.0, 0.0, 0.0);
 
 inline int add_node(Scene& scene, const std::string& name, int parent = no_index,
                     const glm::dvec3& translation = glm::dvec3(0.0), const glm::dquat& rotation = no_turn) {
-    scene.nodes.push_back(
-        {.name = name, .parent = parent, .transform = {.translation = translation, .rotation = rotation}});
-    return static_cast<int>(scene.nodes.size()) - 1;
+    return append(scene.nodes,
+                  {.name = name, .parent = parent, .transform = {.translation = translation, .rotation = rotation}});
 }
 
 /// Rotates a node about an axis. @param angle  radians

@@ -57,20 +57,18 @@ int add_cage(Scene& scene, const std::string& name, const CageShape& shape, int 
     points.positions.emplace_back();
     for (const glm::dvec3& p : shape.points)
         points.positions.front().emplace_back(rounded(p.x, 1e4), rounded(p.y, 1e4), rounded(p.z, 1e4));
-    scene.point_caches.push_back(points);
 
-    scene.cages.push_back(shape.cage);
-    Cage& cage = scene.cages.back();
+    Cage cage = shape.cage;
     cage.name = name;
-    cage.points = static_cast<int>(scene.point_caches.size()) - 1;
+    cage.points = append(scene.point_caches, points);
 
     Mesh mesh;
     mesh.name = name;
     mesh.material = material;
-    mesh.subdivision.cage = static_cast<int>(scene.cages.size()) - 1;
-    scene.meshes.push_back(mesh);
+    mesh.subdivision.cage = append(scene.cages, cage);
+    const int index = append(scene.meshes, mesh);
     tessellate_cage(scene, mesh.subdivision.cage);
-    return static_cast<int>(scene.meshes.size()) - 1;
+    return index;
 }
 
 int add_cage_node(const Group& group, const std::string& name, const CageShape& shape, int material,

@@ -30,12 +30,11 @@ export function pictureImage(layer, stops) {
   return image;
 }
 
-const paletteNames = { log: 'viridis', linear: 'viridis', diverging: 'blueorange' };
 const palettes = {};
 
 /** 256 colours of a scale, three bytes each. @param {"log"|"linear"|"diverging"} kind */
 export function palette(kind) {
-  const name = paletteNames[kind] ?? 'viridis';
+  const name = kind === 'diverging' ? 'blueorange' : 'viridis';
   if (!palettes[name]) {
     const color = scheme(name);
     palettes[name] = Uint8Array.from(Array.from({ length: 256 }, (_, i) => parseColor(color(i / 255))).flat());

@@ -22,7 +22,7 @@ const tooltip = new Handler({ disableDefaultStyle: true });
 /** Draws a chart into an element, in place of the one there. @param {object} spec  a Vega-Lite specification */
 export async function drawChart(node, spec) {
   views.get(node)?.finalize();
-  const compiled = compile({ ...spec, config: { ...config, ...spec.config } }).spec;
+  const compiled = compile({ ...spec, config }).spec;
   const view = new View(parse(compiled), { renderer: 'svg', logLevel: Warn }).tooltip(tooltip.call);
   views.set(node, view);
   node.replaceChildren();

@@ -4,7 +4,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { describe, it } from 'node:test';
 import { distanceForOne, pixelsPerDegree, scaleFor } from '../viewer/geometry.js';
-import { fit, randomFrom, thresholdOf, weibull, wilson } from '../viewer/psychometric.js';
+import { fit, randomFrom, thresholdOverScale, weibull, wilson } from '../viewer/psychometric.js';
 import { dimmedValues, shareOf } from '../viewer/brightness.js';
 import { evaluate } from '../viewer/results.js';
 import { byLevel, makeTrials, readResults, summarize, withoutCopies } from '../viewer/trials.js';
@@ -35,17 +35,17 @@ describe('statistics of the viewer test', () => {
   it('finds the threshold of simulated viewers', () => {
     for (const [scale, slope, seed] of [[2, 2, 1], [1, 3, 2], [4, 1.5, 3]]) {
       const found = fit(observe(scale, slope, 400, seed));
-      const truth = thresholdOf({ scale, slope });
+      const truth = scale * thresholdOverScale(slope);
       assert.ok(Math.abs(found.threshold / truth - 1) < 0.15, `${found.threshold} for ${truth}`);
       assert.ok(found.interval[0] < truth && truth < found.interval[1], `${found.interval} around ${truth}`);
     }
-    assert.ok(Math.abs(weibull(thresholdOf({ scale: 2, slope: 2 }), 2, 2) - 0.75) < 1e-12);
+    assert.ok(Math.abs(weibull(2 * thresholdOverScale(2), 2, 2) - 0.75) < 1e-12);
   });
 
   it('covers the threshold of simulated viewers as often as it says', () => {
     const viewers = 3; // whose answers are pooled
     for (const [seen, scale, slope, trials] of [[[0.5, 1, 2], 1, 2, 60], [[0.5, 1, 2, 4], 1.5, 3, 21], [levels, 1, 1, 39]]) {
-      const truth = thresholdOf({ scale, slope });
+      const truth = scale * thresholdOverScale(slope);
       let covered = 0;
       for (let test = 0; test < 120; ++test) {
         const all = Array.from({ length: viewers }, (_, i) => answersOf(seen, scale, slope, trials / viewers, 7919 * (viewers * test + i) + 13));

@@ -34,13 +34,8 @@ export function weibull(level, scale, slope) {
 }
 
 /** The level at which 75 % of the answers are right, over the scale. */
-function thresholdOverScale(slope) {
+export function thresholdOverScale(slope) {
   return (-Math.log(1 - 0.25 / (0.5 - lapse))) ** (1 / slope);
-}
-
-/** The level at which 75 % of the answers are right. */
-export function thresholdOf({ scale, slope }) {
-  return scale * thresholdOverScale(slope);
 }
 
 function logLikelihood(rows, scale, slope) {

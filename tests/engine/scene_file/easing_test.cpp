@@ -114,7 +114,11 @@ TEST(Easing, QuaternionsTakeTheShortWayAndReachTheirKeys) {
 }
 
 TEST(Easing, SingleKeysStayConstants) {
-    EXPECT_EQ(eased("smooth", "[[3, 7]]").values, std::vector<double>{7.0});
+    const Track<double> track = eased("smooth", "[[3, 7]]");
+    EXPECT_EQ(track.values, std::vector<double>{7.0});
+    EXPECT_EQ(track.interpolation, Interpolation::linear);
+    const Scene scene = read_node(R"("translation": {"interpolation": "ease", "keys": [[0, [1, 2, 3]]]})");
+    EXPECT_TRUE(again(scene) == scene);
 }
 
 TEST(Easing, Refused) {

@@ -123,11 +123,11 @@ TEST(Shapes, CylinderWallUnrollsItsImage) {
     const Mesh mesh = make_shape_mesh(shape);
     for (std::size_t i = 0; i <= 12; ++i) {
         for (const std::size_t end : {0u, 1u}) {
-            const glm::vec2 uv = mesh.uv[0][2 * i + end];
+            const std::size_t vertex = 13 * end + i;
+            const glm::vec2 uv = mesh.uv[0][vertex];
             EXPECT_FLOAT_EQ(uv.x, static_cast<float>(i) / 12.0f);
             EXPECT_EQ(uv.y, static_cast<float>(end));
-            EXPECT_FLOAT_EQ(mesh.positions[2 * i + end].y,
-                            (end == 0 ? 0.5f : -0.5f) * static_cast<float>(shape.height));
+            EXPECT_FLOAT_EQ(mesh.positions[vertex].y, (end == 0 ? 0.5f : -0.5f) * static_cast<float>(shape.height));
         }
     }
 }
