@@ -188,8 +188,10 @@ CellRange find_cells(const SkyOpenings& box, const SkyOpening& opening) {
     const std::array<int, 2> along = other_axes(opening.side / 2);
     for (int i = 0; i < 2; ++i) {
         const float low = box.low[along[i]], cell = (box.high - box.low)[along[i]] / grid;
-        range.low[i] = std::max(0, static_cast<int>(std::floor((opening.low[i] - low) / cell)));
-        range.high[i] = std::min(grid, static_cast<int>(std::ceil((opening.high[i] - low) / cell))) - 1;
+        // In this order NaN becomes 0.
+        const auto place = [&](float at) { return std::fmin(std::fmax((at - low) / cell, 0.0f), float{grid}); };
+        range.low[i] = static_cast<int>(std::floor(place(opening.low[i])));
+        range.high[i] = static_cast<int>(std::ceil(place(opening.high[i]))) - 1;
     }
     return range;
 }
