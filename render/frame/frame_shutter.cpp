@@ -142,16 +142,15 @@ FrameCounts find_shutter_light(SequenceState& s, std::int64_t frame, const Prepa
     FrameCounts counts;
     const RenderSettings& settings = prepared.plan.settings;
     const std::optional<ShutterInterval> shutter = s.shot.open_shutter(frame);
-    if (!shutter || settings.light.integrator != Integrator::cache || settings.light.bounces == 0 ||
-        settings.light.path_depth < 2 || !(settings.cache.accuracy > 0.0))
-        return counts;
+    if (!shutter || settings.light.integrator != Integrator::cache) return counts;
+    add_lights_of_ends(s, frame, prepared, *shutter, counts.rays);
+    if (settings.light.bounces == 0 || settings.light.path_depth < 2 || !(settings.cache.accuracy > 0.0)) return counts;
     std::vector<double> jumps;
     if (!options.light_lasts) {
         const double rate = s.shot.scene.film.frame_rate.per_second();
         jumps = find_key_times(s.shot.scene, shutter->open / rate, shutter->close / rate);
         for (double& time : jumps) time *= rate;
     }
-    add_lights_of_ends(s, frame, prepared, *shutter, counts.rays);
     ShutterPlaces places{choose_places(s, prepared), s.here.shading(), prepared.out.limits.alpha};
     ShutterKeyLight keys({s, frame, prepared, request, options}, places, counts);
     const int most = carried ? 0 : std::min(most_spans, settings.sampling.spp / least_samples);

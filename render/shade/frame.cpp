@@ -256,10 +256,9 @@ class FrameShading {
     }
 
     void report_errors() {
-        const RenderSettings& settings = context_.settings;
         const bool blurred = options_.at_sample || options_.lens.radius > 0.0;
         out_.errors = estimate_errors(pixels_, *options_.limits, exposure_, blurred);
-        out_.error_shares = count_errors(out_.errors, settings.error > 0.0 ? settings.error : 1.0);
+        out_.error_shares = count_errors(out_.errors, context_.settings.error > 0.0 ? context_.settings.error : 1.0);
     }
 
     /// Adds what a task counted.

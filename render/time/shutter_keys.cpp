@@ -157,7 +157,7 @@ ShutterTimes choose_times(const ShutterInterval& shutter, const std::vector<doub
     const std::vector<KeyTime> looks = look_around_center(shutter, pose);
     if (jump_times.empty()) {
         times.from_center = find_changes_from_center(places, looks);
-        if (center_does(places, looks, times.from_center)) return times;
+        if (most == 0 || center_does(places, looks, times.from_center)) return times;
     }
     const std::vector<KeySpan> parts = cut_at_jumps(shutter, jump_times, pose);
     std::vector<KeySpan>& spans = times.spans;

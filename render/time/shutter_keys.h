@@ -74,7 +74,7 @@ bool is_same(const ShadingScene& a, const ShadingScene& b);
 /// Chooses the spans for light at these places: as many as nearly all of it needs, while each doubling makes much more
 /// of it known.
 /// @param jumps  frames, at which light may jump, in order
-/// @param most   spans
+/// @param most   spans; 0: changes from the centre alone
 ShutterTimes choose_times(const ShutterInterval& shutter, const std::vector<double>& jumps, const ShutterPlaces& places,
                           const PoseAt& pose, int most);
 
