@@ -72,6 +72,14 @@ TEST(KnownLights, MC23_HiddenLightsHaveAShareOfTheSamplesHoweverLittleIsSeen) {
     EXPECT_LE(hidden.share, 0.5f);
 }
 
+TEST(KnownLights, HiddenAtTwoTimesIsWhatIsHiddenAtBoth) {
+    const HiddenLights first{0.5f, 1.0f, {true, true, false}}, second{0.5f, 1.0f, {true, false, true}};
+    KnownLights known{.openings = {}, .unseen = first, .unmet = first};
+    add_known_lights({.openings = {}, .unseen = second, .unmet = {}}, glm::vec3(0.0f), known);
+    EXPECT_EQ(known.unseen.which, (std::vector<bool>{true, false, false}));
+    EXPECT_TRUE(known.unmet.empty()) << "nothing is hidden at the other time";
+}
+
 /// Ways of light from one place, with lights as they are known or by power alone.
 struct SpotLight {
     Mean direct, indirect;

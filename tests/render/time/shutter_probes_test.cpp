@@ -74,5 +74,24 @@ TEST(ShutterProbes, MC27_ARoomThatIsDarkAtTheCenterGetsItsLight) {
     EXPECT_NEAR(find_mean(Integrator::cache, 64), traced, 0.06f * traced);
 }
 
+/// Frame 1 of a room whose blind moves while the shutter is open, by direct light alone.
+double count_samples(const glm::dvec3& from, const glm::dvec3& to) {
+    Scene scene = make_room_with_blind(Track<glm::dvec3>({0.0, 2.0}, {from, to}));
+    scene.film.exposure = 100.0;
+    scene.film.frame_rate = {.numerator = 1};
+    scene.cameras[0].shutter = {-1.0, 1.0};
+    RenderSettings settings;
+    settings.picture = {.width = width, .height = height};
+    follow_error(settings, 1.0);
+    settings.light.bounces = 0;
+    return static_cast<double>(Sequence(scene, settings).render(1).statistics.counts.samples);
+}
+
+/// Half of the window is hidden at the centre.
+TEST(ShutterProbes, SamplesGoToTheWholeWindowThatABlindOpens) {
+    const double still = count_samples(place_blind(0.6), place_blind(0.61));
+    EXPECT_LT(count_samples(place_blind(0.0), place_blind(1.2)), 10.0 * still);
+}
+
 }  // namespace
 }  // namespace aleph
