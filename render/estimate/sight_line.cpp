@@ -89,8 +89,7 @@ bool SightLine::reflect() {
 float SightLine::weight_beyond() const {
     const PathState& turned = way_.turned;
     if (turned.emission == EmissionWeight::full || !lighting_.lights.has_environment) return 1.0f;
-    return power_heuristic(turned.pdf,
-                           pdf_environment(lighting_.shading, turned.from, direction(), lighting_.openings));
+    return power_heuristic(turned.pdf, pdf_environment(lighting_.shading, turned.from, direction()));
 }
 
 /// First hits do not tell what they passed.
@@ -136,7 +135,7 @@ void SightLine::note_blurred_reflection() {
     PathState& turned = reflected_->turned;
     turned.emission = EmissionWeight::weighted;
     turned.pdf = sample.pdf;
-    turned.from = {lit.point.ray_origin(), lit.point.normal};
+    turned.from = {lit.point.ray_origin(), lit.point.normal, false, nullptr, lighting_.openings};
     turn(lit, sample.direction, *reflected_);
 }
 

@@ -21,9 +21,6 @@ inline constexpr double error_deviations = 1.585;
 /// .8: the share of the pixels in which noise is seen rises more steeply than the noise.
 double allow_noise(double error);
 
-/// Samples that tell whether a pixel is shown white: hardly all of them miss what is bright in it, or what is dark.
-inline constexpr int white_samples = 16;
-
 /// Errors that a viewer tolerates in a frame. Images have the frame's size.
 struct VisibleLimits {
     const Image<float>& threshold;  ///< cd/m2 (6.9)

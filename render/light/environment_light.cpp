@@ -40,9 +40,9 @@ float openings_share(const ShadingScene& shading) {
 
 }  // namespace
 
-LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, glm::vec2 u,
-                                const SkyOpenings* openings) {
+LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, glm::vec2 u) {
     LightSample sample;
+    const SkyOpenings* const openings = receiver.openings;
     const SeenOpenings seen = openings != nullptr ? see_openings(*openings, receiver) : SeenOpenings{};
     if (seen.total > 0.0f) {
         const float share = openings_share(shading);
@@ -60,13 +60,13 @@ LightSample sample_surroundings(const ShadingScene& shading, const Receiver& rec
     return sample;
 }
 
-float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction,
-                      const SkyOpenings* openings) {
+float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction) {
     const float anywhere = pdf_anywhere(shading, receiver, direction);
-    if (openings == nullptr) return anywhere;
-    const SeenOpenings seen = see_openings(*openings, receiver);
+    if (receiver.openings == nullptr) return anywhere;
+    const SeenOpenings seen = see_openings(*receiver.openings, receiver);
     if (!(seen.total > 0.0f)) return anywhere;
-    return std::lerp(anywhere, pdf_openings(*openings, seen, receiver.position, direction), openings_share(shading));
+    return std::lerp(anywhere, pdf_openings(*receiver.openings, seen, receiver.position, direction),
+                     openings_share(shading));
 }
 
 }  // namespace aleph

@@ -32,9 +32,8 @@ ScatteredLight sample_one_light(const LightingContext& context, const Receiver& 
     const LightPick pick = pick_light(cut, receiver, numbers.choice);
     // A value that is not finite is not hidden: the sample is dropped and counted.
     if (pick.light == no_index) return {{}, Rgb(std::isfinite(cut.total) ? 0.0f : cut.total)};
-    return scatter(
-        sample_light(context.shading, context.lights, pick.light, receiver, numbers.point, 0.0f, context.openings),
-        pick.probability);
+    return scatter(sample_light(context.shading, context.lights, pick.light, receiver, numbers.point),
+                   pick.probability);
 }
 
 }  // namespace
@@ -47,7 +46,7 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
 
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             const LightNumbers& numbers) {
-    const Receiver receiver = make_receiver(lit);
+    const Receiver receiver = make_receiver(context, lit);
     const auto scatter = [&](const LightSample& sample, float probability) -> ScatteredLight {
         if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
         return {make_shadow_ray(lit, sample),
@@ -59,7 +58,7 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
 
 ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
                                     const LightNumbers& numbers) {
-    const Receiver receiver{place.ray_origin(), place.normal};
+    const Receiver receiver{place.ray_origin(), place.normal, false, nullptr, context.openings};
     const auto scatter = [&](const LightSample& sample, float probability) -> ScatteredLight {
         const float cosine = glm::dot(place.normal, sample.direction);
         if (!(cosine > 0.0f && glm::dot(place.geometric, sample.direction) > 0.0f)) return {};

@@ -28,9 +28,9 @@ struct LightingContext {
 };
 
 /// The receiver by which lights are chosen for a surface. It may refer to it.
-inline Receiver make_receiver(const LitSurface& lit) {
+inline Receiver make_receiver(const LightingContext& context, const LitSurface& lit) {
     return {lit.point.ray_origin(), lit.point.normal, lit.material.has_glass(),
-            lit.material.is_gloss_alone() ? &lit : nullptr};
+            lit.material.is_gloss_alone() ? &lit : nullptr, context.openings};
 }
 
 /// Light of one light that a surface scatters towards its viewer, before its shadow ray is cast.

@@ -26,14 +26,24 @@ float look_through_lobe(const LitSurface& lit, const glm::vec3& offset, float ra
     return least + ggx_d(glm::sqrt(widths * widths + 0.25f * size * size), half);
 }
 
+/// About how much of a light's sphere the receiver scatters, over what its illuminance tells.
+/// @param center  m, of a light nearby; else the unit vector towards it, or 0
+float find_seen_share(const Receiver& receiver, const glm::vec3& center, float radius, bool nearby) {
+    float share = 1.0f;
+    if (receiver.openings != nullptr && !nearby && (radius == 0.0f || center == glm::vec3(0.0f)))
+        share = estimate_open_share(*receiver.openings, receiver, center);
+    if (receiver.gloss != nullptr)
+        share *= look_through_lobe(*receiver.gloss, nearby ? center - receiver.position : center, radius);
+    return share;
+}
+
 /// What the nodes of a group bring, as the receiver scatters it.
 LightReaches scattered_reach_of(const LightGroup& group, const Receiver& receiver) {
     LightReaches reaches = reach_of(group, receiver);
-    if (receiver.gloss == nullptr) return reaches;
+    if (receiver.gloss == nullptr && receiver.openings == nullptr) return reaches;
     for (int i = 0; i < group.used; ++i) {
         const glm::vec3 center(group.center.x[i], group.center.y[i], group.center.z[i]);
-        const float seen =
-            look_through_lobe(*receiver.gloss, center - group.nearby[i] * receiver.position, group.radius[i]);
+        const float seen = find_seen_share(receiver, center, group.radius[i], group.nearby[i] > 0.0f);
         reaches.bounds[i] *= seen;
         reaches.estimates[i] *= seen;
     }
@@ -124,12 +134,11 @@ LightCut take_all_lights(const LightSet& lights, const Receiver& receiver) {
     static_assert(LightCut::few % LightBounds::step == 0 && LightCut::few <= LightCut::capacity);
     const LightBounds& bounds = lights.bounds;
     bound_illuminances(bounds, receiver, {cut.weights.data(), bounds.strength.size()});
-    const bool by_lobe = receiver.gloss != nullptr && cut.size > 1;
+    const bool by_share = (receiver.gloss != nullptr || receiver.openings != nullptr) && cut.size > 1;
     for (int i = 0; i < cut.size; ++i) {
-        if (by_lobe) {
+        if (by_share) {
             const glm::vec3 center(bounds.x[i], bounds.y[i], bounds.z[i]);
-            cut.weights[i] *=
-                look_through_lobe(*receiver.gloss, center - bounds.nearby[i] * receiver.position, bounds.radius[i]);
+            cut.weights[i] *= find_seen_share(receiver, center, bounds.radius[i], bounds.nearby[i] > 0.0f);
         }
         cut.ends[i] = cut.total += cut.weights[i];
     }

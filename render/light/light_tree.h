@@ -11,6 +11,7 @@
 namespace aleph {
 
 struct LitSurface;
+struct SkyOpenings;
 
 /// One light, or several.
 struct LightNode {
@@ -39,6 +40,7 @@ struct Receiver {
     bool behind = false;     ///< light from behind the surface counts as well
     /// The surface if it has gloss alone: a light counts by what the lobe shows of it. Null: by its illuminance.
     const LitSurface* gloss = nullptr;
+    const SkyOpenings* openings = nullptr;  ///< of the sky, as far as they are known; null: light comes from anywhere
 };
 
 /// Illuminance that eight nodes can bring to a surface without shadows.

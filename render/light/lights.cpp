@@ -258,20 +258,19 @@ SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position
 }
 
 LightSample sample_seen_light(const ShadingScene& shading, const LightSet& lights, const SeenLight& seen,
-                              const Receiver& receiver, const glm::vec2& u, float share, const SkyOpenings* openings) {
+                              const Receiver& receiver, const glm::vec2& u, float share) {
     const int emitters = static_cast<int>(lights.emitters.size());
     if (seen.light < emitters) {
         return sample_emitter(shading, lights.emitters[seen.light], seen, receiver.position, u, share);
     }
     const int punctual = seen.light - emitters;
     if (punctual < std::ssize(lights.punctual)) return sample_punctual(lights.punctual[punctual], receiver);
-    return sample_surroundings(shading, receiver, u, openings);
+    return sample_surroundings(shading, receiver, u);
 }
 
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
-                         const glm::vec2& u, float share, const SkyOpenings* openings) {
-    return sample_seen_light(shading, lights, see_light(lights, light, receiver.position), receiver, u, share,
-                             openings);
+                         const glm::vec2& u, float share) {
+    return sample_seen_light(shading, lights, see_light(lights, light, receiver.position), receiver, u, share);
 }
 
 }  // namespace aleph

@@ -76,21 +76,18 @@ struct LightSample {
 };
 
 /// Density per steradian of sample_light for the environment.
-float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction,
-                      const SkyOpenings* openings = nullptr);
+float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction);
 
-/// A sample of the environment; sample_light of its number.
-LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, glm::vec2 u,
-                                const SkyOpenings* openings);
+/// A sample of the environment; sample_light of its number. Most of them go towards the receiver's openings.
+LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, glm::vec2 u);
 
 /// A sample of one light as a point sees it, u in [0,1)^2. `incoming` is 0 if the light cannot reach the point even
 /// without obstacles (behind an emitter, zero area, out of range, outside a spot's cone). A constant environment is
 /// sampled by cosine around the receiver's normal, a picture by its luminance.
 /// @param share  of an area light's samples that this one represents: its texture is averaged over its part of the
 ///               area. 0: the texture is read at the sampled point
-/// @param openings  of the sky, towards which most of the environment's samples go; null: none
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
-                         const glm::vec2& u, float share = 0.0f, const SkyOpenings* openings = nullptr);
+                         const glm::vec2& u, float share = 0.0f);
 
 /// Density per solid angle of sample_light. Emitters of few triangles are sampled by solid angle if they are near, all
 /// others by area, of those sides that may face the receiver; those with cells by these, and near ones half by solid
@@ -137,8 +134,7 @@ SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position
 
 /// sample_light of a light that this receiver sees.
 LightSample sample_seen_light(const ShadingScene& shading, const LightSet& lights, const SeenLight& seen,
-                              const Receiver& receiver, const glm::vec2& u, float share = 0.0f,
-                              const SkyOpenings* openings = nullptr);
+                              const Receiver& receiver, const glm::vec2& u, float share = 0.0f);
 
 /// LightSet::bounds.
 LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights);

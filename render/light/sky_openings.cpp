@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <limits>
+#include <numbers>
 
 #include "render/light/lights.h"
 
@@ -39,6 +40,7 @@ namespace {
 /// sr, of each half: smaller ones are sampled by area, as sample_spherical_triangle would be too coarse.
 constexpr float least_solid_angle = 2e-3f;
 constexpr float least_cosine = 0.05f;  // of an opening that hardly faces the surface
+constexpr float least_open_share = 1.0f / 128.0f;
 
 /// Returns whether an opening is sampled by area.
 bool is_small(const SeenOpenings& seen, std::size_t i) {
@@ -55,6 +57,20 @@ float find_opening_density(const SkyOpening& opening, const SeenOpenings& seen, 
 }
 
 }  // namespace
+
+float estimate_open_share(const SkyOpenings& all, const Receiver& receiver, const glm::vec3& direction) {
+    if (!is_inside(all, receiver.position)) return 1.0f;
+    if (direction != glm::vec3(0.0f)) {
+        const BoxExit exit = leave_box(all, receiver.position, direction);
+        const bool is_open = std::ranges::any_of(all.openings, [&](const SkyOpening& o) {
+            return o.side == exit.side && glm::all(glm::greaterThanEqual(exit.at, o.low)) &&
+                   glm::all(glm::lessThanEqual(exit.at, o.high));
+        });
+        return is_open ? 1.0f : least_open_share;
+    }
+    const float share = least_open_share + see_openings(all, receiver).total / std::numbers::pi_v<float>;
+    return std::min(share, 1.0f);
+}
 
 SeenOpenings see_openings(const SkyOpenings& all, const Receiver& receiver) {
     SeenOpenings seen;

@@ -42,6 +42,11 @@ bool is_inside(const SkyOpenings& box, const glm::vec3& position);
 /// @param origin  inside of the box
 BoxExit leave_box(const SkyOpenings& box, const glm::vec3& origin, const glm::vec3& direction);
 
+/// About the share of light from outside of the box that openings let in to a receiver, a little at least: what was
+/// missed keeps some samples.
+/// @param direction  unit, towards the light; 0: it comes from all around
+float estimate_open_share(const SkyOpenings& openings, const Receiver& receiver, const glm::vec3& direction);
+
 /// The openings that a receiver sees; none for one outside of the box.
 struct SeenOpenings {
     std::array<std::array<float, 2>, SkyOpenings::most> angles{};  ///< sr, of both halves

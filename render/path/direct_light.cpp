@@ -42,7 +42,7 @@ class ChosenLights {
         : context_(context),
           lit_(lit),
           shares_(shares),
-          receiver_(make_receiver(lit)),
+          receiver_(make_receiver(context, lit)),
           cut_(find_light_cut(context.lights, receiver_, context.seen != nullptr ? &context.seen->others : nullptr)) {}
 
     /// Light of one sample of `count`.
@@ -71,8 +71,8 @@ class ChosenLights {
         if (pick.light == no_index) return Rgb(0.0f);
         SeenLight& seen = seen_[static_cast<std::size_t>(pick.light) % seen_.size()];
         if (seen.light != pick.light) seen = see_light(context_.lights, pick.light, receiver_.position);
-        const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen, receiver_, {pick.rest, v},
-                                                     light_share, context_.openings);
+        const LightSample sample =
+            sample_seen_light(context_.shading, context_.lights, seen, receiver_, {pick.rest, v}, light_share);
         if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return Rgb(0.0f);
         return find_unblocked(context_, task, lit_, sample,
                               scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
@@ -108,15 +108,14 @@ Rgb estimate_chosen_lights(const LightingContext& context, RayTask& task, const 
 Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples,
                         const LobeShares& followed) {
     Rgb sum(0.0f);
-    const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
+    const Receiver receiver{lit.point.ray_origin(), lit.point.normal, false, nullptr, context.openings};
     for (int light = 0; light < context.lights.count(); ++light) {
         const int count = has_area(context.lights, light) ? samples : 1;
         const float share = 1.0f / static_cast<float>(count);
         const SeenLight seen = see_light(context.lights, light, receiver.position);
         for (int i = 0; i < count; ++i) {
-            const LightSample sample =
-                sample_seen_light(context.shading, context.lights, seen, receiver,
-                                  lattice_point(i, count, estimate_shift), share, context.openings);
+            const LightSample sample = sample_seen_light(context.shading, context.lights, seen, receiver,
+                                                         lattice_point(i, count, estimate_shift), share);
             if (!lit.is_reached(sample.direction)) continue;
             sum +=
                 find_unblocked(context, task, lit, sample,

@@ -29,7 +29,7 @@ float weigh(const PathState& state, float light_pdf) {
 Rgb met_surroundings(const LightingContext& context, const PathState& state, const glm::vec3& direction) {
     if (!context.lights.has_environment || state.emission == EmissionWeight::none) return Rgb(0.0f);
     const bool weighted = state.emission == EmissionWeight::weighted;
-    const float light_pdf = weighted ? pdf_environment(context.shading, state.from, direction, context.openings) : 0.0f;
+    const float light_pdf = weighted ? pdf_environment(context.shading, state.from, direction) : 0.0f;
     return environment_radiance(context.shading, direction) * weigh(state, light_pdf);
 }
 
@@ -95,7 +95,7 @@ class Path {
         if (!sample.straight) {
             state_.emission = sample.pdf > 0.0f ? EmissionWeight::weighted : EmissionWeight::full;
             state_.pdf = sample.pdf;
-            state_.from = {lit.point.ray_origin(), lit.point.normal};
+            state_.from = {lit.point.ray_origin(), lit.point.normal, false, nullptr, context_.openings};
         }
         if (sample.lobe == Lobe::diffuse) {
             --state_.left.bounces;

@@ -11,7 +11,7 @@ namespace aleph {
 
 namespace {
 
-constexpr std::string_view magic = "alephC2\n";
+constexpr std::string_view magic = "alephC3\n";
 constexpr std::size_t digest_size = 40;
 
 }  // namespace

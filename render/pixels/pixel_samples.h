@@ -3,7 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
 #include <optional>
 
 #include "engine/base/color.h"
@@ -13,6 +14,9 @@ namespace aleph {
 
 /// First samples of a pixel with `threshold`: its neighbours tell the error of eight times as many.
 inline constexpr int own_samples = 4;
+
+/// Samples that tell whether a pixel is shown white: hardly all of them miss what is bright in it, or what is dark.
+inline constexpr int white_samples = 16;
 
 /// Parts of a sample's light whose errors are told apart.
 enum class LightPart : std::uint8_t {
@@ -43,7 +47,7 @@ struct SampleLight {
     Rgb indirect{0.0f};             ///< what the surface reflects of its indirect irradiance; within LightPart::surface
     std::optional<Rgb> irradiance;  ///< indirect, that was looked up for it
     SampledPlace place{};
-    float control = 0.0f;  ///< luminance of what a control variate added, within LightPart::direct
+    Rgb control{0.0f};  ///< what a control variate added, within LightPart::direct
 
     Rgb& operator[](LightPart part) { return parts[static_cast<std::size_t>(part)]; }
     Rgb total() const { return parts[0] + parts[1] + parts[2]; }
@@ -53,8 +57,12 @@ struct SampleLight {
 /// error is found from halves (README.md): an upper bound where these complement each other.
 class PixelSamples {
   public:
+    /// @param white  what a display shows as white in each channel: errors beyond it go unseen
+    explicit PixelSamples(float white = std::numeric_limits<float>::infinity()) : white_(white) {}
+
     /// Squared errors of the mean, of luminance and of its red-green signal in the luminance that it is worth
-    /// (noise_threshold.h): lamps of two hues may leave noise that luminance alone does not show.
+    /// (noise_threshold.h): lamps of two hues may leave noise that luminance alone does not show. Channels that are
+    /// shown white have none.
     struct Error {
         float total = 0.0f;
         std::array<float, light_part_count> parts{};
@@ -98,8 +106,7 @@ class PixelSamples {
     bool has_edge() const { return edge_; }
 
   private:
-    /// Luminance and red-green signal, by part of the light; sums over the valid samples.
-    using Signals = std::array<glm::dvec2, light_part_count>;
+    using Parts = std::array<glm::dvec3, light_part_count>;
     /// Mean, and squared differences from it (Welford 1962).
     struct Spread {
         double mean = 0.0, squares = 0.0;
@@ -109,25 +116,26 @@ class PixelSamples {
         int count = 0;
     };
     struct FirstHalf {
-        Signals signals{};     ///< of the samples before the present half
-        double control = 0.0;  ///< of these
+        Parts parts{};            ///< of the samples before the present half
+        glm::dvec3 control{0.0};  ///< of these
         int valid = 0;
     };
 
     void end_sample();
+    glm::dvec3 find_shown_channels(const glm::dvec3& first, const glm::dvec3& second) const;
 
     glm::dvec3 radiance_{0.0};
     Rgb indirect_{0.0f};
     int taken_ = 0, valid_ = 0, hits_ = 0;
     Spread luminance_;
-    Signals signals_{};
-    double control_ = 0.0;
+    Parts parts_{};  ///< sums over the valid samples
+    glm::dvec3 control_{0.0};
     FirstHalf first_half_;
     Error error_;
     SampledPlace first_;  ///< of the first sample
     FoundIrradiance irradiance_;
     std::optional<Rgb> kept_mean_;
-    float seen_variance_ = 0.0f;
+    float seen_variance_ = 0.0f, white_;
     bool edge_ = false;
 };
 

@@ -36,10 +36,10 @@ class FrameShading {
         : context_(context),
           options_(options),
           out_(out),
-          pixels_(context.view.width, context.view.height),
           place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)),
           exposure_(exposure),
           plan_(make_sampling_plan(options.limits, context.settings, exposure)),
+          pixels_(context.view.width, context.view.height, PixelSamples(static_cast<float>(plan_.white))),
           integrator_(make_integrator({context, options, out, place_.noise_key, plan_.tolerance})) {
         plan_.part = options.part;
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
@@ -224,7 +224,7 @@ class FrameShading {
                 if (!texture || texture->pixel() != glm::ivec2(x, y)) texture.emplace(textures_->find_texture(x, y));
                 const Rgb correction = texture->correct(at);
                 light[LightPart::direct] += correction;
-                light.control = luminance(correction);
+                light.control = correction;
             }
             if (const EdgeLight* edge = edges_.find(x, y)) {
                 Rgb& seen = light[LightPart::surface];
@@ -283,12 +283,12 @@ class FrameShading {
     const IndirectContext& context_;
     const SampleOptions& options_;
     ShadedFrame& out_;
-    Image<PixelSamples> pixels_;
     std::optional<TextureControl> textures_;
     EdgeLights edges_;
     SamplePlace place_;  ///< of the first sample
     const double exposure_;
     SamplingPlan plan_;
+    Image<PixelSamples> pixels_;
     const std::unique_ptr<LightIntegrator> integrator_;
     const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
     SampleHits cast_first_;

@@ -1,5 +1,6 @@
 // Openings towards the sky: where they are found, and that samples towards them have the density that is told.
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "render/frame/sequence.h"
@@ -174,13 +175,13 @@ TEST(SkyOpenings, ASmallOneIsSampledByArea) {
 }
 
 /// Illuminance of the sky, sample by sample.
-Mean light_of_sky(const Stage& stage, const Receiver& receiver, const SkyOpenings* openings) {
+Mean light_of_sky(const Stage& stage, Receiver receiver, const SkyOpenings* openings) {
+    receiver.openings = openings;
     Mean light;
     RayTask task(stage.rays);
     RandomStream random({5, 0, 0, 0});
     for (int i = 0; i < 50'000; ++i) {
-        const LightSample sample =
-            sample_light(stage.shading, stage.lights, 0, receiver, random.next_2d(), 0.0f, openings);
+        const LightSample sample = sample_light(stage.shading, stage.lights, 0, receiver, random.next_2d());
         const float cosine = glm::dot(sample.direction, receiver.normal);
         const bool arrives = cosine > 0.0f && !task.tracer.occluded({receiver.position, sample.direction});
         light.add(arrives ? sample.incoming.x * cosine : 0.0f);
@@ -200,6 +201,58 @@ TEST(SkyOpenings, KeepTheLightAndTakeItsNoise) {
             EXPECT_LT(2.0 * aimed.error(), plain.error());
         }
     }
+}
+
+TEST(SkyOpenings, TellAboutHowMuchTheyLetIn) {
+    const Stage stage(make_room_with_window());
+    const SkyOpenings openings = find_openings(stage).value();
+    for (const Receiver& receiver : make_receivers(stage)) {
+        const double share = light_of_sky(stage, receiver, nullptr).mean() / pi;
+        const float told = estimate_open_share(openings, receiver, glm::vec3(0.0f));
+        EXPECT_GT(told, 0.8 * share);
+        EXPECT_LT(told, 2.0 * share + 0.05);
+        const glm::vec3 window = glm::vec3(2.0f, 1.5f, 0.0f) - glm::vec3(stage.shading.anchor);
+        EXPECT_EQ(estimate_open_share(openings, receiver, glm::normalize(window - receiver.position)), 1.0f);
+        EXPECT_LT(estimate_open_share(openings, receiver, glm::normalize(glm::vec3(1.0f, 0.1f, 2.0f))), 0.05f);
+        EXPECT_GT(estimate_open_share(openings, receiver, glm::normalize(glm::vec3(1.0f, 0.1f, 2.0f))), 0.0f);
+    }
+    const Receiver outside{openings.high + 1.0f, up};
+    EXPECT_EQ(estimate_open_share(openings, outside, glm::vec3(0.0f)), 1.0f);
+    EXPECT_EQ(estimate_open_share(openings, outside, up), 1.0f);
+}
+
+/// Light of one choice among all lights, at a white place.
+Mean light_of_choices(const LightingContext& lighting, const SurfacePlace& place) {
+    Mean light;
+    RayTask task(lighting.rays);
+    RandomStream random({6, 0, 0, 0});
+    for (int i = 0; i < 50'000; ++i) {
+        const ScatteredLight way = choose_lambert_light(lighting, place, {random.next(), random.next_2d()});
+        const bool arrives = way.radiance != Rgb(0.0f) && !task.tracer.occluded(way.shadow_ray);
+        light.add(arrives ? way.radiance.x : 0.0f);
+    }
+    return light;
+}
+
+TEST(SkyOpenings, ASunTakesSamplesOnlyWhereItShines) {
+    Scene scene = make_room_with_window();
+    const Stage cloudy(scene);
+    add_light(scene, Light::Kind::directional, glm::dvec3(50.0), glm::dvec3(0.0),
+              glm::quatLookAt(glm::normalize(glm::dvec3(-1.0, -0.6, 0.0)), glm::dvec3(0.0, 1.0, 0.0)));
+    const Stage sunny(std::move(scene));
+    const SkyOpenings openings = find_openings(sunny).value();
+    const auto light_at = [&](const Stage& stage, float z, bool with_openings) {
+        LightingContext lighting = stage.lighting();
+        if (with_openings) lighting.openings = &openings;
+        return light_of_choices(lighting, make_point(glm::vec3(-0.5f, 0.0f, z) - glm::vec3(stage.shading.anchor), up));
+    };
+    for (const float z : {0.0f, 1.5f}) {
+        const Mean plain = light_at(sunny, z, false), aimed = light_at(sunny, z, true);
+        EXPECT_NEAR(aimed.mean(), plain.mean(), 4.0 * std::hypot(plain.error(), aimed.error()));
+        EXPECT_LT(2.0 * aimed.error(), plain.error());
+    }
+    EXPECT_GT(light_at(sunny, 0.0f, true).mean(), 50.0 * 0.5 / std::numbers::pi) << "it shines here";
+    EXPECT_LT(light_at(sunny, 1.5f, true).error(), 3.0 * light_at(cloudy, 1.5f, true).error());
 }
 
 TEST(SkyOpenings, ARoomWithAWindowTakesFewSamples) {

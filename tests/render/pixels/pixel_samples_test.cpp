@@ -42,6 +42,33 @@ TEST(PixelSamples, NoiseOfHueAloneIsAnError) {
     EXPECT_NEAR(sum.sample_variance(), 0.0, 1e-12);  // of luminance
 }
 
+TEST(PixelSamples, NoiseBeyondWhiteIsNoError) {
+    // Light of a fire: red beyond white, blue within. All samples differ by a factor of their own.
+    const Rgb fire(5.0f, 1.0f, 0.1f);
+    const auto take = [&fire](float white, std::uint32_t samples, float deviation) {
+        PixelSamples sum(white);
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            SampleLight light;
+            const float factor = 1.0f + deviation * (2.0f * RandomStream({8, 2, 3, i}).next() - 1.0f);
+            light[LightPart::direct] = factor * fire;
+            sum.add(light);
+        }
+        return sum.error();
+    };
+    const float inf = std::numeric_limits<float>::infinity();
+    const auto signal = [](const Rgb& light) {
+        return std::hypot(luminance(light), red_green_worth * glm::dot(red_green_weights, light));
+    };
+    const Rgb within(0.0f, fire.y, fire.z), blue(0.0f, 0.0f, fire.z);
+    const float all = take(inf, 64, 0.5f).total;
+    EXPECT_NEAR(take(2.0f, 64, 0.5f).total / all, std::pow(signal(within) / signal(fire), 2.0f), 1e-5);
+    EXPECT_NEAR(take(0.5f, 64, 0.5f).total / all, std::pow(signal(blue) / signal(fire), 2.0f), 1e-5);
+    EXPECT_EQ(take(0.5f, 64, 0.5f).parts[1], take(0.5f, 64, 0.5f).total);
+    EXPECT_EQ(take(0.05f, 64, 0.5f).total, 0.0f);
+    EXPECT_EQ(take(0.99f, 64, 0.5f).total, take(2.0f, 64, 0.5f).total) << "green may be below white";
+    EXPECT_EQ(take(2.0f, 8, 0.5f).total, take(inf, 8, 0.5f).total) << "too few samples to tell";
+}
+
 TEST(PixelSamples, IrradianceIsSharedOnOneFaceOnly) {
     PixelSamples sum;
     SampleLight sample = grey_sample(1.0f);

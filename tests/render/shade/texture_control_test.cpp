@@ -184,7 +184,7 @@ TEST(TextureControl, GoesOnWhereItMakesErrorsSmaller) {
     const auto take = [&](int x, int y, float light, float correction) {
         SampleLight sample;
         sample[LightPart::direct] = Rgb(light + correction);
-        sample.control = correction;
+        sample.control = Rgb(correction);
         pixels(x, y).add(sample);
     };
     for (int y = 17; y < 20; ++y) {
