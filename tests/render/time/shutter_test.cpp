@@ -130,5 +130,15 @@ TEST(LightBreaks, RangesAndConesJump) {
     }
 }
 
+/// The spot comes between frames 12 and 13, and dims to a quarter two frames later.
+TEST(LightBreaks, ALampThatComesMayJumpLater) {
+    Scene scene = make_shot();
+    for (Node& node : scene.nodes) {
+        if (node.light != no_index) node.visible = Track<double>({0.0, 12.5 / 30.0}, {0.0, 1.0}, Interpolation::step);
+    }
+    scene.lights[0].intensity = step_after_frame_14(2.0, 0.5);
+    EXPECT_EQ(find_breaks(scene, glm::dvec2(0.0)), (std::vector<std::int64_t>{13, 15}));
+}
+
 }  // namespace
 }  // namespace aleph
