@@ -140,5 +140,15 @@ TEST(LightBreaks, ALampThatComesMayJumpLater) {
     EXPECT_EQ(find_breaks(scene, glm::dvec2(0.0)), (std::vector<std::int64_t>{13, 15}));
 }
 
+TEST(LightBreaks, TheLastFrameOfASpanBelongsToIt) {
+    Scene scene = make_shot();
+    scene.lights[0].intensity = step_after_frame_14(2.0, 0.5);
+    SequenceState state(scene, shot_settings(10), {{0, 0}});
+    EXPECT_EQ(state.light_breaks.find(10, 15), std::vector<std::int64_t>{15});
+    EXPECT_TRUE(state.light_breaks.find(10, 14).empty());
+    EXPECT_TRUE(state.light_breaks.changes(10.0, 15.0));
+    EXPECT_FALSE(state.light_breaks.changes(10.0, 14.4)) << "it changes after the shutter closes";
+}
+
 }  // namespace
 }  // namespace aleph
