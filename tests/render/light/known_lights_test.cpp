@@ -83,6 +83,7 @@ TEST(KnownLights, MC23_SunsAndTheSkyAreHiddenInAClosedRoom) {
     const std::vector<bool> expected{false, false, false, true, true, true};  // room, box, lamp, suns, sky
     EXPECT_EQ(known.unseen.which, expected);
     EXPECT_EQ(known.unmet.which, expected);
+    EXPECT_FLOAT_EQ(known.unseen.share, 2.0f / 32.0f) << "of 1,024 places";
 }
 
 TEST(KnownLights, HiddenAtTwoTimesIsWhatIsHiddenAtBoth) {

@@ -131,6 +131,26 @@ TEST(KnownIrradianceTest, AccuracyIsLooserForFaintAndWideLobes) {
     EXPECT_NEAR(asked(make_metal(0.5f), 1.0f, true).first, 0.2, 0.02);
 }
 
+TEST(KnownIrradianceTest, SheenTakesItsShareOfIt) {
+    const auto find = [](double sheen) {
+        Scene scene = make_glowing_box();
+        scene.materials[0].layers.sheen_color = glm::dvec3(sheen);
+        scene.materials[0].layers.sheen_roughness = 1.0;
+        const Stage stage(std::move(scene));
+        ConstantIrradiance known(1), dark(1);
+        dark.find = [](const ViewedSurface&, const Hit&, float, const Rgb&, RayTask&) { return Rgb(0.0f); };
+        const auto seen = [&](const KnownIrradiance& light) {
+            PathState state = one_bounce(&light);
+            state.left.depth = 2;  // what the sheen scatters is not looked up
+            return estimate(stage, make_inner_surface(make_metal(0.0f)), 1000, by_lobe_rays(state)).mean();
+        };
+        return seen(known) - seen(dark);
+    };
+    EXPECT_NEAR(find(0.0), albedo * albedo, 1e-5);
+    EXPECT_LT(find(0.9), 0.95 * albedo * albedo);
+    EXPECT_GT(find(0.9), 0.5 * albedo * albedo);
+}
+
 /// A room whose wall behind the camera is seen in a mirror only.
 Scene make_mirror_room() {
     Scene scene;

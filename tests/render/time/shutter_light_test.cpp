@@ -116,15 +116,16 @@ TEST(ShutterLight, NothingIsKnownWhereThingsHideLights) {
     EXPECT_TRUE(is_known(Light::Kind::directional, {8.0, 3.8, 0.0}, {8.4, 3.8, 0.0}));
     EXPECT_TRUE(is_known(Light::Kind::directional, {0.0, -8.0, 0.0}, {0.2, -8.0, 0.0})) << "it is below";
 
-    const auto of_lamp = [](double size, double way, double from = 8.0, double to = 8.2) {
+    const auto of_lamp = [](double size, double way, double from = 8.0, double to = 8.2, double height = 1.0) {
         Plate plate;
         const int dark = add_lambert(plate.scene, glm::dvec3(0.0), glm::dvec3(5.0));
         const int lamp = add_mesh(plate.scene, make_quad(size, size, dark), {8.0, 1.3, 0.0}, z_to_down);
         plate.scene.nodes[lamp].transform.translation = move_between({8.0, 1.3, 0.0}, {8.0 + way, 1.3, 0.0});
-        plate.scene.nodes[2].transform.translation = move_between({from, 1.0, 0.0}, {to, 1.0, 0.0});
+        plate.scene.nodes[2].transform.translation = move_between({from, height, 0.0}, {to, height, 0.0});
         return find_middle(plate.scene, 0.15f).has_value();
     };
     EXPECT_FALSE(of_lamp(0.2, 0.0));
+    EXPECT_FALSE(of_lamp(0.2, 0.0, 8.0, 8.2, 0.75)) << "it is nearer to the lamp's border";
     EXPECT_FALSE(of_lamp(0.2, -0.05, 7.2, 8.0)) << "they meet";
     EXPECT_TRUE(of_lamp(0.2, -0.05, 7.2, 7.3)) << "they do not";
     EXPECT_TRUE(of_lamp(0.2, 0.2)) << "it moves along";
@@ -132,8 +133,9 @@ TEST(ShutterLight, NothingIsKnownWhereThingsHideLights) {
 }
 
 TEST(ShutterLight, NothingIsKnownBesideThingsThatFade) {
-    const auto is_known = [](const Material& material, int mesh, const glm::dvec3& place) {
+    const auto is_known = [](const Material& material, int mesh, const glm::dvec3& place, bool lamp = false) {
         Plate plate;
+        if (lamp) add_light(plate.scene, Light::Kind::point, glm::dvec3(5.0), place + glm::dvec3(0.0, 0.3, 0.0));
         plate.scene.materials.push_back(material);
         plate.scene.meshes[mesh].material = static_cast<int>(plate.scene.materials.size()) - 1;
         plate.scene.nodes[mesh].transform.translation = place;
@@ -154,6 +156,8 @@ TEST(ShutterLight, NothingIsKnownBesideThingsThatFade) {
     cut.opacity = {.mode = Opacity::Mode::mask};
     cut.opacity.alpha.values = {0.51, 0.49};
     EXPECT_FALSE(is_known(cut, 2, beside));
+    EXPECT_TRUE(is_known(cut, 2, away));
+    EXPECT_FALSE(is_known(cut, 2, away, true)) << "it may hide the lamp";
 }
 
 TEST(ShutterLight, NothingIsKnownWhereLightsBrightenOrDim) {
@@ -276,15 +280,18 @@ TEST(ShutterLight, ShadowsOfTheSunCountByTheirDistance) {
     Plate plate;
     add_light(plate.scene, Light::Kind::directional, glm::dvec3(5.0), glm::dvec3(0.0), z_to_up);
     const Stage stage(plate.scene);
-    const auto find = [&](const glm::vec3& from, const glm::vec3& to) {
-        const ShutterMover mover{.instance = 2, .centers = {from, to}, .radius = 0.2f, .moved = glm::length(to - from)};
-        const glm::vec3 place(0.1f, 0.2f, 0.3f);
-        return find_sunlight_change(stage.shading, {mover}, place, glm::vec3(0.0f), no_index, HUGE_VALF);
+    const auto find = [&](const glm::vec3& from, const glm::vec3& to, float faded = 0.0f, const glm::vec3& moved = {}) {
+        const ShutterMover mover{
+            .instance = 2, .centers = {from, to}, .radius = 0.2f, .moved = glm::length(to - from), .faded = faded};
+        return find_sunlight_change(stage.shading, {mover}, {0.1f, 0.2f, 0.3f}, moved, no_index, HUGE_VALF);
     };
     const auto expect = [](float distance, float way) { return 0.04f / (distance * distance) * 3.0f * way / distance; };
     EXPECT_NEAR(find({2.1f, 9.2f, 0.3f}, {2.6f, 9.2f, 0.3f}), expect(2.0f, 0.5f), 1e-6f);
     EXPECT_NEAR(find({2.6f, 9.2f, 0.3f}, {2.1f, 9.2f, 0.3f}), expect(2.0f, 0.5f), 1e-6f);
     EXPECT_NEAR(find({0.1f, -3.8f, 0.3f}, {0.1f, -4.8f, 0.3f}), expect(4.0f, 1.0f), 1e-6f) << "below the point";
+    const glm::vec3 beside(2.1f, 9.2f, 0.3f);
+    EXPECT_NEAR(find(beside, beside, 0.5f), 0.01f * 0.5f, 1e-6f) << "it fades";
+    EXPECT_NEAR(find(beside, beside, 0.0f, {1.0f, 0.0f, 0.0f}), 0.04f, 1e-6f) << "the point comes to half the distance";
 }
 
 }  // namespace

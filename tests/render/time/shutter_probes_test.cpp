@@ -54,6 +54,12 @@ TEST(ShutterProbes, WhatIsHiddenAtOneTimeDoesNotCount) {
                 1e-6);
 }
 
+TEST(ShutterProbes, PartsOfThePictureAreInRows) {
+    const LightChanges changes{.picture = {16, 8}};
+    for (const auto& [x, y, part] : {std::array{0, 0, 0}, {15, 0, 3}, {4, 2, 5}, {3, 1, 0}, {0, 7, 12}, {15, 7, 15}})
+        EXPECT_EQ(changes.part(x, y), static_cast<std::size_t>(part)) << x << ' ' << y;
+}
+
 /// The blind is closed up to the shutter's centre, and open at its end.
 TEST(ShutterProbes, MC27_ARoomThatIsDarkAtTheCenterGetsItsLight) {
     Scene scene = make_room_with_blind(

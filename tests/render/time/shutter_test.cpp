@@ -75,6 +75,14 @@ TEST(Shutter, MC27_AShotEndsBeforeKeysThatLeadIntoTheNext) {
     EXPECT_EQ(found.open, 3.75);
     EXPECT_EQ(found.close, 4.0);
     EXPECT_DOUBLE_EQ(find_shutter_center(neighbours, {0.0, 0.5}, 4, neighbours.film.cuts), 4.0);
+    Scene zoom = make_jump(Track<glm::dvec3>(glm::dvec3(0.0)));
+    zoom.cameras[0].fov = Track<double>({0, 4, 5, 9}, std::vector<double>{0.6, 0.6, 1.2, 1.2});
+    EXPECT_EQ(crossed(zoom), zoom.film.cuts);
+    // Another camera looks from the cut on.
+    Scene others = neighbours;
+    others.cameras.push_back(others.cameras[0]);
+    others.nodes.emplace_back(others.nodes.back()).camera = 1;
+    EXPECT_TRUE(find_crossed_cuts(others, [](std::int64_t frame) { return frame < 5 ? 0 : 1; }).empty());
     // A step takes no time, and what moves on is no jump.
     Track<glm::dvec3> step = Track<glm::dvec3>({0, 5}, Keys{{}, there});
     step.interpolation = Interpolation::step;
