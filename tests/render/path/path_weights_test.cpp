@@ -255,12 +255,17 @@ TEST(PathWeights, LightPassesAThinSheet) {
     Scene open = make_sheet_scene(0.0);
     open.nodes[1].visible = 0.0;
     const Stage bare(std::move(open));
+    Scene two = make_sheet_scene(0.0);
+    add_mesh(two, make_quad(6.0, 6.0, 1), {0.0, 0.5, 0.0}, z_to_up);
+    const Stage doubled(std::move(two));
     for (const Estimator& estimator : {by_paths(0, 1), by_direct_samples(1)}) {
         const Mean through = estimate(clear, floor, 4000, estimator, 1),
                    without = estimate(bare, floor, 4000, estimator, 1);
         const double passed = through.mean() / without.mean(), tint = luminance({0.9f, 0.7f, 0.8f});
         EXPECT_LT(passed, 0.96 * tint);  // index 1.5: 4 % is reflected, more at an angle
         EXPECT_GT(passed, 0.93 * tint);
+        const double twice = estimate(doubled, floor, 4000, estimator, 1).mean() / without.mean();
+        EXPECT_NEAR(twice, passed * passed, 0.02);
     }
 }
 
