@@ -104,7 +104,6 @@ Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray&
         const Hit hit = task.tracer.intersect_others(left);
         if (hit.instance == no_index) return passed;
         if (!pass_sheet(context.shading, hit, left, passed)) return Rgb(0.0f);
-        if (passed == Rgb(0.0f)) return passed;
     }
     return Rgb(0.0f);
 }

@@ -19,19 +19,15 @@ std::int64_t divide_down(std::int64_t a, std::int64_t b) {
 
 constexpr float max_change = 0.25f;  // from one frame to the next, of the largest value in the span
 
-/// With other lamps the lists differ in length: that is a jump by itself.
 bool differ_by(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& largest) {
-    if (a.size() != b.size()) return true;
-    for (std::size_t k = 0; k < std::min(largest.size(), a.size()); ++k) {
+    for (std::size_t k = 0; k < largest.size(); ++k) {
         if (std::abs(a[k] - b[k]) > max_change * largest[k]) return true;
     }
     return false;
 }
 
 void raise_to(std::vector<float>& largest, const std::vector<float>& values) {
-    for (std::size_t k = 0; k < std::min(largest.size(), values.size()); ++k) {
-        largest[k] = std::max(largest[k], values[k]);
-    }
+    for (std::size_t k = 0; k < largest.size(); ++k) largest[k] = std::max(largest[k], values[k]);
 }
 
 }  // namespace
@@ -89,8 +85,8 @@ std::int64_t find_base_keyframe(const LightingKeyframes& keyframes, std::int64_t
 
 /// Sources of light in a frame, and the objects that are there to receive it.
 struct LightBreaks::Sources {
-    std::vector<int> there;     ///< instances that can come or go: shown or not; nodes of the visible lamps
-    std::vector<float> values;  ///< radiance, intensity by channel, range and cone of lamps
+    std::vector<int> there;     ///< instances that can come or go, and lamps: shown or not
+    std::vector<float> values;  ///< radiance, intensity by channel, range and cone of lamps; 0 of those not shown
 
     void add(const Rgb& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
 };
@@ -104,13 +100,14 @@ LightBreaks::Sources LightBreaks::look(double seconds) {
     for (const int i : plan_.instances) sources.there.push_back(is_shown(scene_, posed, static_cast<std::size_t>(i)));
     for (const int m : plan_.materials) sources.add(pose_material(scene_.materials[m], seconds).emission);
     if (plan_.lights) {
+        const LightValues dark{.intensity = Rgb(0.0f)};
         for (const int node : plan_.light_nodes) {
-            if (posed.visible[node] == 0) continue;
-            sources.there.push_back(node);
-            const LightValues light = pose_light(scene_, node, posed.world[node], seconds);
+            const bool shown = posed.visible[node] != 0;
+            const LightValues light = shown ? pose_light(scene_, node, posed.world[node], seconds) : dark;
+            sources.there.push_back(shown);
             sources.add(light.intensity);
             sources.values.push_back(static_cast<float>(light.range));
-            if (light.kind == Light::Kind::spot) sources.values.push_back(static_cast<float>(light.outer_cone));
+            sources.values.push_back(light.kind == Light::Kind::spot ? static_cast<float>(light.outer_cone) : 0.0f);
         }
     }
     if (plan_.environment) {
@@ -145,7 +142,7 @@ bool LightBreaks::changes(double open, double close) {
     std::vector<float> largest = first.values, smallest = first.values;
     for (const double seconds : times) {
         const Sources now = look(seconds);
-        if (now.there != first.there || now.values.size() != first.values.size()) return true;
+        if (now.there != first.there) return true;
         raise_to(largest, now.values);
         for (std::size_t k = 0; k < smallest.size(); ++k) smallest[k] = std::min(smallest[k], now.values[k]);
     }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Mutation tests: changes one operator at a time and sees whether a test fails.
 
-    python3 tests/mutation/mutate.py [--sample 500] [--seed 1] [--jobs 2] [--only FOLDER]
+    python3 tests/mutation/mutate.py [--sample 500] [--seed 1] [--jobs 2] [--only FOLDER...]
 
 Every operator of the folders below that stands between two spaces becomes a site (mutants.h); the copy of the tree in
 build-mutation/ is compiled once. Each test, run alone, says which sites it reaches. Then a sample of the sites is changed,
@@ -18,6 +18,9 @@ FOLDERS = {
     "motion": ["motion/"],
     "perception": ["perception/"],
     "cache": ["render/cache/", "render/pixels/pixel_filter"],
+    "light": ["render/light/"],
+    "path": ["render/path/"],
+    "time": ["render/time/"],
 }
 PROGRAMS = {
     "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_scene_file", "test_render", "test_gltf",
@@ -25,6 +28,9 @@ PROGRAMS = {
     "motion": ["test_motion", "test_pose", "test_render"],
     "perception": ["test_perception", "test_gratings"],
     "cache": ["test_render", "test_cache", "test_records", "test_materials", "test_lighting_keyframes", "test_sequence"],
+    "light": ["test_paths", "test_records", "test_render", "test_blur"],
+    "path": ["test_paths", "test_records", "test_blur"],
+    "time": ["test_paths", "test_lighting_keyframes", "test_blur"],
 }
 OPERATOR = re.compile(r"(?<=[\w)\]}]) (<=|>=|==|!=|<|>|\+|-|\*|/)(?= |$)")
 # Where an operator is no expression of values: preprocessor, templates, declarations of operators, static assertions.
@@ -69,7 +75,7 @@ def make_tree(only):
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(source, target)
         for kind, places in FOLDERS.items():
-            if (only in (None, kind)) and name.endswith((".h", ".cpp")) and any(name.startswith(p) for p in places):
+            if (not only or kind in only) and name.endswith((".h", ".cpp")) and any(name.startswith(p) for p in places):
                 mutate(target, sites)
                 kinds += [kind] * (len(sites) - len(kinds))
                 shutil.copystat(source, target)
@@ -144,10 +150,10 @@ def main():
     parser.add_argument("--sample", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", choices=FOLDERS)
+    parser.add_argument("--only", choices=FOLDERS, nargs="+")
     options = parser.parse_args()
     sites, kinds = make_tree(options.only)
-    programs = sorted({program for kind in FOLDERS if options.only in (None, kind) for program in PROGRAMS[kind]})
+    programs = sorted({program for kind in FOLDERS if not options.only or kind in options.only for program in PROGRAMS[kind]})
     dropped = build(programs, options.jobs)
     (WORK / "seen").mkdir(exist_ok=True)
     reached, seconds = {}, {}

@@ -192,6 +192,29 @@ TEST(LightRays, OfASpotHaveItsLight) {
     }
 }
 
+/// A lamp of two sides as far from the floor as from the ceiling.
+TEST(LightRays, LeaveBothSidesOfALamp) {
+    Scene scene;
+    add_box(scene);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(500.0), true);
+    add_mesh(scene, make_quad(0.1, 0.1, lamp), glm::dvec3(0.0), z_to_up);
+    const std::vector<double> walls = add_light_rays(std::move(scene));
+    const double expected = wall_albedo * 500.0 * 0.01 * std::numbers::pi;  // of each side
+    EXPECT_NEAR(std::accumulate(walls.begin(), walls.end(), 0.0), 2.0 * expected, 0.01 * expected);
+    EXPECT_NEAR(walls[4], walls[5], 0.03 * expected);
+}
+
+/// A cube in the middle of the box, and a sun that is shut out.
+TEST(LightRays, LeaveAllTrianglesOfALamp) {
+    Scene scene;
+    add_box(scene);
+    add_mesh(scene, make_box(glm::dvec3(0.1), add_lambert(scene, glm::dvec3(0.0), glm::dvec3(500.0))));
+    add_light(scene, Light::Kind::directional, glm::dvec3(5.0), {});
+    const std::vector<double> walls = add_light_rays(std::move(scene));
+    const double expected = wall_albedo * 500.0 * 0.01 * std::numbers::pi;
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(walls[i], expected, 0.05 * expected) << i;
+}
+
 /// Halves of the rays go by power and to each lamp alike: neither changes what they bring.
 TEST(LightRays, OfSeveralLightsBringTheLightOfEach) {
     Scene scene;

@@ -23,6 +23,7 @@ Scene make_spotted_lamp(bool nearest, Mesh mesh = make_quad(2.0, 2.0, 0)) {
     for (const auto& [x, y] : spots) image.floats(x, y) = glm::vec4(1.0f);
     scene.images.push_back(image);
     scene.materials[0].textures[TextureSlot::emission] = {.image = 0, .nearest = nearest};
+    for (glm::vec2& uv : mesh.uv[0]) uv += 1.0f;  // the picture repeats, and no corner is at 0
     add_mesh(scene, std::move(mesh), {0.0, 2.0, 0.0}, z_to_down);
     return scene;
 }
@@ -163,6 +164,18 @@ TEST(EmissionCells, PartsThatAMaskLeavesOutAreNotSampled) {
         trial.near(light, spot_radiance * spots_angle(place));
         EXPECT_GT(found.mean(), 0.8);
     }));
+}
+
+/// Alpha of the corners grows from a half along the lamp, and a quarter of it shows.
+TEST(EmissionCells, CornersHideTheirPart) {
+    Mesh mesh = make_quad(2.0, 2.0, 0);
+    for (const glm::vec2& uv : mesh.uv[0]) mesh.colors.emplace_back(1.0f, 1.0f, 1.0f, 0.5f + 0.5f * uv.x);
+    Scene scene = make_masked_lamp(1.0);
+    scene.meshes[0] = std::move(mesh);
+    scene.materials[0].opacity.cutoff = 0.875;
+    const Stage stage(std::move(scene));
+    ASSERT_FALSE(stage.lights.emitters[0].cells.empty());
+    EXPECT_NEAR(stage.lights.bounds.strength[0], 0.25 * spot_radiance * 4.0, 0.01 * spot_radiance);
 }
 
 }  // namespace

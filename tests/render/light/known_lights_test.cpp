@@ -72,6 +72,20 @@ TEST(KnownLights, MC23_HiddenLightsHaveAShareOfTheSamplesHoweverLittleIsSeen) {
     EXPECT_LE(hidden.share, 0.5f);
 }
 
+TEST(KnownLights, MC23_SunsAndTheSkyAreHiddenInAClosedRoom) {
+    Scene scene = make_closed_room(true);
+    add_light(scene, Light::Kind::directional, glm::dvec3(5.0), glm::dvec3(0.0), z_to_up);
+    scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
+    const Stage stage(std::move(scene));
+    RayCounts counts;
+    const KnownLights known =
+        find_known_lights(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), counts);
+    const std::vector<bool> expected{false, false, false, true, true, true};  // room, box, lamp, suns, sky
+    EXPECT_EQ(known.unseen.which, expected);
+    EXPECT_EQ(known.unmet.which, expected);
+    EXPECT_FLOAT_EQ(known.unseen.share, 2.0f / 32.0f) << "of 1,024 places";
+}
+
 TEST(KnownLights, HiddenAtTwoTimesIsWhatIsHiddenAtBoth) {
     const HiddenLights first{0.5f, 1.0f, {true, true, false}}, second{0.5f, 1.0f, {true, false, true}};
     KnownLights known{.openings = {}, .unseen = first, .unmet = first};

@@ -128,6 +128,21 @@ TEST(LightTree, TheBoundOfATexturedLampIsThatOfItsBrightestTexel) {
     }
 }
 
+/// Nearly all light comes from one texel that the surface faces.
+TEST(LightTree, TheBoundOfASkyIsAllOfItsLight) {
+    Scene scene;
+    Image<Rgb> sky(16, 8, Rgb(0.01f));
+    sky(5, 3) = Rgb(40.0f);
+    add_surroundings(scene, sky);
+    const Stage stage(std::move(scene));
+    const LightSample towards = sample_light(stage.shading, stage.lights, 0, {glm::vec3(0.0f), up}, {0.5f, 0.5f});
+    const Receiver receiver{glm::vec3(0.0f), towards.direction};
+    const double brought = find_illuminances(stage, receiver).front();
+    const LightReaches reaches = reach_of(stage.lights.tree.groups.front(), receiver);
+    EXPECT_GE(reaches.bounds[0], brought);
+    EXPECT_LT(reaches.bounds[0], 1.5 * brought);
+}
+
 TEST(LightTree, IsNoDeeperThanTheLogarithmOfItsLights) {
     for (const int count : {1, 2, 17, 100, 1000}) {
         const Stage stage(make_crowd(count, false));
@@ -182,6 +197,26 @@ TEST(LightTree, LightsAreChosenWithTheProbabilityThatIsSaid) {
             }
         }
     }
+}
+
+/// A small lamp that is tilted, and one whose middle lies in the surface's plane: half of it is above.
+TEST(LightCut, FewLightsCountByTheirDistanceAndBothCosines) {
+    Scene scene;
+    const glm::dvec3 at(0.6, 1.5, 0.3);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(4.0));
+    add_mesh(scene, make_quad(0.02, 0.02, lamp), at, glm::angleAxis(0.7, glm::dvec3(0.0, 0.0, 1.0)) * z_to_down);
+    add_mesh(scene, make_quad(0.2, 0.2, lamp), {0.0, 0.0, -2.0});
+    add_light(scene, Light::Kind::point, glm::dvec3(3.0), at);
+    const Stage stage(std::move(scene));
+    const Receiver receiver{-glm::vec3(stage.shading.anchor), up};
+    const LightCut cut = find_light_cut(stage.lights, receiver);
+    ASSERT_EQ(cut.size, 3);
+    const double distance2 = glm::dot(at, at), cosine = at.y / std::sqrt(distance2);
+    const double at_lamp = glm::dot(at, glm::dvec3(-std::sin(0.7), std::cos(0.7), 0.0)) / std::sqrt(distance2);
+    const double wide = 0.01 * std::numbers::sqrt2 / std::sqrt(distance2);  // half of the lamp's diagonal
+    EXPECT_NEAR(cut.weights[0], 4.0 * 4e-4 * (cosine + wide) * (at_lamp + wide) / distance2, 1e-4 * cut.weights[0]);
+    EXPECT_NEAR(cut.weights[1], 4.0 * 4e-2 * (0.1 * std::numbers::sqrt2 / 2.0) / 4.0, 1e-4 * cut.weights[1]);
+    EXPECT_NEAR(cut.weights[2], 3.0 * cosine / distance2, 1e-4 * cut.weights[2]);
 }
 
 }  // namespace

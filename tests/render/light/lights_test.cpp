@@ -280,5 +280,22 @@ TEST(Lights, HiddenAndFlattenedEmittersAreNoLights) {
     EXPECT_EQ(stage.lights.count(), 0);
 }
 
+TEST(Lights, ThoseThatAreLeftOutChangeTheNumbersOfOthers) {
+    Scene scene = make_lamp_scene(1.0, 2.0);
+    add_mesh(scene, make_quad(2.0, 2.0, 0), {0.0, 3.0, 0.0}, z_to_down);
+    for (const double candela : {1.0, 2.0, 3.0})
+        add_light(scene, Light::Kind::point, glm::dvec3(candela), {0.0, 1.0, 0.0});
+    const Stage stage(std::move(scene));
+    LightSet lights = make_light_set(stage.shading);
+    remove_lights(stage.shading, {0}, {1}, lights);
+    EXPECT_EQ(lights.emitter_of_instance, (std::vector<int>{left_out_emitter, 0}));
+    ASSERT_EQ(lights.emitters.size(), 1u);
+    EXPECT_EQ(lights.emitters[0].area, 4.0f);
+    ASSERT_EQ(lights.punctual.size(), 2u);
+    EXPECT_EQ(lights.punctual[0].intensity.x, 1.0f);
+    EXPECT_EQ(lights.punctual[1].intensity.x, 3.0f);
+    EXPECT_EQ(lights.tree.lights, 3);
+}
+
 }  // namespace
 }  // namespace aleph

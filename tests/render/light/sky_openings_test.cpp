@@ -272,5 +272,32 @@ TEST(SkyOpenings, ARoomWithAWindowTakesFewSamples) {
     EXPECT_LT(estimate.mean(), picture.mean());
 }
 
+/// A square opening on the lower side of x, in a box of 32 m with cells of 1 m.
+SkyOpening open_cells(const glm::vec2& low, const glm::vec2& size, int side = 0) {
+    return {side, low, low + size, {}};
+}
+
+TEST(SkyOpenings, OneTooManyJoinsTheOneThatGrowsLeast) {
+    std::optional<SkyOpenings> openings = SkyOpenings{glm::vec3(0.0f), glm::vec3(32.0f), {}};
+    for (const float x : {0.0f, 10.0f})
+        for (const float y : {0.0f, 10.0f, 26.0f}) openings->openings.push_back(open_cells({x, y}, glm::vec2(2.0f)));
+    openings->openings.push_back(open_cells({20.0f, 26.0f}, glm::vec2(2.0f)));  // with this the union is smaller
+    const SkyOpening tall = open_cells({30.0f, 10.0f}, {2.0f, 10.0f});
+    openings->openings.push_back(tall);
+    ASSERT_EQ(openings->openings.size(), SkyOpenings::most);
+    // One on a side of its own is the smallest, and left out.
+    for (const int side : {0, 3}) {
+        SkyOpenings other = *openings;
+        other.openings = {open_cells({31.0f, 26.0f}, glm::vec2(1.0f), side)};
+        std::optional<SkyOpenings> all = openings;
+        add_openings(other, all);
+        EXPECT_EQ(all->openings.size(), SkyOpenings::most);
+        EXPECT_EQ(all->openings.front().low, tall.low);  // the largest
+        EXPECT_EQ(all->openings.front().high, side == 0 ? glm::vec2(32.0f, 27.0f) : tall.high);
+        for (std::size_t i = 1; i < all->openings.size(); ++i)
+            EXPECT_EQ(all->openings[i].high - all->openings[i].low, glm::vec2(2.0f)) << i;
+    }
+}
+
 }  // namespace
 }  // namespace aleph

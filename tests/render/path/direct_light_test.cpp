@@ -153,6 +153,9 @@ TEST(DirectLight, EnvironmentOnAnOpenLambertPlaneIsAlbedoTimesRadiance) {
     EXPECT_NEAR(found.x, 1.2f, 1e-5f);
     EXPECT_NEAR(found.y, 0.6f, 1e-5f);
     EXPECT_NEAR(found.z, 0.3f, 1e-5f);
+    lighting.task.counts = {};
+    EXPECT_NEAR(lighting.quick_at(make_point(glm::vec3(0.0f), up), make_lambert(0.6f), 16).x, 1.2f, 1e-5f);
+    EXPECT_EQ(lighting.task.counts.shadow, 16u) << "as for lamps";
 }
 
 TEST(DirectLight, WhiteMetalInAWhiteFurnace) {

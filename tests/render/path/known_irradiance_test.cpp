@@ -47,14 +47,15 @@ PathState one_bounce(const KnownIrradiance* known) {
 }
 
 /// Light that comes by the lobes other than the Lambert layer, as pixels of the cache integrator find it.
-Estimator by_lobe_rays(const PathState& state) {
+/// @param weighted  lights are sampled at the surface, too
+Estimator by_lobe_rays(const PathState& state, bool weighted = false) {
     return [=](const Stage& stage, RayTask& task, const ViewedSurface& surface, RandomStream& random) {
         const LitSurface lit(surface);
         const LobeShares shares = share_lobes(lit, LobeSet::specular);
         // Without light sampling at the first surface, met light counts in full.
-        ScatterSample unweighted = sample_scatter(lit, shares, random);
-        unweighted.pdf = 0.0f;
-        return follow_sample(stage.lighting(), task, lit, unweighted, state, random);
+        ScatterSample sample = sample_scatter(lit, shares, random);
+        if (!weighted) sample.pdf = 0.0f;
+        return follow_sample(stage.lighting(), task, lit, sample, state, random);
     };
 }
 
@@ -111,11 +112,11 @@ TEST(KnownIrradianceTest, ItCountsForItsOwnBouncesOnly) {
 
 TEST(KnownIrradianceTest, AccuracyIsLooserForFaintAndWideLobes) {
     const Stage stage(make_glowing_box());
-    const auto asked = [&](SurfaceMaterial material, float reflectance) {
+    const auto asked = [&](SurfaceMaterial material, float reflectance, bool weighted = false) {
         material.gloss.f0 = Rgb(reflectance);
         material.gloss.f90 = reflectance;
         const ConstantIrradiance known(1);
-        estimate(stage, make_inner_surface(material), 200, by_lobe_rays(one_bounce(&known)));
+        estimate(stage, make_inner_surface(material), 200, by_lobe_rays(one_bounce(&known), weighted));
         EXPECT_GT(known.lookups, 100);
         return std::pair(known.least, known.most);
     };
@@ -124,6 +125,30 @@ TEST(KnownIrradianceTest, AccuracyIsLooserForFaintAndWideLobes) {
     EXPECT_FLOAT_EQ(mirror.second, 0.1f);
     EXPECT_NEAR(asked(make_metal(0.0f), 0.25f).first, 0.2f, 1e-5f);
     EXPECT_FLOAT_EQ(asked(make_metal(0.0f), 0.01f).first, 0.5f);
+    // The density of a lobe is about 1 / (4 pi alpha^2) in its middle: wide lobes are looked up half as accurately.
+    const double narrow = 0.1 * (1.0 + 0.1 * std::sqrt(4.0 * std::numbers::pi));
+    EXPECT_NEAR(asked(make_metal(0.1f), 1.0f, true).first, narrow, 0.1 * narrow);
+    EXPECT_NEAR(asked(make_metal(0.5f), 1.0f, true).first, 0.2, 0.02);
+}
+
+TEST(KnownIrradianceTest, SheenTakesItsShareOfIt) {
+    const auto find = [](double sheen) {
+        Scene scene = make_glowing_box();
+        scene.materials[0].layers.sheen_color = glm::dvec3(sheen);
+        scene.materials[0].layers.sheen_roughness = 1.0;
+        const Stage stage(std::move(scene));
+        ConstantIrradiance known(1), dark(1);
+        dark.find = [](const ViewedSurface&, const Hit&, float, const Rgb&, RayTask&) { return Rgb(0.0f); };
+        const auto seen = [&](const KnownIrradiance& light) {
+            PathState state = one_bounce(&light);
+            state.left.depth = 2;  // what the sheen scatters is not looked up
+            return estimate(stage, make_inner_surface(make_metal(0.0f)), 1000, by_lobe_rays(state)).mean();
+        };
+        return seen(known) - seen(dark);
+    };
+    EXPECT_NEAR(find(0.0), albedo * albedo, 1e-5);
+    EXPECT_LT(find(0.9), 0.95 * albedo * albedo);
+    EXPECT_GT(find(0.9), 0.5 * albedo * albedo);
 }
 
 /// A room whose wall behind the camera is seen in a mirror only.

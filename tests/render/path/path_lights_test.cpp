@@ -130,6 +130,18 @@ TEST(PathLights, MC22_ThePenumbraOfASquareLampHasItsClosedForm) {
     }
 }
 
+TEST(PathLights, UnlitSurfacesAreSeenInMirrorsAndLightNothing) {
+    Scene scene;
+    scene.materials[add_lambert(scene, {0.3, 0.6, 0.9})].unlit = true;
+    add_mesh(scene, make_quad(9.0, 9.0, 0), {0.0, 1.0, 0.0}, z_to_down);
+    const Stage stage(std::move(scene));
+    const ViewedSurface mirror{make_point(glm::vec3(0.0f), up), make_metal(0.0f), up};
+    RayTask task(stage.rays);
+    RandomStream random({3, 0, 0, 0});
+    EXPECT_NEAR(by_paths(1, 2)(stage, task, mirror, random).y, 0.6f, 1e-6f);
+    EXPECT_EQ(by_paths(1, 2)(stage, task, make_floor(glm::vec3(0.0f)), random), Rgb(0.0f));
+}
+
 enum class Crowd { equal, one_bright, one_visible, coincident, far_and_near };
 
 /// A floor under many point lights of the same total, and the sum of what those bring.

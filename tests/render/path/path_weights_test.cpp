@@ -1,5 +1,6 @@
 // Paths weigh light sampling against lobe sampling: the mean must be that of either alone.
 
+#include "render/surface/glass.h"
 #include "tests/support/lobes.h"
 #include "tests/support/path_estimates.h"
 #include "tests/support/test.h"
@@ -167,10 +168,11 @@ TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
 }
 
 /// Light that a sheet reflects and passes straight from lamps.
-Estimator by_both_ways(int splits) {
+Estimator by_both_ways(int splits, float weight = 1.0f) {
     return [=](const Stage& stage, RayTask& task, const ViewedSurface& surface, RandomStream& random) {
         const LitSurface lit(surface);
         PathState state{.left = {1, 0}, .splits = splits};
+        state.throughput = Rgb(weight);
         const ScatterSample sample = sample_scatter(lit, share_lobes(lit, LobeSet::specular), random);
         return follow_sample(stage.lighting(), task, lit, sample, state, random);
     };
@@ -190,6 +192,20 @@ TEST(PathWeights, SmoothGlassIsFollowedBothWays) {
         EXPECT_LT(both.error(), 0.5 * chosen.error());
         trial.near(both, chosen);
     }));
+    // Near the horizon most of it is reflected: of even light, what is not reflected passes the tint.
+    Scene even;
+    even.environment.radiance = Track<glm::dvec3>(glm::dvec3(1.0));
+    const Stage sky(std::move(even));
+    const ViewedSurface slanted{surface.point, sheet, glm::normalize(glm::vec3(1.0f, 0.1f, 0.0f))};
+    const float reflected = glass_reflectance(slanted.material, LitSurface(slanted).cos_view);
+    EXPECT_GT(reflected, 0.5f);
+    const double expected = sheet.glass.share * (reflected + (1.0 - reflected) * luminance(sheet.glass.tint));
+    for (const auto& [splits, weight] : {std::pair(0, 1.0f), std::pair(3, 1.0f), std::pair(3, 0.03f)}) {
+        EXPECT_TRUE(holds([&, splits = splits, weight = weight](Trial& trial) {
+            const Mean found = estimate(sky, slanted, trial.times(20'000), by_both_ways(splits, weight), trial.seed);
+            trial.near(found, weight * expected, 1e-5 * weight);
+        }));
+    }
 }
 
 /// Its samples may fail, and then count as nothing.
@@ -238,11 +254,19 @@ TEST(PathWeights, LightPassesAThinSheet) {
     // Light straight from the lamp: each sample is what an open floor would get, times the share that passes.
     Scene open = make_sheet_scene(0.0);
     open.nodes[1].visible = 0.0;
-    const Mean through = estimate(clear, floor, 4000, by_paths(0, 1), 1);
-    const Mean without = estimate(Stage(std::move(open)), floor, 4000, by_paths(0, 1), 1);
-    const double passed = through.mean() / without.mean(), tint = luminance({0.9f, 0.7f, 0.8f});
-    EXPECT_LT(passed, 0.96 * tint);  // index 1.5: 4 % is reflected, more at an angle
-    EXPECT_GT(passed, 0.93 * tint);
+    const Stage bare(std::move(open));
+    Scene two = make_sheet_scene(0.0);
+    add_mesh(two, make_quad(6.0, 6.0, 1), {0.0, 0.5, 0.0}, z_to_up);
+    const Stage doubled(std::move(two));
+    for (const Estimator& estimator : {by_paths(0, 1), by_direct_samples(1)}) {
+        const Mean through = estimate(clear, floor, 4000, estimator, 1),
+                   without = estimate(bare, floor, 4000, estimator, 1);
+        const double passed = through.mean() / without.mean(), tint = luminance({0.9f, 0.7f, 0.8f});
+        EXPECT_LT(passed, 0.96 * tint);  // index 1.5: 4 % is reflected, more at an angle
+        EXPECT_GT(passed, 0.93 * tint);
+        const double twice = estimate(doubled, floor, 4000, estimator, 1).mean() / without.mean();
+        EXPECT_NEAR(twice, passed * passed, 0.02);
+    }
 }
 
 /// The light sample of the last surface leaves a part of its weight to the ray, which looks through the sheet too.

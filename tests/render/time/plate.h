@@ -9,7 +9,7 @@ namespace aleph {
 /// Answers with the place that it is asked for, from records that reach so far.
 struct AskedPlace : CarriedLight {
     std::optional<Rgb> find(const PixelSurface& surface, float, RayTask&, RecordUse* used) const override {
-        if (used != nullptr) used->add({1.0f, 1.0f, reach});
+        if (used != nullptr) used->add({1.0f, 2.0f, 2.0f * reach});
         return surface.point.position;
     }
     float reach = 1.0f;
@@ -27,8 +27,12 @@ struct Plate {
     Scene scene;
 };
 
-/// The irradiance of the surface in the middle of the picture, one second after the frame.
-inline std::optional<Rgb> find_middle(const Scene& scene, float accuracy, float reach = 1.0f) {
+/// The irradiance of the surface in the middle of the picture, one second after the frame. Everything lies far from the
+/// world's origin.
+inline std::optional<Rgb> find_middle(Scene scene, float accuracy, float reach = 1.0f) {
+    const glm::dvec3 far(160.0, 32.0, -48.0);
+    for (Node& node : scene.nodes)
+        for (glm::dvec3& place : node.transform.translation.values) place += far;
     const Stage frame(scene), sample(scene, 32, 24, 1.0);
     const SampleHits hits = cast_centers(sample.rays, sample.view, nullptr);
     const PixelSurface surface = make_pixel_surface(sample.shading, sample.view, hits, 16, 12);
@@ -37,7 +41,7 @@ inline std::optional<Rgb> find_middle(const Scene& scene, float accuracy, float 
     RayTask task(frame.rays);
     std::optional<Rgb> found =
         ShutterLight(frame.shading, sample.shading, &light, nullptr).find(surface, accuracy, task);
-    if (found) *found += glm::vec3(frame.shading.anchor);
+    if (found) *found += glm::vec3(frame.shading.anchor - far);
     return found;
 }
 

@@ -1,6 +1,7 @@
 // Indirect light of samples at their own times: where it is read from the frame's, or between two times.
 
 #include "render/time/shutter_light.h"
+#include "render/time/shutter_shadows.h"
 
 #include "tests/render/time/plate.h"
 #include "tests/support/test.h"
@@ -21,9 +22,12 @@ TEST(ShutterLight, RidesWithSurfacesThatMoveLessThanTheirRecordsReach) {
 TEST(ShutterLight, ACameraThatMovesChangesNothing) {
     Plate plate;
     plate.scene.nodes[3].transform.translation = move_between({700.0, 5.0, 0.0}, {0.0, 5.0, 0.0});
+    const glm::dvec3 away(8.0, 1.0, 0.0);
+    plate.scene.nodes[2].transform.translation = Track<glm::dvec3>({0.0, 1.0, 2.0}, {away, away, -away});  // later
     const std::optional<Rgb> found = find_middle(plate.scene, 1e-3f, 1e-3f);
     ASSERT_TRUE(found.has_value());
     EXPECT_NEAR(found->x, 0.0, 0.06);
+    EXPECT_TRUE(find_movers(Stage(plate.scene).shading, Stage(plate.scene, 32, 24, 1.0).shading).empty());
 }
 
 TEST(ShutterLight, NothingIsKnownOfSurfacesThatTurnOrAppear) {
@@ -78,6 +82,11 @@ TEST(ShutterLight, NothingIsKnownWhereLightsMoveFar) {
     EXPECT_TRUE(is_known(Light::Kind::directional, {50.0, 4.0, 0.0}, 0.02)) << "it has no place";
     EXPECT_FALSE(is_known(Light::Kind::directional, here, 0.2));
 
+    Plate dark;
+    add_light(dark.scene, Light::Kind::point, glm::dvec3(0.0), here);
+    dark.scene.nodes.back().transform.translation = move_between(here, {2.0, 4.0, 0.0});
+    EXPECT_TRUE(find_middle(dark.scene, 0.15f).has_value());
+
     Plate plate;
     plate.scene.nodes[2].transform.translation = move_between({2.0, 0.1, 0.0}, {3.0, 0.1, 0.0});
     EXPECT_TRUE(find_middle(plate.scene, 0.15f).has_value());
@@ -99,6 +108,7 @@ TEST(ShutterLight, NothingIsKnownWhereThingsHideLights) {
     EXPECT_TRUE(is_known(Light::Kind::point, {8.0, 2.0, 0.0}, {8.4, 2.0, 0.0})) << "it hides little";
     EXPECT_FALSE(is_known(Light::Kind::spot, {8.0, 3.0, 0.0}, {8.4, 3.0, 0.0})) << "more of a cone";
     EXPECT_TRUE(is_known(Light::Kind::spot, {8.0, 5.0, 0.0}, {8.4, 5.0, 0.0})) << "behind it";
+    EXPECT_FALSE(is_known(Light::Kind::spot, {8.36, 3.0, 0.0}, {8.36, 3.0, 0.4})) << "its edge is within the cone";
 
     const glm::dvec3 high(0.0, 8.0, 0.0), beside(0.2, 8.0, 0.0);
     EXPECT_FALSE(is_known(Light::Kind::directional, high, beside)) << "its shadow is at the point";
@@ -106,22 +116,26 @@ TEST(ShutterLight, NothingIsKnownWhereThingsHideLights) {
     EXPECT_TRUE(is_known(Light::Kind::directional, {8.0, 3.8, 0.0}, {8.4, 3.8, 0.0}));
     EXPECT_TRUE(is_known(Light::Kind::directional, {0.0, -8.0, 0.0}, {0.2, -8.0, 0.0})) << "it is below";
 
-    const auto of_lamp = [](double size, double way) {
+    const auto of_lamp = [](double size, double way, double from = 8.0, double to = 8.2, double height = 1.0) {
         Plate plate;
         const int dark = add_lambert(plate.scene, glm::dvec3(0.0), glm::dvec3(5.0));
         const int lamp = add_mesh(plate.scene, make_quad(size, size, dark), {8.0, 1.3, 0.0}, z_to_down);
         plate.scene.nodes[lamp].transform.translation = move_between({8.0, 1.3, 0.0}, {8.0 + way, 1.3, 0.0});
-        plate.scene.nodes[2].transform.translation = move_between({8.0, 1.0, 0.0}, {8.2, 1.0, 0.0});
+        plate.scene.nodes[2].transform.translation = move_between({from, height, 0.0}, {to, height, 0.0});
         return find_middle(plate.scene, 0.15f).has_value();
     };
     EXPECT_FALSE(of_lamp(0.2, 0.0));
+    EXPECT_FALSE(of_lamp(0.2, 0.0, 8.0, 8.2, 0.75)) << "it is nearer to the lamp's border";
+    EXPECT_FALSE(of_lamp(0.2, -0.05, 7.2, 8.0)) << "they meet";
+    EXPECT_TRUE(of_lamp(0.2, -0.05, 7.2, 7.3)) << "they do not";
     EXPECT_TRUE(of_lamp(0.2, 0.2)) << "it moves along";
     EXPECT_TRUE(of_lamp(2.0, 0.0)) << "it is large";
 }
 
 TEST(ShutterLight, NothingIsKnownBesideThingsThatFade) {
-    const auto is_known = [](const Material& material, int mesh, const glm::dvec3& place) {
+    const auto is_known = [](const Material& material, int mesh, const glm::dvec3& place, bool lamp = false) {
         Plate plate;
+        if (lamp) add_light(plate.scene, Light::Kind::point, glm::dvec3(5.0), place + glm::dvec3(0.0, 0.3, 0.0));
         plate.scene.materials.push_back(material);
         plate.scene.meshes[mesh].material = static_cast<int>(plate.scene.materials.size()) - 1;
         plate.scene.nodes[mesh].transform.translation = place;
@@ -142,6 +156,8 @@ TEST(ShutterLight, NothingIsKnownBesideThingsThatFade) {
     cut.opacity = {.mode = Opacity::Mode::mask};
     cut.opacity.alpha.values = {0.51, 0.49};
     EXPECT_FALSE(is_known(cut, 2, beside));
+    EXPECT_TRUE(is_known(cut, 2, away));
+    EXPECT_FALSE(is_known(cut, 2, away, true)) << "it may hide the lamp";
 }
 
 TEST(ShutterLight, NothingIsKnownWhereLightsBrightenOrDim) {
@@ -181,6 +197,7 @@ TEST(ShutterLight, TheBoundHoldsForSpheres) {
     // A sphere that lies wholly above the horizon hides cos / d^2 of the irradiance, by r^2 (closed form).
     std::mt19937 random(5);
     std::uniform_real_distribution<float> at(-3.0f, 3.0f), height(0.0f, 3.0f), small(0.0f, 1.0f);
+    const glm::vec3 place(0.7f, -0.4f, 1.3f);
     int near = 0;
     for (int i = 0; i < 20000; ++i) {
         const float radius = small(random);
@@ -193,11 +210,12 @@ TEST(ShutterLight, TheBoundHoldsForSpheres) {
             return radius * radius * center.y / (d * d * d);
         };
         const float change = std::abs(hidden(after - moved) - hidden(before));
-        const std::vector<ShutterMover> movers{{0, {before, after}, radius, glm::length(after - before)}};
-        const float bound = find_hidden_change(movers, glm::vec3(0.0f), moved, 1, HUGE_VALF);
+        const std::vector<ShutterMover> movers{
+            {0, {place + before, place + after}, radius, glm::length(after - before)}};
+        const float bound = find_hidden_change(movers, place, moved, 1, HUGE_VALF);
         EXPECT_LE(change, bound + 1e-6f) << i;
         if (change > 0.2f * bound) ++near;
-        EXPECT_EQ(find_hidden_change(movers, glm::vec3(0.0f), moved, 0, HUGE_VALF), 0.0f) << "it moves along";
+        EXPECT_EQ(find_hidden_change(movers, place, moved, 0, HUGE_VALF), 0.0f) << "it moves along";
     }
     EXPECT_GT(near, 1000) << "and not by far too much";
 }
@@ -255,6 +273,25 @@ TEST(ShutterLight, BetweenTwoTimesBrightnessIsComparedWithTheLine) {
     };
     EXPECT_NEAR(dims({0.0, 1.0}, {0.0, 2.0}), 0.0f, 1e-6f);
     EXPECT_NEAR(dims({0.0, 0.25, 1.0}, {2.0, 1.0, 2.0}), 0.5f, 1e-6f);
+}
+
+/// The sun shines down: what moves counts by how far its shadow is from the point, and not above its own height.
+TEST(ShutterLight, ShadowsOfTheSunCountByTheirDistance) {
+    Plate plate;
+    add_light(plate.scene, Light::Kind::directional, glm::dvec3(5.0), glm::dvec3(0.0), z_to_up);
+    const Stage stage(plate.scene);
+    const auto find = [&](const glm::vec3& from, const glm::vec3& to, float faded = 0.0f, const glm::vec3& moved = {}) {
+        const ShutterMover mover{
+            .instance = 2, .centers = {from, to}, .radius = 0.2f, .moved = glm::length(to - from), .faded = faded};
+        return find_sunlight_change(stage.shading, {mover}, {0.1f, 0.2f, 0.3f}, moved, no_index, HUGE_VALF);
+    };
+    const auto expect = [](float distance, float way) { return 0.04f / (distance * distance) * 3.0f * way / distance; };
+    EXPECT_NEAR(find({2.1f, 9.2f, 0.3f}, {2.6f, 9.2f, 0.3f}), expect(2.0f, 0.5f), 1e-6f);
+    EXPECT_NEAR(find({2.6f, 9.2f, 0.3f}, {2.1f, 9.2f, 0.3f}), expect(2.0f, 0.5f), 1e-6f);
+    EXPECT_NEAR(find({0.1f, -3.8f, 0.3f}, {0.1f, -4.8f, 0.3f}), expect(4.0f, 1.0f), 1e-6f) << "below the point";
+    const glm::vec3 beside(2.1f, 9.2f, 0.3f);
+    EXPECT_NEAR(find(beside, beside, 0.5f), 0.01f * 0.5f, 1e-6f) << "it fades";
+    EXPECT_NEAR(find(beside, beside, 0.0f, {1.0f, 0.0f, 0.0f}), 0.04f, 1e-6f) << "the point comes to half the distance";
 }
 
 }  // namespace

@@ -49,7 +49,15 @@ TEST(ShutterProbes, WhatIsHiddenAtOneTimeDoesNotCount) {
     // Of the places that both know one changes by 2 and one by nothing: that may be chance.
     EXPECT_EQ(find_light_changes(places, {4, 4}, first, second).largest(), 0.0f);
     const ProbedLight brighter{2.0f, 5.0f, 4.0f, 6.0f};
-    EXPECT_GT(find_light_changes(places, {4, 4}, first, brighter).largest(), 0.1f);
+    // 1, 2 and 3 more: their sum, of 12, less two standard errors.
+    EXPECT_NEAR(find_light_changes(places, {4, 4}, first, brighter).largest(), (6.0 - 2.0 * std::sqrt(3.0)) / 12.0,
+                1e-6);
+}
+
+TEST(ShutterProbes, PartsOfThePictureAreInRows) {
+    const LightChanges changes{.picture = {16, 8}};
+    for (const auto& [x, y, part] : {std::array{0, 0, 0}, {15, 0, 3}, {4, 2, 5}, {3, 1, 0}, {0, 7, 12}, {15, 7, 15}})
+        EXPECT_EQ(changes.part(x, y), static_cast<std::size_t>(part)) << x << ' ' << y;
 }
 
 /// The blind is closed up to the shutter's centre, and open at its end.

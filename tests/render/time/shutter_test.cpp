@@ -75,6 +75,14 @@ TEST(Shutter, MC27_AShotEndsBeforeKeysThatLeadIntoTheNext) {
     EXPECT_EQ(found.open, 3.75);
     EXPECT_EQ(found.close, 4.0);
     EXPECT_DOUBLE_EQ(find_shutter_center(neighbours, {0.0, 0.5}, 4, neighbours.film.cuts), 4.0);
+    Scene zoom = make_jump(Track<glm::dvec3>(glm::dvec3(0.0)));
+    zoom.cameras[0].fov = Track<double>({0, 4, 5, 9}, std::vector<double>{0.6, 0.6, 1.2, 1.2});
+    EXPECT_EQ(crossed(zoom), zoom.film.cuts);
+    // Another camera looks from the cut on.
+    Scene others = neighbours;
+    others.cameras.push_back(others.cameras[0]);
+    others.nodes.emplace_back(others.nodes.back()).camera = 1;
+    EXPECT_TRUE(find_crossed_cuts(others, [](std::int64_t frame) { return frame < 5 ? 0 : 1; }).empty());
     // A step takes no time, and what moves on is no jump.
     Track<glm::dvec3> step = Track<glm::dvec3>({0, 5}, Keys{{}, there});
     step.interpolation = Interpolation::step;
@@ -128,6 +136,26 @@ TEST(LightBreaks, RangesAndConesJump) {
         EXPECT_EQ(jumps(value, 1.0), std::vector<std::int64_t>{15});
         EXPECT_TRUE(jumps(value, 0.7).empty());
     }
+}
+
+/// The spot comes between frames 12 and 13, and dims to a quarter two frames later.
+TEST(LightBreaks, ALampThatComesMayJumpLater) {
+    Scene scene = make_shot();
+    for (Node& node : scene.nodes) {
+        if (node.light != no_index) node.visible = Track<double>({0.0, 12.5 / 30.0}, {0.0, 1.0}, Interpolation::step);
+    }
+    scene.lights[0].intensity = step_after_frame_14(2.0, 0.5);
+    EXPECT_EQ(find_breaks(scene, glm::dvec2(0.0)), (std::vector<std::int64_t>{13, 15}));
+}
+
+TEST(LightBreaks, TheLastFrameOfASpanBelongsToIt) {
+    Scene scene = make_shot();
+    scene.lights[0].intensity = step_after_frame_14(2.0, 0.5);
+    SequenceState state(scene, shot_settings(10), {{0, 0}});
+    EXPECT_EQ(state.light_breaks.find(10, 15), std::vector<std::int64_t>{15});
+    EXPECT_TRUE(state.light_breaks.find(10, 14).empty());
+    EXPECT_TRUE(state.light_breaks.changes(10.0, 15.0));
+    EXPECT_FALSE(state.light_breaks.changes(10.0, 14.4)) << "it changes after the shutter closes";
 }
 
 }  // namespace
