@@ -11,6 +11,12 @@
 
 namespace aleph {
 
+namespace {
+
+constexpr double usual_near = 1e-4;  // m, CameraView::near_plane if a scene gives none
+
+}  // namespace
+
 CameraView make_camera_view(const CameraValues& camera, int width, int height) {
     if (width <= 0 || height <= 0)
         throw InputError("", "size", fmt::format("{} x {} pixels; both must be positive", width, height));
@@ -61,13 +67,14 @@ CameraView make_camera_view(const Scene& scene, const CameraValues& camera, int 
 
 CameraRay make_camera_ray(const CameraView& view, double x, double y) {
     const glm::dvec2 at = unproject_pixel(view, x, y);
-    if (view.orthographic) return {view.position + view.axes * glm::dvec3(at, 0.0), -view.axes[2]};
-    return {view.position, view.axes * safe_normalize(glm::dvec3(at, -1.0))};
+    const auto near = static_cast<float>(0.05 * std::min(view.near_plane, usual_near));  // ten roundings or more
+    if (view.orthographic) return {view.position + view.axes * glm::dvec3(at, 0.0), -view.axes[2], near};
+    return {view.position, view.axes * safe_normalize(glm::dvec3(at, -1.0)), near};
 }
 
 glm::dvec3 compute_anchor(const CameraView& view) {
     // m: a float resolves .5 um near the camera, which rarely changes cell. What is nearer than usual is smaller.
-    constexpr double usual_cell = 16.0, usual_near = 1e-4, least_near = 1e-10;
+    constexpr double usual_cell = 16.0, least_near = 1e-10;
     const double nearness = std::clamp(view.near_plane / usual_near, least_near / usual_near, 1.0);
     const double cell = std::scalbn(usual_cell, std::ilogb(nearness));
     const auto snap = [cell](double v) { return std::floor(v / cell + 0.5) * cell; };

@@ -60,6 +60,9 @@ inline glm::dvec2 unproject_pixel(const CameraView& view, double x, double y) {
 struct CameraRay {
     glm::dvec3 origin;
     glm::dvec3 direction;
+    /// m, Ray::near: some roundings of a position. A surface through the camera is not met; else half of the rays,
+    /// at random, would meet it at distance 0.
+    float near = 0.0f;
     float choice = -1.0f;  ///< Ray::choice
 };
 CameraRay make_camera_ray(const CameraView& view, double x, double y);

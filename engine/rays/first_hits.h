@@ -11,8 +11,10 @@ namespace aleph {
 
 /// The same ray, relative to the scene's anchor.
 inline Ray to_scene(const RayScene& scene, const CameraRay& ray) {
-    return {
-        .origin = glm::vec3(ray.origin - scene.anchor()), .direction = glm::vec3(ray.direction), .choice = ray.choice};
+    return {.origin = glm::vec3(ray.origin - scene.anchor()),
+            .direction = glm::vec3(ray.direction),
+            .near = ray.near,
+            .choice = ray.choice};
 }
 
 /// Casts one ray for every pixel of `hits`, in packets over blocks of neighbouring pixels.

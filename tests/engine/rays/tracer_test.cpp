@@ -220,5 +220,15 @@ TEST(FirstHits, OneRayThroughEveryPixelWhateverTheSize) {
     }
 }
 
+TEST(FirstHits, ACameraOnASurfaceSeesWhatIsBehindIt) {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.5));
+    add_mesh(scene, make_quad(8.0, 8.0, white), {0.0, 1.1, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(8.0, 8.0, white), {0.0, 0.0, -3.0});
+    add_camera(scene, {0.0, 1.1, 1.5}, {0.0, 1.1, 0.0}, 1.0);
+    const Stage stage(std::move(scene), 32, 24);
+    for (const Hit& hit : cast_first_hits(stage.rays, stage.view, 0.3, 0.7).pixels) EXPECT_EQ(hit.instance, 1);
+}
+
 }  // namespace
 }  // namespace aleph
