@@ -25,9 +25,41 @@ double find_solid_angle(const PunctualLight& light) {
     return 2.0 * std::numbers::pi * find_cone(light);
 }
 
-/// lm, of each light; of light from afar, what crosses the target.
+/// A place that light from afar passes.
+struct Passage {
+    glm::vec3 at{0.0f};
+    glm::vec3 outward{0.0f};  ///< unit, of an opening; 0: none is known
+    double area = 0.0;        ///< m2, of all passages: of the openings, or across the light
+};
+
+double find_area(const SkyOpening& opening) {
+    const glm::vec2 size = opening.high - opening.low;
+    return double{size.x} * size.y;
+}
+
+double find_area(const SkyOpenings& all) {
+    double area = 0.0;
+    for (const SkyOpening& opening : all.openings) area += find_area(opening);
+    return area;
+}
+
+/// All places of the openings are as likely.
+Passage choose_passage(const SkyOpenings& all, RandomStream& random) {
+    Passage passage{.area = find_area(all)};
+    double left = random.next() * passage.area;
+    auto opening = all.openings.begin();
+    for (; opening + 1 != all.openings.end() && left >= find_area(*opening); ++opening) left -= find_area(*opening);
+    const glm::vec2 u = random.next_2d();
+    const auto& corners = opening->corners;
+    passage.at = corners[0] + u.x * (corners[1] - corners[0]) + u.y * (corners[3] - corners[0]);
+    passage.outward[opening->side / 2] = opening->side % 2 == 0 ? -1.0f : 1.0f;
+    return passage;
+}
+
+/// lm, of each light; of light from afar, what passes the openings or crosses the target.
 std::vector<double> find_powers(const LightingContext& context, const BoundingSphere& target) {
     const LightSet& lights = context.lights;
+    const SkyOpenings* const openings = context.openings;
     const double disc = std::numbers::pi * target.radius * target.radius;
     std::vector<double> powers;
     for (const Emitter& emitter : lights.emitters) {
@@ -37,12 +69,14 @@ std::vector<double> find_powers(const LightingContext& context, const BoundingSp
     }
     for (const PunctualLight& light : lights.punctual) {
         const bool is_far = light.kind == Light::Kind::directional;
-        powers.push_back((is_far ? disc : find_solid_angle(light)) * luminance(light.intensity));
+        const double area = openings != nullptr ? find_area(*openings) : disc;
+        powers.push_back((is_far ? area : find_solid_angle(light)) * luminance(light.intensity));
     }
     if (lights.has_environment) {
         const EnvironmentMap* map = context.shading.environment.map;
         const double mean = map != nullptr ? map->mean_luminance : 1.0;
-        powers.push_back(4.0 * std::numbers::pi * disc * mean * luminance(context.shading.environment.radiance));
+        const double directions_area = openings != nullptr ? find_area(*openings) : 4.0 * disc;
+        powers.push_back(std::numbers::pi * directions_area * mean * luminance(context.shading.environment.radiance));
     }
     return powers;
 }
@@ -68,25 +102,42 @@ Ray leave_punctual(const PunctualLight& light, RandomStream& random) {
     return {light.position, make_basis(axis).to_world({sine * std::cos(turn), sine * std::sin(turn), cosine})};
 }
 
-/// A ray that crosses the target.
-/// @param direction  unit, of light
-Ray enter_target(const ShadingScene& shading, const BoundingSphere& target, const glm::vec3& direction,
-                 RandomStream& random) {
-    const glm::vec2 disc = target.radius * glm::vec2(sample_cosine_hemisphere(random.next_2d()));
-    const glm::vec3 across = make_basis(direction).to_world({disc, 0.0f});
-    const SceneBounds& bounds = shading.bounds.all;
-    const float back = glm::length(bounds.high - bounds.low) + glm::length(target.center) + target.radius;
-    return {target.center + across - direction * back, direction};
+/// Light of the environment that reaches a passage of 1 m2 across it.
+LightSample sample_sky(const LightingContext& context, const glm::vec3& outward, RandomStream& random) {
+    const int light = context.lights.count() - 1;
+    const bool even = context.shading.environment.map == nullptr, halves = even && outward == glm::vec3(0.0f);
+    const glm::vec3 half(0.0f, halves && random.next() < 0.5f ? -1.0f : 1.0f, 0.0f);
+    const Receiver receiver{{}, outward == glm::vec3(0.0f) ? half : outward};
+    LightSample sample = sample_light(context.shading, context.lights, light, receiver, random.next_2d());
+    if (halves) sample.incoming *= 2.0f;  // each half of it is sampled in turn
+    return sample;
 }
 
-/// Light of the environment that reaches a target of 1 m2.
-LightSample sample_sky(const LightingContext& context, RandomStream& random) {
-    const int light = context.lights.count() - 1;
-    const bool even = context.shading.environment.map == nullptr;
-    const glm::vec3 half(0.0f, even && random.next() < 0.5f ? -1.0f : 1.0f, 0.0f);
-    LightSample sample = sample_light(context.shading, context.lights, light, {{}, half}, random.next_2d());
-    if (even) sample.incoming *= 2.0f;  // each half of it is sampled in turn
-    return sample;
+/// A ray of light from afar that comes through an opening or, where none is known, crosses the target.
+/// @param sun    null: the environment
+/// @param power  set to that of the light, as this ray tells it, lm
+Ray come_from_afar(const LightingContext& context, const BoundingSphere& target, const PunctualLight* sun,
+                   RandomStream& random, double& power) {
+    Passage passage;
+    if (context.openings != nullptr) passage = choose_passage(*context.openings, random);
+    LightSample light{.incoming = Rgb(0.0f)};
+    if (sun != nullptr) {
+        light.direction = -sun->direction;
+        light.incoming = sun->intensity;
+    } else {
+        light = sample_sky(context, passage.outward, random);
+    }
+    if (context.openings == nullptr) {
+        const glm::vec2 disc = target.radius * glm::vec2(sample_cosine_hemisphere(random.next_2d()));
+        passage.at = target.center + make_basis(light.direction).to_world({disc, 0.0f});
+        passage.area = std::numbers::pi * target.radius * target.radius;
+    } else {
+        passage.area *= std::max(0.0f, glm::dot(light.direction, passage.outward));
+    }
+    power = passage.area * luminance(light.incoming);
+    const SceneBounds& bounds = context.shading.bounds.all;
+    const float back = glm::length(bounds.high - bounds.low) + glm::length(target.center) + target.radius;
+    return {passage.at + light.direction * back, -light.direction};
 }
 
 /// One of the rays of a light.
@@ -111,12 +162,9 @@ LitPlace cast_light_ray(const LightingContext& context, const BoundingSphere& ta
         ray = leave_emitter(context.shading, lights.emitters[light], light_ray.place, random);
     } else if (spreads) {
         ray = leave_punctual(*punctual, random);
-    } else if (punctual != nullptr) {
-        ray = enter_target(context.shading, target, punctual->direction, random);
     } else {
-        const LightSample sky = sample_sky(context, random);
-        power = std::numbers::pi * target.radius * target.radius * luminance(sky.incoming);
-        ray = enter_target(context.shading, target, -sky.direction, random);
+        ray = come_from_afar(context, target, punctual, random, power);
+        if (power == 0.0) return {};
     }
     Rgb passed(1.0f);
     const glm::vec3 origin = ray.origin;

@@ -17,8 +17,8 @@ struct LitPlace {
 };
 
 /// Casts light rays from all lights: half of them in proportion to power; of the other half as many from each, for what
-/// stands beside a small one. Those of directional light and of the environment cross the target. Smooth sheets of
-/// glass let them pass.
+/// stands beside a small one. Those of directional light and of the environment come through the openings or,
+/// where none are known, cross the target. Smooth sheets of glass let them pass.
 /// @return  for each ray; nothing if it is dark
 /// @param target  where light from afar is looked for
 /// @param counts  increased, rays as RayCounts::gather

@@ -1,20 +1,13 @@
 // Openings towards the sky: where they are found, and that samples towards them have the density that is told.
 
-#include <glm/gtc/quaternion.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "render/frame/sequence.h"
-#include "render/light/find_sky_openings.h"
 #include "tests/support/scenes/window_room.h"
 #include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-std::optional<SkyOpenings> find_openings(const Stage& stage) {
-    RayCounts counts;
-    return find_sky_openings(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), counts);
-}
 
 /// Receivers on the floor, the left wall and the ceiling.
 std::vector<Receiver> make_receivers(const Stage& stage) {
@@ -219,40 +212,6 @@ TEST(SkyOpenings, TellAboutHowMuchTheyLetIn) {
     const Receiver outside{openings.high + 1.0f, up};
     EXPECT_EQ(estimate_open_share(openings, outside, glm::vec3(0.0f)), 1.0f);
     EXPECT_EQ(estimate_open_share(openings, outside, up), 1.0f);
-}
-
-/// Light of one choice among all lights, at a white place.
-Mean light_of_choices(const LightingContext& lighting, const SurfacePlace& place) {
-    Mean light;
-    RayTask task(lighting.rays);
-    RandomStream random({6, 0, 0, 0});
-    for (int i = 0; i < 50'000; ++i) {
-        const ScatteredLight way = choose_lambert_light(lighting, place, {random.next(), random.next_2d()});
-        const bool arrives = way.radiance != Rgb(0.0f) && !task.tracer.occluded(way.shadow_ray);
-        light.add(arrives ? way.radiance.x : 0.0f);
-    }
-    return light;
-}
-
-TEST(SkyOpenings, ASunTakesSamplesOnlyWhereItShines) {
-    Scene scene = make_room_with_window();
-    const Stage cloudy(scene);
-    add_light(scene, Light::Kind::directional, glm::dvec3(50.0), glm::dvec3(0.0),
-              glm::quatLookAt(glm::normalize(glm::dvec3(-1.0, -0.6, 0.0)), glm::dvec3(0.0, 1.0, 0.0)));
-    const Stage sunny(std::move(scene));
-    const SkyOpenings openings = find_openings(sunny).value();
-    const auto light_at = [&](const Stage& stage, float z, bool with_openings) {
-        LightingContext lighting = stage.lighting();
-        if (with_openings) lighting.openings = &openings;
-        return light_of_choices(lighting, make_point(glm::vec3(-0.5f, 0.0f, z) - glm::vec3(stage.shading.anchor), up));
-    };
-    for (const float z : {0.0f, 1.5f}) {
-        const Mean plain = light_at(sunny, z, false), aimed = light_at(sunny, z, true);
-        EXPECT_NEAR(aimed.mean(), plain.mean(), 4.0 * std::hypot(plain.error(), aimed.error()));
-        EXPECT_LT(2.0 * aimed.error(), plain.error());
-    }
-    EXPECT_GT(light_at(sunny, 0.0f, true).mean(), 50.0 * 0.5 / std::numbers::pi) << "it shines here";
-    EXPECT_LT(light_at(sunny, 1.5f, true).error(), 3.0 * light_at(cloudy, 1.5f, true).error());
 }
 
 TEST(SkyOpenings, ARoomWithAWindowTakesFewSamples) {

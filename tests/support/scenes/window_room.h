@@ -1,6 +1,7 @@
 #pragma once
 // A room that gets light of the sky through a window.
 
+#include "render/light/find_sky_openings.h"
 #include "tests/support/scenes/render_scenes.h"
 
 namespace aleph {
@@ -40,6 +41,11 @@ inline Scene make_room_with_blind(const Track<glm::dvec3>& place) {
 /// In the wall, beside the middle of the window it by so much. m
 inline glm::dvec3 place_blind(double beside) {
     return {2.0 + 0.5 * wall, 1.5, beside};
+}
+
+inline std::optional<SkyOpenings> find_openings(const Stage& stage) {
+    RayCounts counts;
+    return find_sky_openings(stage.lighting(), stage.view, cast_centers(stage.rays, stage.view, nullptr), counts);
 }
 
 }  // namespace aleph
