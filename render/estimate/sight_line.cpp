@@ -135,7 +135,7 @@ void SightLine::note_blurred_reflection() {
     PathState& turned = reflected_->turned;
     turned.emission = EmissionWeight::weighted;
     turned.pdf = sample.pdf;
-    turned.from = {lit.point.ray_origin(), lit.point.normal, false, nullptr, lighting_.openings};
+    turned.from = make_lambert_receiver(lighting_, lit.point);
     turn(lit, sample.direction, *reflected_);
 }
 

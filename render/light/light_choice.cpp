@@ -58,7 +58,7 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
 
 ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
                                     const LightNumbers& numbers) {
-    const Receiver receiver{place.ray_origin(), place.normal, false, nullptr, context.openings};
+    const Receiver receiver = make_lambert_receiver(context, place);
     const auto scatter = [&](const LightSample& sample, float probability) -> ScatteredLight {
         const float cosine = glm::dot(place.normal, sample.direction);
         if (!(cosine > 0.0f && glm::dot(place.geometric, sample.direction) > 0.0f)) return {};

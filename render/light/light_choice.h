@@ -33,6 +33,11 @@ inline Receiver make_receiver(const LightingContext& context, const LitSurface& 
             lit.material.is_gloss_alone() ? &lit : nullptr, context.openings};
 }
 
+/// The same for a Lambert surface.
+inline Receiver make_lambert_receiver(const LightingContext& context, const SurfacePlace& place) {
+    return {place.ray_origin(), place.normal, false, nullptr, context.openings};
+}
+
 /// Light of one light that a surface scatters towards its viewer, before its shadow ray is cast.
 struct ScatteredLight {
     Ray shadow_ray;

@@ -108,7 +108,7 @@ Rgb estimate_chosen_lights(const LightingContext& context, RayTask& task, const 
 Rgb estimate_few_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, int samples,
                         const LobeShares& followed) {
     Rgb sum(0.0f);
-    const Receiver receiver{lit.point.ray_origin(), lit.point.normal, false, nullptr, context.openings};
+    const Receiver receiver = make_lambert_receiver(context, lit.point);
     for (int light = 0; light < context.lights.count(); ++light) {
         const int count = has_area(context.lights, light) ? samples : 1;
         const float share = 1.0f / static_cast<float>(count);

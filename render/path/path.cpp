@@ -95,7 +95,7 @@ class Path {
         if (!sample.straight) {
             state_.emission = sample.pdf > 0.0f ? EmissionWeight::weighted : EmissionWeight::full;
             state_.pdf = sample.pdf;
-            state_.from = {lit.point.ray_origin(), lit.point.normal, false, nullptr, context_.openings};
+            state_.from = make_lambert_receiver(context_, lit.point);
         }
         if (sample.lobe == Lobe::diffuse) {
             --state_.left.bounces;
