@@ -48,7 +48,7 @@ std::int64_t quantize(float x) {
 
 DirectGrid::DirectGrid(float unit) : cells_(first_capacity), inverse_unit_(1.0f / unit), mask_(first_capacity - 1) {}
 
-std::uint64_t DirectGrid::key_of(int instance, const glm::vec3& position, const glm::vec3& geometric,
+std::uint64_t DirectGrid::key_of(std::uint64_t surface, const glm::vec3& position, const glm::vec3& geometric,
                                  float width) const {
     const int level = level_of(width * inverse_unit_);
     const glm::vec3 at = position * inverse_unit_ * power_of_two(-level);
@@ -57,7 +57,7 @@ std::uint64_t DirectGrid::key_of(int instance, const glm::vec3& position, const 
     const std::int64_t a = quantize(at[across]), b = quantize(at[along]),
                        c = quantize(at[static_cast<int>(facing / 2)] + plane_shift);
     // Blocks of 8 x 8 cells in the plane that the surface is next to.
-    const std::uint64_t side = static_cast<std::uint64_t>(instance) * 6 + facing;
+    const std::uint64_t side = surface * 6 + facing;
     const std::uint64_t block = static_cast<std::uint64_t>(a >> 3) * 0x9e3779b97f4a7c15ull +
                                 static_cast<std::uint64_t>(b >> 3) * 0xc2b2ae3d27d4eb4full +
                                 static_cast<std::uint64_t>(c) * 0x165667b19e3779f9ull + side * 0xd6e8feb86659fd93ull +

@@ -52,9 +52,11 @@ class DirectGrid {
     explicit DirectGrid(float unit = 1.0f);
 
     /// The cell of a surface point; never 0.
+    /// @param surface    a number for an instance, or a part of one
     /// @param position   m, relative to the instance's origin, so that the cells move along with it
     /// @param width      m, of the part of the surface that the ray represents
-    std::uint64_t key_of(int instance, const glm::vec3& position, const glm::vec3& geometric, float width) const;
+    std::uint64_t key_of(std::uint64_t surface, const glm::vec3& position, const glm::vec3& geometric,
+                         float width) const;
 
     /// A cell with a count of 0 if there is none.
     const Cell& find(std::uint64_t key) const {

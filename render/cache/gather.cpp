@@ -32,6 +32,10 @@ struct Lighting {
     GatherScratch& scratch;
 
     float weight(std::size_t ray) const { return scratch.aims > 0 ? scratch.weights[ray] : 1.0f; }
+    /// The bright patch that the ray met.
+    int find_patch(std::size_t ray) const {
+        return options.bright->find(scratch.hits[ray], scratch.rays[ray].direction);
+    }
     /// sr, of the cell of the hemisphere that holds the ray: 1 / cosine larger towards the horizon. Textures are
     /// filtered by it, also where rays are aimed: less filtered where they are bright, they would be too bright.
     float cell_solid_angle(std::size_t ray) const {
@@ -50,10 +54,10 @@ struct Lighting {
     std::uint64_t find_cell(std::size_t ray, const Hit& hit, const glm::vec3& position, const glm::vec3& geometric,
                             float widths = 1.0f) const {
         if (options.grid == nullptr) return 0;
-        // Aimed rays meet nothing of a cell but what is bright: it must not hold for what lies beside that.
-        const int apart = weight(ray) < 1.0f ? static_cast<int>(context.shading.instances.size()) : 0;
-        return options.grid->key_of(hit.instance + apart,
-                                    position - context.shading.instances[hit.instance].translation, geometric,
+        // More rays are aimed at brighter patches: a cell that held for several of them would be too bright for all.
+        const std::size_t patch = static_cast<std::size_t>(weight(ray) < 1.0f ? find_patch(ray) + 1 : 0);
+        const std::size_t surface = patch * context.shading.instances.size() + static_cast<std::size_t>(hit.instance);
+        return options.grid->key_of(surface, position - context.shading.instances[hit.instance].translation, geometric,
                                     widths * hit.distance * std::sqrt(solid_angle(ray)));
     }
     bool is_plain(const Hit& hit) const {
