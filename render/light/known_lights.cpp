@@ -62,8 +62,7 @@ Reach find_reach(const LightingContext& context, RayTask& task, const std::vecto
     const auto count = static_cast<int>(places.size());
     for (int i = 0; i < count; ++i) {
         const LitSurface lit(places[i]);
-        const Receiver receiver{lit.point.ray_origin(), lit.point.normal, lit.material.has_glass(), nullptr,
-                                context.openings};
+        const Receiver receiver = make_receiver(context, lit);
         const LightSample sample = sample_light(context.shading, context.lights, light, receiver,
                                                 lattice_point(i, count, {0.25f, 0.75f}), 1.0f);
         if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) continue;

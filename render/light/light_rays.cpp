@@ -59,8 +59,8 @@ Passage choose_passage(const SkyOpenings& all, RandomStream& random) {
 /// lm, of each light; of light from afar, what passes the openings or crosses the target.
 std::vector<double> find_powers(const LightingContext& context, const BoundingSphere& target) {
     const LightSet& lights = context.lights;
-    const SkyOpenings* const openings = context.openings;
     const double disc = std::numbers::pi * target.radius * target.radius;
+    const double open = context.openings != nullptr ? find_area(*context.openings) : 0.0;
     std::vector<double> powers;
     for (const Emitter& emitter : lights.emitters) {
         const double sides = emitter.double_sided ? 2.0 : 1.0;
@@ -69,14 +69,14 @@ std::vector<double> find_powers(const LightingContext& context, const BoundingSp
     }
     for (const PunctualLight& light : lights.punctual) {
         const bool is_far = light.kind == Light::Kind::directional;
-        const double area = openings != nullptr ? find_area(*openings) : disc;
+        const double area = open > 0.0 ? open : disc;
         powers.push_back((is_far ? area : find_solid_angle(light)) * luminance(light.intensity));
     }
     if (lights.has_environment) {
         const EnvironmentMap* map = context.shading.environment.map;
         const double mean = map != nullptr ? map->mean_luminance : 1.0;
-        const double directions_area = openings != nullptr ? find_area(*openings) : 4.0 * disc;
-        powers.push_back(std::numbers::pi * directions_area * mean * luminance(context.shading.environment.radiance));
+        const double area = open > 0.0 ? open : 4.0 * disc;
+        powers.push_back(std::numbers::pi * area * mean * luminance(context.shading.environment.radiance));
     }
     return powers;
 }

@@ -47,6 +47,12 @@ bool is_small(const SeenOpenings& seen, std::size_t i) {
     return !(std::min(seen.angles[i][0], seen.angles[i][1]) > least_solid_angle);
 }
 
+/// @param margin  m, around the opening
+bool is_within(const SkyOpening& opening, const BoxExit& exit, const glm::vec2& margin) {
+    return opening.side == exit.side && glm::all(glm::greaterThanEqual(exit.at, opening.low - margin)) &&
+           glm::all(glm::lessThanEqual(exit.at, opening.high + margin));
+}
+
 /// Per steradian, of the samples of one opening.
 /// @param at  where the direction meets it, from the receiver
 float find_opening_density(const SkyOpening& opening, const SeenOpenings& seen, std::size_t i, const glm::vec3& at) {
@@ -62,10 +68,8 @@ float estimate_open_share(const SkyOpenings& all, const Receiver& receiver, cons
     if (!is_inside(all, receiver.position)) return 1.0f;
     if (direction != glm::vec3(0.0f)) {
         const BoxExit exit = leave_box(all, receiver.position, direction);
-        const bool is_open = std::ranges::any_of(all.openings, [&](const SkyOpening& o) {
-            return o.side == exit.side && glm::all(glm::greaterThanEqual(exit.at, o.low)) &&
-                   glm::all(glm::lessThanEqual(exit.at, o.high));
-        });
+        const bool is_open = std::ranges::any_of(
+            all.openings, [&](const SkyOpening& opening) { return is_within(opening, exit, glm::vec2(0.0f)); });
         return is_open ? 1.0f : least_open_share;
     }
     const float share = least_open_share + see_openings(all, receiver).total / std::numbers::pi_v<float>;
@@ -121,10 +125,7 @@ float pdf_openings(const SkyOpenings& all, const SeenOpenings& seen, const glm::
     float density = 0.0f;
     for (std::size_t i = 0; i < all.openings.size(); ++i) {
         const SkyOpening& opening = all.openings[i];
-        const bool is_within = opening.side == exit.side &&
-                               glm::all(glm::greaterThanEqual(exit.at, opening.low - rounding)) &&
-                               glm::all(glm::lessThanEqual(exit.at, opening.high + rounding));
-        if (is_within && seen.weights[i] > 0.0f)
+        if (seen.weights[i] > 0.0f && is_within(opening, exit, rounding))
             density += seen.weights[i] / seen.total * find_opening_density(opening, seen, i, exit.distance * direction);
     }
     return density;

@@ -135,7 +135,8 @@ class PixelSamples {
     SampledPlace first_;  ///< of the first sample
     FoundIrradiance irradiance_;
     std::optional<Rgb> kept_mean_;
-    float seen_variance_ = 0.0f, white_;
+    float seen_variance_ = 0.0f;
+    float white_;
     bool edge_ = false;
 };
 

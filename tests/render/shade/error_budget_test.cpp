@@ -43,6 +43,24 @@ TEST(ErrorBudget, SamplesKeepToTheNoiseThatGoesUnseen) {
     }
 }
 
+/// Beside a red lamp, red is beyond white and the other channels far below.
+TEST(AskedError, NoiseBeyondWhiteTakesNoSamples) {
+    Scene scene;
+    add_flat_view(scene, 1.0);
+    scene.environment.radiance.reset();
+    add_mesh(scene, make_quad(5.0, 5.0, add_lambert(scene, glm::dvec3(0.8))));
+    add_lamp(scene, 2.0, {400.0, 1.0, 1.0}, {2.2, 0.0, 1.1}, turn_about_y(-0.5 * pi));
+    RenderSettings settings{.picture = {.width = 16, .height = 12}};
+    follow_error(settings, 0.5);
+    settings.light.bounces = 0;
+    const ShadedFrame out = Sequence(scene, settings).render(0).shaded;
+    for (const Rgb& color : out.color.pixels) {
+        EXPECT_GT(color.x, 1.0f);
+        EXPECT_LT(color.y, 1.0f);
+    }
+    EXPECT_LE(out.counts.samples, 40u * 16 * 12);
+}
+
 TEST(AskedError, FaintLampsCountAtAnyError) {
     // One bright lamp, and eight that together add a twentieth: a small part of the error that is asked for.
     Scene scene;
