@@ -26,8 +26,10 @@ Ray move_origin(const Ray& ray, const glm::vec3& origin) {
 /// Samples one light.
 /// @param scatter  gives the light that is scattered of a sample of this probability
 template <class Scatter>
-ScatteredLight sample_one_light(const LightingContext& context, const Receiver& receiver, const LightNumbers& numbers,
+ScatteredLight sample_one_light(const LightingContext& context, const Receiver& from, const LightNumbers& numbers,
                                 const Scatter& scatter) {
+    std::optional<SeenOpenings> seen;
+    const Receiver receiver = with_openings(from, seen);
     const LightCut cut = find_light_cut(context.lights, receiver, context.met);
     const LightPick pick = pick_light(cut, receiver, numbers.choice);
     // A value that is not finite is not hidden: the sample is dropped and counted.

@@ -1,6 +1,8 @@
 #pragma once
 // One light for a surface point, chosen among all, and whether it reaches the point.
 
+#include <optional>
+
 #include "render/light/lights.h"
 #include "render/surface/media.h"
 #include "render/surface/ray_task.h"
@@ -36,6 +38,13 @@ inline Receiver make_receiver(const LightingContext& context, const LitSurface& 
 /// The same for a Lambert surface.
 inline Receiver make_lambert_receiver(const LightingContext& context, const SurfacePlace& place) {
     return {place.ray_origin(), place.normal, false, nullptr, context.openings};
+}
+
+/// The receiver with what it sees of the openings, for lights that are chosen as well as sampled: found once.
+/// @param seen  set where there are openings; the receiver refers to it
+inline Receiver with_openings(Receiver receiver, std::optional<SeenOpenings>& seen) {
+    if (receiver.openings != nullptr) receiver.seen = &seen.emplace(see_openings(*receiver.openings, receiver));
+    return receiver;
 }
 
 /// Light of one light that a surface scatters towards its viewer, before its shadow ray is cast.

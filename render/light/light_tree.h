@@ -11,6 +11,7 @@
 namespace aleph {
 
 struct LitSurface;
+struct SeenOpenings;
 struct SkyOpenings;
 
 /// One light, or several.
@@ -41,6 +42,7 @@ struct Receiver {
     /// The surface if it has gloss alone: a light counts by what the lobe shows of it. Null: by its illuminance.
     const LitSurface* gloss = nullptr;
     const SkyOpenings* openings = nullptr;  ///< of the sky, as far as they are known; null: light comes from anywhere
+    const SeenOpenings* seen = nullptr;  ///< of the openings, where lights are chosen as well as sampled; may be null
 };
 
 /// Illuminance that eight nodes can bring to a surface without shadows.

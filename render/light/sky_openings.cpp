@@ -77,6 +77,7 @@ float estimate_open_share(const SkyOpenings& all, const Receiver& receiver, cons
 }
 
 SeenOpenings see_openings(const SkyOpenings& all, const Receiver& receiver) {
+    if (receiver.seen != nullptr) return *receiver.seen;
     SeenOpenings seen;
     if (!is_inside(all, receiver.position)) return seen;
     for (std::size_t i = 0; i < all.openings.size(); ++i) {

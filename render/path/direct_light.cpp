@@ -42,7 +42,7 @@ class ChosenLights {
         : context_(context),
           lit_(lit),
           shares_(shares),
-          receiver_(make_receiver(context, lit)),
+          receiver_(with_openings(make_receiver(context, lit), seen_openings_)),
           cut_(find_light_cut(context.lights, receiver_, context.seen != nullptr ? &context.seen->others : nullptr)) {}
 
     /// Light of one sample of `count`.
@@ -82,6 +82,7 @@ class ChosenLights {
     const LightingContext& context_;
     const LitSurface& lit_;
     const LobeShares& shares_;
+    std::optional<SeenOpenings> seen_openings_;
     Receiver receiver_;
     LightCut cut_;
     std::optional<LightCut> hidden_;
