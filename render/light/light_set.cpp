@@ -1,7 +1,9 @@
 // The lights of a posed scene, gathered from its surfaces, its lamps and what surrounds it.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "render/light/lights.h"
 #include "render/surface/environment_map.h"
@@ -16,7 +18,9 @@ float versine(double angle) {
     return static_cast<float>(2.0 * s * s);
 }
 
-/// One of 24: the normal's longest component, and the signs of all.
+constexpr std::size_t sides_of_lamp = 24;
+
+/// One of sides_of_lamp: the normal's longest component, and the signs of all.
 int find_side(const Emitter::Triangle& triangle) {
     const glm::vec3 n = triangle.normal, size = glm::abs(n);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -49,6 +53,31 @@ bool has_alpha(const ShadingMaterial& material) {
     return material.material != nullptr && material.material->opacity.mode != Opacity::Mode::opaque;
 }
 
+/// Places the triangles that have an area. Of a lamp with one side and more than a few triangles, they are in the order
+/// of the sides that they face.
+/// @return whether they are
+bool place_triangles(const PosedInstance& instance, Emitter& emitter) {
+    const std::size_t count = instance.mesh->triangles.size();
+    std::vector<Emitter::Triangle> placed;
+    placed.reserve(count);
+    std::array<std::size_t, sides_of_lamp + 1> ends{};
+    for (std::size_t i = 0; i < count; ++i) {
+        const Emitter::Triangle triangle = place_triangle(instance, static_cast<int>(i));
+        if (!(area_of(triangle) > 0.0) || !std::isfinite(triangle.normal.x)) continue;
+        placed.push_back(triangle);
+        ++ends[find_side(triangle) + 1];
+    }
+    const bool has_sides = !emitter.double_sided && placed.size() > max_spherical_triangles;
+    if (!has_sides) {
+        emitter.triangles = std::move(placed);
+        return false;
+    }
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    emitter.triangles.resize(placed.size());
+    for (const Emitter::Triangle& triangle : placed) emitter.triangles[ends[find_side(triangle)]++] = triangle;
+    return true;
+}
+
 /// Cells of all lamps together.
 constexpr std::size_t most_cells = 1 << 16;
 
@@ -66,21 +95,14 @@ Emitter make_emitter(const ShadingScene& shading, int index, std::size_t cells, 
         texture != no_index) {
         emitter.brightest *= glm::max(shading.textures->textures[texture].largest, 1.0f);
     }
-    const Mesh& mesh = *instance.mesh;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Emitter::Triangle triangle = place_triangle(instance, static_cast<int>(i));
-        if (area_of(triangle) > 0.0 && std::isfinite(triangle.normal.x)) emitter.triangles.push_back(triangle);
-    }
-    const bool has_sides = !emitter.double_sided && emitter.triangles.size() > max_spherical_triangles;
-    if (has_sides) std::ranges::stable_sort(emitter.triangles, {}, find_side);
-    std::vector<double> cumulative;
-    double area = 0.0;
-    for (const Emitter::Triangle& triangle : emitter.triangles) {
-        cumulative.push_back(area += area_of(triangle));
-    }
+    const bool has_sides = place_triangles(instance, emitter);
+    double area = 0.0, end = 0.0;
+    for (const Emitter::Triangle& triangle : emitter.triangles) area += area_of(triangle);
     emitter.area = static_cast<float>(area);
     set_sphere(emitter);
-    for (const double a : cumulative) emitter.cumulative.push_back(static_cast<float>(a / area));
+    emitter.cumulative.reserve(emitter.triangles.size());
+    for (const Emitter::Triangle& triangle : emitter.triangles)
+        emitter.cumulative.push_back(static_cast<float>((end += area_of(triangle)) / area));
     if ((emitter.textured || emitter.has_alpha) && !emitter.triangles.empty())
         divide_by_emission(shading, cells, kept, emitter);
     if (has_sides) add_sides(emitter);

@@ -15,6 +15,10 @@ namespace {
 constexpr int reach = 2;            // pixels, of filters
 constexpr double covered = 0.9999;  // share of a filter's square that lamps cover where no outline is
 
+constexpr double small_lamp = 0.5;  // pixels: radius
+constexpr std::size_t few_triangles = 8;
+constexpr double least_filled = 0.8;  // share of an outline
+
 enum Seen : std::uint8_t { seen_surface, seen_lamp, seen_sky, seen_bright_sky };
 
 /// @param direction  of the ray that met it
@@ -70,10 +74,10 @@ Image<std::uint8_t> find_shares(const Image<std::uint8_t>& seen, const IsAsked& 
     return shares;
 }
 
-/// Adds a triangle to the pixels in whose filters it lies, where lamps are not all that they show.
-/// @param areas  per pixel: pixels, of all its triangles
-void add_triangle(const PicturePolygon& polygon, PixelFilter filter, const Image<std::uint8_t>& lamp_shares,
-                  BrightPiece triangle, std::vector<BrightPiece>& out, Image<float>& areas) {
+/// Adds a piece of a lamp to the pixels in whose filters it lies, where lamps are not all that they show.
+/// @param areas  per pixel: pixels, of all its pieces
+void add_piece(const PicturePolygon& polygon, PixelFilter filter, const Image<std::uint8_t>& lamp_shares,
+               BrightPiece piece, std::vector<BrightPiece>& out, Image<float>& areas) {
     if (polygon.count < 3) return;
     glm::dvec2 low = polygon.corners[0], high = low;
     for (int i = 1; i < polygon.count; ++i) {
@@ -93,9 +97,9 @@ void add_triangle(const PicturePolygon& polygon, PixelFilter filter, const Image
             const glm::dvec2 middle(x + 0.5, y + 0.5);
             const double area = area_of(clip_to_rectangle(polygon, middle - radius, middle + radius));
             if (!(area > 0.0)) continue;
-            triangle.x = x;
-            triangle.y = y;
-            out.push_back(triangle);
+            piece.x = x;
+            piece.y = y;
+            out.push_back(piece);
             areas(x, y) += static_cast<float>(area);
         }
     }
@@ -108,14 +112,43 @@ bool faces_camera(const CameraView& view, const ShadingScene& shading, const Emi
     return glm::dot(towards, glm::dvec3(triangle.normal)) > 0.0;
 }
 
+PicturePolygon project(const CameraView& view, const ShadingScene& shading, const Emitter::Triangle& triangle) {
+    const glm::dvec3 corner = shading.anchor + glm::dvec3(triangle.corner);
+    return project_triangle(view, {corner, corner + glm::dvec3(triangle.edge1), corner + glm::dvec3(triangle.edge2)});
+}
+
+/// Visits the triangles whose emission the camera may see.
+/// @param visit  (primitive, polygon)
+template <class Visit>
+void visit_triangles(const CameraView& view, const ShadingScene& shading, const Emitter& lamp, const Visit& visit) {
+    for (const Emitter::Triangle& triangle : lamp.triangles) {
+        if (lamp.double_sided || faces_camera(view, shading, triangle))
+            visit(triangle.primitive, project(view, shading, triangle));
+    }
+}
+
+/// The outline of a lamp of many triangles that is smaller than a pixel and fills it, or no corners.
+PicturePolygon find_outline(const CameraView& view, const ShadingScene& shading, const Emitter& lamp) {
+    const glm::dvec3 center = shading.anchor + glm::dvec3(lamp.center);
+    if (lamp.triangles.size() <= few_triangles || !project_small_sphere(view, center, lamp.radius, small_lamp))
+        return {};
+    PictureOutline outline;
+    double area = 0.0;
+    visit_triangles(view, shading, lamp, [&](int, const PicturePolygon& polygon) {
+        outline.add(polygon);
+        area += area_of(polygon);
+    });
+    const PicturePolygon around = outline.polygon();
+    return area >= least_filled * area_of(around) ? around : PicturePolygon{};
+}
+
 }  // namespace
 
 PicturePolygon project_piece(const CameraView& view, const ShadingScene& shading, const BrightEdges& edges,
                              const BrightPiece& piece) {
     if (piece.instance == no_index) return project_cells(view, shading, *edges.cells, piece.primitive);
-    const Emitter::Triangle placed = place_triangle(shading.instances[piece.instance], piece.primitive);
-    const glm::dvec3 corner = shading.anchor + glm::dvec3(placed.corner);
-    return project_triangle(view, {corner, corner + glm::dvec3(placed.edge1), corner + glm::dvec3(placed.edge2)});
+    if (piece.outline != no_index) return edges.outlines[piece.outline];
+    return project(view, shading, place_triangle(shading.instances[piece.instance], piece.primitive));
 }
 
 BrightEdges find_bright_edges(const LightingContext& context, const CameraView& view, const SampleHits& centers,
@@ -130,12 +163,16 @@ BrightEdges find_bright_edges(const LightingContext& context, const CameraView& 
     Image<float> areas(shares.width, shares.height);
     for (const Emitter& lamp : context.lights.emitters) {
         if (luminance(lamp.brightest) * exposure < least_bright) continue;
-        for (const Emitter::Triangle& triangle : lamp.triangles) {
-            if (!lamp.double_sided && !faces_camera(view, context.shading, triangle)) continue;
-            const BrightPiece found{.instance = lamp.instance, .primitive = triangle.primitive};
-            add_triangle(project_piece(view, context.shading, edges, found), filter, shares, found, edges.pieces,
-                         areas);
+        BrightPiece whole{.instance = lamp.instance, .outline = static_cast<int>(edges.outlines.size())};
+        if (const PicturePolygon outline = find_outline(view, context.shading, lamp); outline.count > 0) {
+            edges.outlines.push_back(outline);
+            add_piece(outline, filter, shares, whole, edges.pieces, areas);
+            continue;
         }
+        visit_triangles(view, context.shading, lamp, [&](int primitive, const PicturePolygon& polygon) {
+            add_piece(polygon, filter, shares, {.instance = lamp.instance, .primitive = primitive}, edges.pieces,
+                      areas);
+        });
     }
     // What covers a filter and shows at no centre around is hidden.
     const double side = 2.0 * place_in_filter(filter, 1.0);

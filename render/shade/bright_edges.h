@@ -15,17 +15,23 @@ namespace aleph {
 
 inline constexpr double least_bright = 0.5;  ///< luminance, of white
 
-/// A triangle of a lamp, or a bright part of the environment's picture, that lies in the filter of a pixel, whether
-/// something hides it or not.
+/// A triangle of a lamp, all of a lamp that is smaller than a pixel, or a bright part of the environment's picture,
+/// that lies in the filter of a pixel, whether something hides it or not.
 struct BrightPiece {
-    int x = 0, y = 0;         ///< of the pixel
-    int instance = no_index;  ///< none: the environment
-    int primitive = no_index;
+    int x = 0, y = 0;          ///< of the pixel
+    int instance = no_index;   ///< none: the environment
+    int primitive = no_index;  ///< none: all of a lamp
+    int outline = no_index;    ///< into BrightEdges::outlines, of all of a lamp
+
+    bool contains(int of_instance, int of_primitive) const {
+        return instance == of_instance && (primitive == of_primitive || outline != no_index);
+    }
 };
 
 struct BrightEdges {
     Image<std::uint8_t> sky;  ///< 1: an outline of a surface before the bright environment may cross the pixel; else 0
     std::optional<EnvironmentCells> cells;  ///< of the environment's picture; none: it has no pieces
+    std::vector<PicturePolygon> outlines;   ///< of lamps that are pieces as a whole
     std::vector<BrightPiece> pieces;        ///< of the pixels that do not show lamps alone, row by row
 };
 

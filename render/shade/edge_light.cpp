@@ -45,8 +45,8 @@ bool meets(const ShadingScene& shading, const BrightEdges& edges, const Hit& hit
     int primitive = hit.primitive;
     if (hit.instance == no_index)
         primitive = edges.cells ? edges.cells->find(direction * shading.environment.rotation) : no_index;
-    return std::ranges::any_of(
-        pieces, [&](const BrightPiece& p) { return p.instance == hit.instance && p.primitive == primitive; });
+    return std::ranges::any_of(pieces,
+                               [&](const BrightPiece& piece) { return piece.contains(hit.instance, primitive); });
 }
 
 std::span<const BrightPiece> pieces_of(const BrightEdges& edges, const EdgeLight& edge) {

@@ -32,6 +32,10 @@ void clip(int count, const Height& height, const Visit& visit) {
     }
 }
 
+/// Normals of an outline's sides, in the order of its corners.
+constexpr std::array<glm::dvec2, 8> outwards{
+    {{1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}, {-1.0, 1.0}, {-1.0, 0.0}, {-1.0, -1.0}, {0.0, -1.0}, {1.0, -1.0}}};
+
 }  // namespace
 
 PicturePolygon project_triangle(const CameraView& view, const std::array<glm::dvec3, 3>& corners) {
@@ -52,6 +56,26 @@ PicturePolygon project_directions(const CameraView& view, const std::array<glm::
         const glm::dvec3 seen = direction * view.axes;
         if (!(-seen.z > nearest * glm::length(seen))) return {};
         polygon.add(project_camera_point(view, seen));
+    }
+    return polygon;
+}
+
+void PictureOutline::add(const PicturePolygon& polygon) {
+    for (int i = 0; i < polygon.count; ++i) {
+        for (std::size_t k = 0; k < outwards.size(); ++k)
+            reach_[k] = std::max(reach_[k], glm::dot(outwards[k], polygon.corners[i]));
+    }
+}
+
+PicturePolygon PictureOutline::polygon() const {
+    PicturePolygon polygon;
+    if (reach_[0] == none) return polygon;
+    for (std::size_t k = 0; k < outwards.size(); ++k) {
+        const std::size_t next = (k + 1) % outwards.size();
+        // Of the two sides that meet there, one lies along an axis.
+        polygon.add((reach_[k] * glm::dvec2(outwards[next].y, -outwards[next].x) +
+                     reach_[next] * glm::dvec2(-outwards[k].y, outwards[k].x)) /
+                    cross(outwards[k], outwards[next]));
     }
     return polygon;
 }

@@ -144,6 +144,53 @@ TEST(BrightEdges, AreNotDarkerWhereFewRaysMeetALamp) {
     EXPECT_NEAR(sum / expected, 1.0, 0.005);
 }
 
+/// Balls or a ring of 16 small lamps in one mesh, pixels, between pixels' centres.
+Stage make_small_lamps(bool ring) {
+    Scene scene;
+    scene.environment.radiance.reset();
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(300.0));
+    const double pixel = 1.0 / pixels_per_meter();
+    const auto add = [&](Mesh mesh) {
+        for (const double x : {-7.3, 0.0, 4.6}) add_mesh(scene, mesh, {x * pixel, 0.4 * x * pixel, 0.0});
+    };
+    if (ring) {
+        Mesh mesh;
+        for (unsigned i = 0; i < 16; ++i) {
+            const double angle = 2.0 * std::numbers::pi * i / 16.0;
+            for (const glm::dvec2& corner : {glm::dvec2(0.0), {0.02, 0.0}, {0.0, 0.02}})
+                mesh.positions.emplace_back(
+                    pixel * glm::dvec3(0.4 * std::cos(angle) + corner.x, 0.4 * std::sin(angle) + corner.y, 0.0));
+            mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+        }
+        mesh.material = lamp;
+        add(std::move(mesh));
+    } else {
+        add(make_faceted_sphere(0.4 * pixel, 24, lamp));
+    }
+    add_camera(scene, {0.0, 0.0, quad_distance}, glm::dvec3(0.0), quad_fov);
+    return Stage(scene, edges_width, edges_height);
+}
+
+TEST(BrightEdges, LampsSmallerThanPixelsAreOnePiece) {
+    const Stage stage = make_small_lamps(false);
+    const BrightEdges edges = find_edges(stage);
+    ASSERT_EQ(edges.outlines.size(), 3u);
+    Image<int> counts(edges_width, edges_height);
+    for (const BrightPiece& piece : edges.pieces) EXPECT_EQ(++counts(piece.x, piece.y), 1);
+    // All of their light, by few rays: the outlines hold what the triangles show.
+    double sum = 0.0;
+    for (const EdgeLight& light : find_light(stage, 0.0f, 64, 1)) sum += double{light.mean.x};
+    const double expected = 300.0 * 3.0 * 0.5 * 24.0 * 0.16 * std::sin(2.0 * std::numbers::pi / 24.0);
+    EXPECT_NEAR(sum / expected, 1.0, 0.01);
+}
+
+TEST(BrightEdges, LampsThatLeaveMostOfTheirOutlineAreTriangles) {
+    const BrightEdges edges = find_edges(make_small_lamps(true));
+    EXPECT_TRUE(edges.outlines.empty());
+    EXPECT_GE(edges.pieces.size(), 3u * 16u);
+    for (const BrightPiece& piece : edges.pieces) EXPECT_NE(piece.primitive, no_index);
+}
+
 TEST(BrightEdges, LeaveTheSamplesOfPixelsAroundAsFewAsWithoutALamp) {
     const auto count = [](double lamp) {
         const Scene scene = make_quad_before(glm::dvec3(lamp), glm::dvec3(0.4));

@@ -53,6 +53,30 @@ TEST(PicturePolygon, PlacesAreEvenOverIt) {
     EXPECT_NEAR(beyond / static_cast<double>(steps * steps), (0.5 * 1.5 * 1.5 - 0.5) / 3.5, 2e-3);
 }
 
+TEST(PicturePolygon, OutlinesAreTheLeastOctagon) {
+    PictureOutline outline;
+    EXPECT_EQ(outline.polygon().count, 0);
+    outline.add(make_polygon({{0.0, 0.0}, {3.0, 0.0}, {3.0, 2.0}, {0.0, 2.0}}));
+    EXPECT_NEAR(area_of(outline.polygon()), 6.0, 1e-12);
+    // A corner on the right of it: sides of 45 degrees from it to those above and below.
+    outline.add(make_polygon({{4.0, 1.0}}));
+    EXPECT_NEAR(area_of(outline.polygon()), 6.0 + 1.0, 1e-12);
+    outline.add(make_polygon({{3.0, 3.0}}));
+    EXPECT_NEAR(area_of(outline.polygon()), 12.0 - 3.0 * 0.5, 1e-12);
+    PictureOutline circle;
+    for (int i = 0; i < 64; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / 64.0;
+        circle.add(make_polygon({{std::cos(angle), std::sin(angle)}}));
+    }
+    const PicturePolygon around = circle.polygon();
+    EXPECT_NEAR(area_of(around), 8.0 * std::tan(std::numbers::pi / 8.0), 1e-12);
+    EXPECT_EQ(around.count, 8);
+    // Within a square each of its four sides takes the place of one of the octagon's.
+    const PicturePolygon cut = clip_to_rectangle(around, glm::dvec2(-0.8), glm::dvec2(0.8));
+    EXPECT_EQ(cut.count, 8);
+    EXPECT_NEAR(area_of(cut), 4.0 * 0.64 - 2.0 * std::pow(1.6 - std::numbers::sqrt2, 2.0), 1e-12);
+}
+
 TEST(PicturePolygon, TheCamerasPlaneCutsTriangles) {
     const CameraView view = look_down_z();
     const auto count = [&](double a, double b, double c) {
