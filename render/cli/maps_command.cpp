@@ -52,7 +52,7 @@ void refuse_what_needs_a_scene(const MapsOptions& options) {
     }
     if (!options.common.camera.empty()) throw InputError("", "--camera", "this needs a scene");
     if (!options.common.crop.empty()) throw InputError("", "--crop", "this needs a scene");
-    refuse_settings_of_scenes(options.common.settings);
+    check_as_options([&] { refuse_settings_of_scenes(options.common.settings); });
 }
 
 /// "frame.####.exr" to "frame-maps".

@@ -153,7 +153,11 @@ void override_study(const StudyCommandOptions& options, Study& study) {
     if (!options.frames.empty()) {
         for (StudyScene& scene : study.scenes) scene.frames = options.frames;
     }
-    if (!options.size.empty()) study.settings["size"] = options.size;
+    if (!options.size.empty()) {
+        RenderSettings checked;
+        apply_given(checked, {{"size", options.size}});
+        study.settings["size"] = options.size;
+    }
     SettingMap given;
     for (const std::string& set : options.sets) parse_setting(set, given);
     check_settings(given, "--set");
