@@ -76,7 +76,7 @@ TEST(CompareFrames, ResultsAsJunit) {
     write_exr(s.a + "/new.0009.exr", speck);
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--seen", s.maps, "--share", "1", "--junit", file}).code, 1);
     EXPECT_THAT(read_bytes(file), HasSubstr("100 % of the pixels are seen to differ, allowed 1 %"));
-    // What cannot be compared is a failure, too.
+    // A file that cannot be compared is a failure, too.
     std::ofstream(s.b + "/old.0009.exr") << "none";
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--junit", file}).code, 2);
     EXPECT_THAT(read_bytes(file), HasSubstr("tests=\"2\" failures=\"1\""));
