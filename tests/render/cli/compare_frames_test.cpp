@@ -161,7 +161,9 @@ TEST(CompareFrames, WrongKindsAreRefused) {
         {{s.a, s.folder / "none.####.exr"}, "no file fits"},
         {{s.a, s.folder.path().string()}, "holds no numbered pictures"},
         {{s.a, s.b, "--max-rms", "-1"}, "--max-rms"},
-        {{s.a, s.b, "--share", "101"}, "--share lies in 0 to 100"},
+        {{s.a, s.b, "--share", "101"}, "--share: lies in 0 to 100"},
+        {{s.a, s.b, "--tolerance", "-1"}, "--tolerance: must not be negative"},
+        {{s.a, s.b, "--threshold", s.b}, "old.0001.exr: --threshold: has no channel 'threshold.Y'"},
         {{picture, s.b + "/notes.txt"}, "notes.txt"},
         {{s.a, s.b, "--standard-errors", "3"}, "variance.Y"},
         {{s.a, s.b, "--standard-errors", "3", "--seen", s.maps}, "give one of them"}};
