@@ -239,6 +239,7 @@ answers 2 '--set: noise: there is no such setting' aleph study first.json "${stu
 answers 2 '--set: spp: expected a whole number' aleph study first.json "${study[@]}" --sweep error=1 --set spp=0
 answers 2 'error: --sweep: noise: expected a number from 0 to 1000' aleph study first.json --sweep noise=-1
 answers 2 'error: --size: expected WIDTHxHEIGHT' aleph study first.json --sweep spp=1 --size 0x0
+answers 0 'or a folder, to be named; of a study' aleph farm slurm --help
 answers 2 'pictures of a study have one size' aleph study first.json "${study[@]}" --sweep size=16x12,32x24
 answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 --repeats -1
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
