@@ -139,6 +139,8 @@ silent aleph maps first.json --frames 3 "${quick[@]}" -q -o preview.####.png
 is [ -s preview.0003.png ]
 answers 2 'expected 0 (all processors) to 4096' aleph render first.json -t -1
 answers 2 'expected 0 (all processors) to 4096' aleph maps --images 'x.####.png' -t 4097
+answers 2 'error: --exposure: expected a number above 0' aleph maps first.json --exposure -1
+answers 2 'error: --error: this setting needs a scene' aleph maps --images 'x.####.png' --error 1
 silent aleph render first.json "${quick[@]}" -t 0 -q --frames 7 --frames 0 --spp 9 --set spp=8 --spp 2 -o twice.exr --stats twice.json
 is grep -q '"spp": 2,' twice.json
 is grep -q '"frame": 0,' twice.json
@@ -235,6 +237,9 @@ answers 2 'expected KEY=VALUE' aleph study first.json "${study[@]}" --sweep erro
 answers 2 '--sweep: gathr: there is no such setting; did you mean "gather"' aleph study first.json "${study[@]}" --sweep gathr=1,2
 answers 2 '--set: noise: there is no such setting' aleph study first.json "${study[@]}" --sweep spp=1 --set noise=1
 answers 2 '--set: spp: expected a whole number' aleph study first.json "${study[@]}" --sweep error=1 --set spp=0
+answers 2 'error: --sweep: noise: expected a number from 0 to 1000' aleph study first.json --sweep noise=-1
+answers 2 'error: --size: expected WIDTHxHEIGHT' aleph study first.json --sweep spp=1 --size 0x0
+answers 0 'or a folder, to be named; of a study' aleph farm slurm --help
 answers 2 'pictures of a study have one size' aleph study first.json "${study[@]}" --sweep size=16x12,32x24
 answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 --repeats -1
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept

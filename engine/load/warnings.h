@@ -12,7 +12,7 @@ std::string source_file(const Scene& scene, int include);
 /// - refuses a camera whose node and parents scale two or all axes to 0: it has no axes left;
 /// - warns of nodes with meshes whose transform flattens them, or shrinks them to a point: rays leave out what has no
 ///   volume (RayScene::update).
-/// What is 0 only for a while is fine, and a common way to hide an object.
+/// A scale that is 0 only for a while is fine, and a common way to hide an object.
 /// @throws InputError naming the file that brought the camera, and its node
 void check_scales(Scene& scene);
 

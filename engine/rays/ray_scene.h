@@ -67,7 +67,7 @@ class RayScene {
     std::unique_ptr<State> state_;
 };
 
-/// The effect of surfaces with AlphaMode::blend on rays. Alpha masks are the same in both.
+/// The effect of surfaces with AlphaMode::blend on rays. Alpha masks have the same in all three.
 enum class Blend {
     cutout,  ///< rays pass where alpha is below .5: no noise, for maps and quick pictures
     /// At each surface a ray passes with probability 1 - alpha, so that pictures are right on average. A ray that has a

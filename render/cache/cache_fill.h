@@ -7,8 +7,8 @@
 //   1. all threads look for tiles that need a record. The cache does not change meanwhile;
 //   2. one thread goes through these tiles in order and accepts a tile unless the expected reach of a tile accepted
 //      before covers it. Tiles that are not accepted wait for the next round;
-//   3. all threads gather irradiance for the accepted tiles. Random numbers depend on the seed and on the place on the
-//   surface only;
+//   3. all threads gather irradiance for the accepted tiles. Random numbers depend on seed, frame and place on the
+//      surface only (gather_at.cpp);
 //   4. one thread inserts the records in the order of their tiles.
 // No step depends on the order in which threads work.
 

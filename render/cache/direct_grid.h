@@ -3,7 +3,8 @@
 // so that gather rays which meet a cell that is already known cast no shadow ray.
 //
 // A cell is about as wide as the part of the surface that one gather ray represents, rounded to a power of two. Cells
-// belong to one instance and to one of six directions that its true normal can face most.
+// belong to one instance, or to one bright surface of it (bright_surfaces.h), and to one of six directions that its
+// true normal can face most.
 //
 // The grid does not change while gathers run. A gather that meets a cell with too few samples computes one of its own,
 // and notes it; after a round, the notes are inserted in the order of the records. So the light does not depend on the

@@ -131,7 +131,7 @@ struct FurtherLight {
     RandomKey key;  ///< of the place
 };
 
-/// What is kept of a gather beside its rays.
+/// A gather, but for its rays.
 struct GatherState {
     HemisphereStrata strata;
     std::vector<std::uint8_t> below;    ///< of every cell: no ray is cast, all directions are below the true surface

@@ -52,7 +52,7 @@ void refuse_what_needs_a_scene(const MapsOptions& options) {
     }
     if (!options.common.camera.empty()) throw InputError("", "--camera", "this needs a scene");
     if (!options.common.crop.empty()) throw InputError("", "--crop", "this needs a scene");
-    refuse_settings_of_scenes(options.common.settings);
+    check_as_options([&] { refuse_settings_of_scenes(options.common.settings); });
 }
 
 /// "frame.####.exr" to "frame-maps".
@@ -91,9 +91,6 @@ PreparedImages prepare_images(const MapsOptions& options) {
     SettingMap given = options.common.settings;
     set_scene_numbers(shot, given, "--set");
     if (options.exposure) shot.film.exposure = *options.exposure;
-    if (!(*shot.film.exposure > 0.0 && *shot.film.exposure <= 1e18)) {
-        throw InputError("", "--exposure", "expected a number above 0, at most 1e+18");
-    }
     apply_given(prepared.settings, given);
     MotionSource& source = prepared.settings.guide.motion;
     source = source_for_pictures(source);
@@ -233,6 +230,8 @@ void add_maps_command(CLI::App& app, Command& command) {
         "its own");
     maps->footer(maps_footer());
     maps->callback([options, maps, &command] {
+        if (options->exposure && !(*options->exposure > 0.0 && *options->exposure <= 1e18))
+            throw CLI::ValidationError("--exposure", "expected a number above 0, at most 1e+18");
         if (options->images.empty()) {
             if (options->common.scene.empty()) {
                 throw CLI::RequiredError("a scene, or --images 'frame.####.exr'");

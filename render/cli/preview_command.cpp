@@ -31,10 +31,10 @@ constexpr std::size_t most_frames = 60;  // of the film
 constexpr std::size_t sheet_frames = 12, sheet_columns = 4;
 
 constexpr const char* preview_footer =
-    "Each frame is the quick estimate of the renderer, without noise: direct light with soft shadows, and coarse "
-    "indirect light; no reflections, no refraction, no motion blur. The film has at most 60 frames, evenly spread over "
-    "the shot, and lasts as long as the shot. The sheet (PNG, beside the film) has up to 12 of them with their "
-    "numbers.\n\n"
+    "Each frame is the quick estimate of the renderer, without noise: direct light with soft shadows, coarse "
+    "indirect light, mirrors and glass; gloss shows lamps alone, and motion blur comes in steps. The film has at most "
+    "60 frames, evenly spread over the shot, and lasts as long as the shot. The sheet (PNG, beside the film) has up to "
+    "12 of them with their numbers.\n\n"
     "Examples:\n"
     "  aleph preview scenes/pool/scene.json                            pool.preview.mp4 and pool.preview.png\n"
     "  aleph preview scenes/pool/scene.json --motion -o motion.mp4     with lines of motion\n"

@@ -243,12 +243,16 @@ int find_threads(int given) {
     return std::clamp(cpus, 0, max_threads);
 }
 
-void apply_given(RenderSettings& settings, const SettingMap& given) {
+void check_as_options(const std::function<void()>& check) {
     try {
-        apply_settings(settings, given, "");
+        check();
     } catch (const InputError& e) {
         throw InputError("", option_name(e.place()), e.reason());
     }
+}
+
+void apply_given(RenderSettings& settings, const SettingMap& given) {
+    check_as_options([&] { apply_settings(settings, given, ""); });
 }
 
 RenderSettings join_settings(Scene& scene, SettingMap given, bool keeps_to_error) {

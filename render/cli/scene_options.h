@@ -2,6 +2,7 @@
 // Options of the commands that make frames of a scene, and the scene with its settings as these options ask for.
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,6 +66,9 @@ PictureArea parse_crop(const std::string& text, const PictureSettings& picture);
 
 /// Behind the name of files of maps, to keep them apart from the pictures in the same folder.
 inline constexpr const char* maps_suffix = "-maps";
+
+/// Runs a check of settings of the command line. @throws its InputError, naming the option in place of the key
+void check_as_options(const std::function<void()>& check);
 
 /// Applies settings of the command line.
 /// @throws InputError naming the option of a setting

@@ -153,7 +153,11 @@ void override_study(const StudyCommandOptions& options, Study& study) {
     if (!options.frames.empty()) {
         for (StudyScene& scene : study.scenes) scene.frames = options.frames;
     }
-    if (!options.size.empty()) study.settings["size"] = options.size;
+    if (!options.size.empty()) {
+        RenderSettings checked;
+        apply_given(checked, {{"size", options.size}});
+        study.settings["size"] = options.size;
+    }
     SettingMap given;
     for (const std::string& set : options.sets) parse_setting(set, given);
     check_settings(given, "--set");
@@ -265,7 +269,8 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
              "`aleph explain` prints; its errors are measured, and no costs")
         ->allow_extra_args(false);
     add_text(study, "-o,--output", "FOLDER", options.output, "folder of the results; default: NAME-study");
-    add_value(study, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
+    add_value(study, "-t,--threads", options.threads,
+              "number of threads, 0 to 4096; 0: all processors, or those of a Slurm task (SLURM_CPUS_PER_TASK)");
     study.add_flag(
         "--viewer-test", options.extras.viewer_test,
         "also write viewer-test.html: a test in which viewers say which of two sequences had the errors, the reference "

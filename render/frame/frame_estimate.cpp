@@ -225,7 +225,7 @@ struct Look {
         return still;
     }
 
-    /// What the sharp estimate shows of a surface, with exposure.
+    /// Light of a surface in the sharp estimate, with exposure.
     std::optional<Rgb> read(const Hit& hit, const glm::vec3& direction) const {
         if (hit.instance == no_index) return std::nullopt;
         const Still still = find_still(hit, make_surface_point(keyframe.lighting.shading, hit, direction));

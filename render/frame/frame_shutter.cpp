@@ -14,7 +14,7 @@ namespace {
 constexpr int places_across = 16;                 // where light is looked at, in each direction of the picture
 constexpr int most_spans = 8, least_samples = 8;  // of a pixel in each span: records for fewer do not pay
 
-/// What the light of a shutter is found from.
+/// Inputs of the light of a shutter.
 struct ShutterWork {
     SequenceState& s;
     std::int64_t frame;

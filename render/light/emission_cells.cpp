@@ -151,7 +151,7 @@ std::shared_ptr<const CellTexels> find_texels(const ShadingScene& shading, const
     return kept.emplace_back(std::make_shared<const CellTexels>(std::move(cells)));
 }
 
-/// Of all cells of a lamp.
+/// Sums over all cells of a lamp.
 struct Emission {
     double power = 0.0;    ///< integral of luminance over the area
     double squares = 0.0;  ///< of its square

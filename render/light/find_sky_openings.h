@@ -8,7 +8,8 @@ namespace aleph {
 
 /// Short random paths from what the camera sees tell where rays leave a box around what they meet, and reach the sky.
 /// Nothing without an environment or without direct light, or where more than a third of the rays reach it: most
-/// samples do then anyway. A pure function of its arguments.
+/// samples do then anyway. Nothing either where too few do, or through more than a third of the box. A pure function
+/// of its arguments.
 /// @param counts  increased, rays as RayCounts::shadow
 std::optional<SkyOpenings> find_sky_openings(const LightingContext& context, const CameraView& view,
                                              const SampleHits& centers, RayCounts& counts);

@@ -23,7 +23,7 @@ struct KnownLights {
     HiddenLights unmet;                   ///< from these, and from places that rays by cosine from them meet
 };
 
-/// Rays between places and each light tell which lights reach any of them: 64 to 1,024 places, fewer of them the more
+/// Rays between places and each light tell which lights reach any of them: 8 to 1,024 places, fewer of them the more
 /// lights there are. Nothing is hidden where there is one light, or so many that the rays would cost more than they
 /// save, or where those that are hidden would bring little. A pure function of its arguments.
 /// @param counts  increased, rays as RayCounts::shadow

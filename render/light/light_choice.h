@@ -23,7 +23,7 @@ struct LightingContext {
     const LightSet& lights;
     const RayScene& rays;
     Media around{};  ///< of the points that paths start from, such as the camera
-    // What is known of the lights (known_lights.h).
+    // Knowledge of the lights (known_lights.h).
     const SplitLights* seen = nullptr;      ///< for direct light of what the camera sees; null: LightSet::tree alone
     const LightTree* met = nullptr;         ///< for light that reaches it indirectly; null: LightSet::tree
     const SkyOpenings* openings = nullptr;  ///< null: none
@@ -80,7 +80,7 @@ inline constexpr int max_sheets = 64;
 /// pass. @return false: the surface is no such sheet
 bool pass_sheet(const ShadingScene& shading, const Hit& hit, Ray& ray, Rgb& passed);
 
-/// What a ray hits beyond smooth sheets of glass.
+/// The hit of a ray beyond smooth sheets of glass.
 /// @param ray     moved beyond them
 /// @param passed  multiplied by what they let pass
 /// @param count   increased by the rays that are cast

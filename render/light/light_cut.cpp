@@ -37,7 +37,7 @@ float find_seen_share(const Receiver& receiver, const glm::vec3& center, float r
     return share;
 }
 
-/// What the nodes of a group bring, as the receiver scatters it.
+/// Light that the nodes of a group bring, as the receiver scatters it.
 LightReaches scattered_reach_of(const LightGroup& group, const Receiver& receiver) {
     LightReaches reaches = reach_of(group, receiver);
     if (receiver.gloss == nullptr && receiver.openings == nullptr) return reaches;

@@ -56,7 +56,7 @@ enum class Sampling {
     consecutive,  ///< until two stages in a row differ by less than the threshold (6.10)
     variance,     ///< until their standard error is below it (6.12)
     protocol,     ///< as many as the Aleph map says beforehand (6.13)
-    threshold,    ///< until 99.5 % of the pixels are about within the error that is asked for
+    threshold,    ///< until 99 % of the pixels are about within the error that is asked for
 };
 
 /// Whose samples tell Sampling::consecutive and Sampling::variance when a pixel stops. Other rules do not read it.

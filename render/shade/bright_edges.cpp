@@ -174,7 +174,7 @@ BrightEdges find_bright_edges(const LightingContext& context, const CameraView& 
                       areas);
         });
     }
-    // What covers a filter and shows at no centre around is hidden.
+    // A piece that covers a filter and shows at no centre around is hidden.
     const double side = 2.0 * place_in_filter(filter, 1.0);
     std::erase_if(edges.pieces, [&](const BrightPiece& triangle) {
         return shares(triangle.x, triangle.y) == share_none && areas(triangle.x, triangle.y) >= covered * side * side;

@@ -24,7 +24,7 @@ constexpr double share_of_energy = 0.25;                    // of the error that
 constexpr double variance_of_half = 2.0;                    // of half as many rays, over that of all
 constexpr std::uint32_t edge_key_mask = 0x65646765u;        // apart from the samples' own places
 
-/// What pixels may err by.
+/// Errors that pixels may have.
 struct EdgeLimits {
     const SamplingPlan& plan;
     Image<float> density;  ///< share of the pixels that are seen together that have a bright edge; empty: no limit

@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-/// What a pixel shows of lamps, and of the environment, by themselves.
+/// Light that a pixel shows of lamps, and of the environment, by themselves.
 struct EdgeLight {
     int x = 0, y = 0;
     bool sky = false;                 ///< all of the environment is in the mean

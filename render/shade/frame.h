@@ -30,9 +30,9 @@ struct SampleOptions {
     const PartialPicture* partial = nullptr;  ///< shows the picture so far; may be null
 };
 
-/// Shades a frame. With Integrator::cache it fills a cache first; with accuracy 0, irradiance is gathered at every
-/// sample instead. While the shutter is open the scene changes from sample to sample: indirect light is read where it
-/// lasts (shutter_light.h), and comes from one random path elsewhere, also with accuracy 0.
+/// Shades a frame. With Integrator::cache it fills a cache first; with accuracy 0, every sample casts rays of its own
+/// instead. While the shutter is open the scene changes from sample to sample: indirect light is read where it lasts
+/// (shutter_light.h), and comes from such rays elsewhere.
 /// @param centers  hits through the pixel centres, which are the samples if spp is 1
 ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& centers, double exposure,
                         const SampleOptions& options = {});

@@ -14,7 +14,7 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Of the triangle of corners 0, i and i + 1.
+/// Area of the triangle of corners 0, i and i + 1.
 double fan_area(const PicturePolygon& polygon, int i) {
     const auto& corners = polygon.corners;
     return 0.5 * std::abs(cross(corners[i] - corners[0], corners[i + 1] - corners[0]));

@@ -59,7 +59,8 @@ void sample_by_stages(const SamplingPlan& plan, Image<PixelSamples>& pixels, con
 /// The luminance that samples may err by, as they have it (before exposure).
 /// threshold: allow_noise of RenderSettings::error, times what noise of single pixels goes unseen.
 /// consecutive, variance: RenderSettings::error times the threshold.
-/// Beside the outline of a moving object it is the strictest of the nine around the pixel (README.md).
+/// Beside the outline of a moving object, or of one smaller than pixels, it is the strictest of the nine around the
+/// pixel (README.md).
 /// @return empty for rules that need none
 Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure);
 

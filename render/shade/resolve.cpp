@@ -28,7 +28,7 @@ class Sharing {
     const Image<Outline>& outlines_;
 };
 
-/// What a pixel has lost that is seen.
+/// Light that a pixel has lost, without what lies beyond white.
 Rgb find_lost(const PixelSamples& pixel, double white) {
     const Rgb mean = pixel.mean();
     Rgb lost = pixel.lost();

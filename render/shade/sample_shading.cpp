@@ -155,7 +155,7 @@ void shade_sample(const SampleShading& shading, const SampleScene& scene, Shadin
     const bool needs_irradiance = shading.indirect && surface.material.has_diffuse();
     std::optional<Rgb> irradiance;
     if (needs_irradiance) {
-        // What other samples read may not hold at this one's time.
+        // Irradiance that other samples read may not hold at this one's time.
         if (!shading.blurred || (shading.shutter != nullptr && shading.shutter->is_still()))
             irradiance = pixel.find_irradiance(light);
         if (!irradiance) irradiance = light.irradiance = look_up(shading, task, surface);

@@ -69,9 +69,9 @@ std::vector<Metric> list_metrics(const Study& study) {
     for (const Row& row : rows) known.emplace_back(row.name);
     for (const std::string& name : study.metrics) {
         if (one_seed && needs_two_seeds(name))
-            throw InputError("", "metrics", fmt::format("{} needs two seeds", printable(name)));
+            throw InputError(study.file, "metrics", fmt::format("{} needs two seeds", printable(name)));
         if (std::ranges::find(known, name) != known.end()) continue;
-        throw InputError("", "metrics",
+        throw InputError(study.file, "metrics",
                          fmt::format("there is no metric {}{}; known are {}", printable(name),
                                      close_suggestion(name, known), fmt::join(known, ", ")));
     }

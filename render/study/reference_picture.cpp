@@ -103,7 +103,8 @@ std::optional<ThresholdNoise> find_noise(const SettingMap& settings, const std::
             throw InputError("", variant, "noise is added to the reference: no other setting stands beside it");
         const double* factor = std::get_if<double>(&found->second);
         if (factor == nullptr || !(*factor >= 0.0 && *factor <= 1000.0))
-            throw InputError("", variant, "expected a number from 0 to 1000, times the threshold");
+            throw InputError("", variant,
+                             fmt::format("{}: expected a number from 0 to 1000, times the threshold", key));
         return ThresholdNoise{*factor, key == zero_mean_noise_key};
     }
     return std::nullopt;

@@ -10,6 +10,7 @@
 #include "engine/json/json_ref.h"
 #include "engine/json/schema.h"
 #include "engine/json/text.h"
+#include "render/settings/frame_list.h"
 #include "render/settings/frame_pattern.h"
 #include "render/settings/settings.h"
 #include "render/study/search_study.h"
@@ -87,11 +88,22 @@ std::map<std::int64_t, std::filesystem::path> find_pictures(const JsonRef& at, c
     }
 }
 
+/// The text of a list of frames; empty without one.
+std::string read_frames(const JsonRef& scene) {
+    const auto frames = scene.find("frames");
+    if (!frames || frames->string().empty()) return {};
+    try {
+        parse_frame_list(frames->string());
+    } catch (const InputError& error) {
+        frames->fail(error.reason());
+    }
+    return frames->string();
+}
+
 void read_lists(const JsonRef& root, const std::filesystem::path& folder, Study& study) {
     for_each_object(root, "scenes", [&](const JsonRef& scene, std::size_t) {
         const std::filesystem::path file = scene.require("scene").string();
-        study.scenes.push_back(
-            {file.is_absolute() ? file : (folder / file).lexically_normal(), scene.find_string("frames").value_or("")});
+        study.scenes.push_back({file.is_absolute() ? file : (folder / file).lexically_normal(), read_frames(scene)});
     });
     for_each_object(root, "variants", [&](const JsonRef& variant, std::size_t) {
         SettingMap settings = find_settings(variant);

@@ -66,7 +66,7 @@ struct KeyframeInput {
 /// The records of a base keyframe, if there is one, and those computed at surfaces that they do not cover.
 KeyframeRecords compute_records(const KeyframeInput& input, FrameCounts& counts);
 
-/// What happens between two times at which light is known.
+/// Changes between two times at which light is known.
 enum class BetweenKeys : std::uint8_t {
     anything,
     still,   ///< nothing but the camera changes: light that only one of them has holds at the other

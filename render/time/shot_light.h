@@ -21,7 +21,7 @@ struct KeyframeSource {
     std::function<LightingContext(std::int64_t frame, RayCounts& counts)> light;
 };
 
-/// What a frame keeps of the keyframes that are computed for it.
+/// Results that a frame keeps of the keyframes that are computed for it.
 struct KeyframeWork {
     std::vector<KeyframeStatistics>& filled;  ///< they are added
     const FrameProgress& progress;            ///< may be empty

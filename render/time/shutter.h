@@ -27,7 +27,7 @@ std::vector<std::int64_t> find_crossed_cuts(const Scene& scene, const std::funct
 std::optional<ShutterInterval> find_shutter(const Scene& scene, const glm::dvec2& shutter, std::int64_t frame,
                                             const std::vector<std::int64_t>& crossed = {});
 
-/// The keyframe that stands for a whole frame, s: the shutter's centre, or the centre of what a cut leaves of it where
+/// The time that stands for a whole frame, s: the shutter's centre, or the centre of what a cut leaves of it where
 /// its own lies in another shot; the frame's own time if the shutter opens for no time.
 double find_shutter_center(const Scene& scene, const glm::dvec2& shutter, std::int64_t frame,
                            const std::vector<std::int64_t>& crossed = {});

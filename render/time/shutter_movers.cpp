@@ -1,4 +1,4 @@
-// What differs between two poses of a scene while the shutter is open.
+// Things and lights that differ between two poses of a scene while the shutter is open.
 
 #include <algorithm>
 #include <cmath>

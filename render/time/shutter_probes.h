@@ -35,7 +35,7 @@ struct LightChanges {
     void add(const LightChanges& other);
 };
 
-/// Of the larger one of both, as far as it is more than two standard errors of the paths; none if one is empty.
+/// Shares of the larger one of both, less two standard errors of the paths; none if one is empty.
 LightChanges find_light_changes(const std::vector<PixelSurface>& places, glm::ivec2 picture, const ProbedLight& known,
                                 const ProbedLight& sample);
 

@@ -17,7 +17,7 @@ FOLDERS = {
     "engine": ["engine/base/", "engine/scene/", "engine/pose/", "engine/rays/", "engine/surface/"],
     "motion": ["motion/"],
     "perception": ["perception/"],
-    "cache": ["render/cache/", "render/pixels/pixel_filter"],
+    "cache": ["render/cache/"],
     "light": ["render/light/"],
     "path": ["render/path/"],
     "time": ["render/time/"],

@@ -17,10 +17,10 @@ namespace aleph {
 namespace {
 
 void check_numbers(const CompareSettings& s) {
-    if (s.tolerance < 0.0 || s.relative < 0.0 || s.share < 0.0 || s.share > 100.0) {
-        throw InputError("", "", "--tolerance and --relative must not be negative, --share lies in 0 to 100");
-    }
-    const std::pair<const char*, double> limits[] = {{"--max-error", s.max_error},
+    if (!(s.share >= 0.0 && s.share <= 100.0)) throw InputError("", "--share", "lies in 0 to 100");
+    const std::pair<const char*, double> limits[] = {{"--tolerance", s.tolerance},
+                                                     {"--relative", s.relative},
+                                                     {"--max-error", s.max_error},
                                                      {"--max-rms", s.max_rms},
                                                      {"--max-relative-mse", s.max_relative_mse},
                                                      {"--max-bias", s.max_bias},

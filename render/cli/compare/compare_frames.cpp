@@ -192,6 +192,15 @@ struct ComparedFiles {
 };
 
 /// Compares one frame, and writes its picture of differences.
+/// @throws InputError naming the file, if it has no such channel
+ChannelImage read_maps(const std::filesystem::path& file, const char* option, const std::string& channel) {
+    ChannelImage maps = read_image(file);
+    if (!maps.find(channel))
+        throw InputError(printable(file.string(), 400), option,
+                         fmt::format("has no channel '{}': give files of `aleph maps`", channel));
+    return maps;
+}
+
 /// @throws InputError, OutputError
 void add_frame(const CompareOptions& options, const ComparedFiles& files, std::int64_t frame,
                SequenceComparison& sequence) {
@@ -200,15 +209,12 @@ void add_frame(const CompareOptions& options, const ComparedFiles& files, std::i
     std::vector<ChannelImage*> all{&a, &b};
     SequenceMaps maps;
     if (!files.thresholds.empty()) {
-        threshold = read_image(files.thresholds.at(frame));
+        threshold = read_maps(files.thresholds.at(frame), "--threshold", "threshold.Y");
         all.push_back(&threshold);
         maps.threshold = &threshold;
     }
     if (!files.seen.empty()) {
-        visible = read_image(files.seen.at(frame));
-        if (!visible.find("forward.u"))
-            throw InputError(printable(files.seen.at(frame).string(), 400), "--seen",
-                             "has no channel 'forward.u': give files of `aleph maps`");
+        visible = read_maps(files.seen.at(frame), "--seen", "forward.u");
         all.push_back(&visible);
         maps.visible = &visible;
     }

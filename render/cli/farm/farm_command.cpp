@@ -234,6 +234,10 @@ void add_job_options(CLI::App& app, FarmOptions& options) {
     add_scene_options(app, options.scene);
     app.get_option("scene")->description("scene file, or a study file (.json)");
     app.remove_option(app.get_option("--resume"));
+    app.get_option("--output")
+        ->description(
+            "output files: name.####.exr or .png (#### is the frame number), or a folder, to be named; of a study: its "
+            "folder, default: NAME-study");
     add_value(app, "--tasks", options.tasks, "tasks that the frames, or the runs of a study, are divided into")
         ->required();
     app.add_option("--command", options.command, "what makes the frames")

@@ -26,8 +26,8 @@ std::filesystem::path rows_file(const std::filesystem::path& path) {
     return hidden_beside(path, "rows");
 }
 
-/// What is not JSON is discarded. What is nested deeper than rows are is left out: to write it takes memory by its
-/// square.
+/// Text that is not JSON is discarded. Values nested deeper than those of rows are left out: writing them takes memory
+/// by the square of their depth.
 Json parse_rows(const std::string& text) {
     constexpr int most_depth = 32;
     return Json::parse(

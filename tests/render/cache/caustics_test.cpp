@@ -72,7 +72,7 @@ TEST(Caustics, LightThatFewRaysFindIsSpreadWhereAnErrorIsAsked) {
     const Mean blotched = find_light(0.0, 256), even = find_light(1.0, 256);
     EXPECT_LT(even.error(), 0.6 * blotched.error());  // the rest is noise of other rays
     EXPECT_NEAR(even.mean(), blotched.mean(), 3.0 * blotched.error());
-    // Of few rays none is rare.
+    // A gather of few rays has no rare light.
     EXPECT_EQ(find_light(1.0, 32).error(), find_light(0.0, 32).error());
 }
 

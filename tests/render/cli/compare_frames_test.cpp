@@ -76,7 +76,7 @@ TEST(CompareFrames, ResultsAsJunit) {
     write_exr(s.a + "/new.0009.exr", speck);
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--seen", s.maps, "--share", "1", "--junit", file}).code, 1);
     EXPECT_THAT(read_bytes(file), HasSubstr("100 % of the pixels are seen to differ, allowed 1 %"));
-    // What cannot be compared is a failure, too.
+    // A file that cannot be compared is a failure, too.
     std::ofstream(s.b + "/old.0009.exr") << "none";
     EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q", "--junit", file}).code, 2);
     EXPECT_THAT(read_bytes(file), HasSubstr("tests=\"2\" failures=\"1\""));
@@ -161,7 +161,9 @@ TEST(CompareFrames, WrongKindsAreRefused) {
         {{s.a, s.folder / "none.####.exr"}, "no file fits"},
         {{s.a, s.folder.path().string()}, "holds no numbered pictures"},
         {{s.a, s.b, "--max-rms", "-1"}, "--max-rms"},
-        {{s.a, s.b, "--share", "101"}, "--share lies in 0 to 100"},
+        {{s.a, s.b, "--share", "101"}, "--share: lies in 0 to 100"},
+        {{s.a, s.b, "--tolerance", "-1"}, "--tolerance: must not be negative"},
+        {{s.a, s.b, "--threshold", s.b}, "old.0001.exr: --threshold: has no channel 'threshold.Y'"},
         {{picture, s.b + "/notes.txt"}, "notes.txt"},
         {{s.a, s.b, "--standard-errors", "3"}, "variance.Y"},
         {{s.a, s.b, "--standard-errors", "3", "--seen", s.maps}, "give one of them"}};

@@ -33,7 +33,7 @@ glm::vec3 lamp_point(float u, float v) {
     return {2.0f * u - 1.0f, 2.0f, 1.0f - 2.0f * v};
 }
 
-/// Of the part of the lamp between these texels, sr.
+/// Solid angle of the part of the lamp between these texels, sr.
 double find_angle(const glm::vec3& from, int left, int top, int right, int bottom) {
     const auto corner = [&](int x, int y) {
         return lamp_point(static_cast<float>(x) / texels, static_cast<float>(y) / texels) - from;

@@ -1,4 +1,4 @@
-// What openings towards the sky tell of lights: which are chosen, and where their rays go.
+// Openings towards the sky tell which lights are chosen, and where their rays go.
 
 #include <glm/gtc/quaternion.hpp>
 

@@ -86,7 +86,7 @@ Image<std::uint8_t> mark_edges(const BrightEdges& edges) {
     return marks;
 }
 
-/// What the pixels at the outline of a lamp show by themselves.
+/// Light that the pixels at the outline of a lamp show by themselves.
 std::vector<EdgeLight> find_light(const Stage& stage, float tolerance, int most, std::uint32_t seed) {
     std::uint64_t rays = 0;
     SamplingPlan plan;

@@ -198,6 +198,9 @@ TEST(StudyFile, NamesWhatIsWrong) {
     expect("", "no variants");
     expect(R"(, "variants": [{"settings": {}}])", "needs a name");
     expect(R"(, "reference": {"kind": "paths"})", "/reference/kind");
+    expect_error(R"({"scenes": [{"scene": "a.json", "frames": "x"}], "sweep": {"spp": [1]}})",
+                 "s.json: /scenes/0/frames: 'x': expected N");
+    expect(R"(, "sweep": {"spp": [1]}, "metrics": ["speed"])", "s.json: metrics: there is no metric speed");
     expect(R"(, "reference": {"passes": 1})", "/reference/passes");
     expect(R"(, "reference": {"settings": {"spp": 3}})", "/reference");
     expect(R"(, "sweep": {"spp": [1]}, "metrics": ["recods"])", "\"records\"");

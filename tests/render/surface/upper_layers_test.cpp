@@ -71,7 +71,7 @@ TEST(UpperLayers, MC15_CoatAndSheenAreReciprocal) {
     }
 }
 
-/// Of a rough coat on a black surface, against the table.
+/// Albedo of a rough coat on a black surface, against the table.
 TEST(UpperLayers, CoatTableKeepsItsAccuracy) {
     for (const float alpha : {0.0011f, 0.004f, 0.01f, 0.03f, 0.08f, 0.2f, 0.5f, 1.0f}) {
         for (const float cosine : {0.003f, 0.01f, 0.03f, 0.07f, 0.15f, 0.3f, 0.6f, 1.0f}) {

@@ -46,7 +46,7 @@ TEST(ShutterProbes, WhatIsHiddenAtOneTimeDoesNotCount) {
     EXPECT_TRUE(add_light({{&first, 0.5f}, {&none, 0.5f}}).empty());
     const std::vector<PixelSurface> places(4);
     EXPECT_EQ(find_light_changes(places, {4, 4}, first, none).largest(), 0.0f);
-    // Of the places that both know one changes by 2 and one by nothing: that may be chance.
+    // One of the places that both know changes by 2, one by nothing: that may be chance.
     EXPECT_EQ(find_light_changes(places, {4, 4}, first, second).largest(), 0.0f);
     const ProbedLight brighter{2.0f, 5.0f, 4.0f, 6.0f};
     // 1, 2 and 3 more: their sum, of 12, less two standard errors.
