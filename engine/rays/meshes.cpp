@@ -173,6 +173,7 @@ MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::un
         any_blended = any_blended || cutouts[i]->blended;
         any_plain = any_plain || cutouts[i]->plain;
     }
+    for (const Mesh& mesh : scene.meshes) bounds.push_back(find_bounds(mesh.positions, mesh.triangles));
     const FlatPlan flat_plan = make_flat_plan(scene, plan, flatten);
     flat.instances = flat_plan.flat;
     flat.origin = flat_plan.origin;

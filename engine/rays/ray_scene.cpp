@@ -103,6 +103,9 @@ bool RayScene::is_flat(int instance) const {
 const glm::dvec3& RayScene::flat_origin() const {
     return state_->meshes->flat.origin;
 }
+const MeshBounds& RayScene::bounds(int mesh) const {
+    return state_->meshes->bounds[static_cast<std::size_t>(mesh)];
+}
 std::uint64_t RayScene::rays_traced() const {
     return state_->rays_traced.load();
 }

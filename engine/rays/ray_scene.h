@@ -11,6 +11,7 @@
 #include "engine/pose/plan.h"
 #include "engine/pose/pose.h"
 #include "engine/rays/hit.h"
+#include "engine/rays/mesh_bounds.h"
 
 namespace aleph {
 
@@ -55,6 +56,8 @@ class RayScene {
     /// relative to flat_origin (m, world), not to its object's. Rounding of a hit follows that distance.
     bool is_flat(int instance) const;
     const glm::dvec3& flat_origin() const;
+    /// Of a mesh of the scene as it is without deformation.
+    const MeshBounds& bounds(int mesh) const;
     /// Number of rays traced, and of invalid ones (NaN, infinite, out of range), which count as misses.
     std::uint64_t rays_traced() const;
     std::uint64_t invalid_rays() const;

@@ -45,6 +45,7 @@ struct MeshStructures {
     std::unique_ptr<EmbreeDevice> device;
     int packet_width = 1;  ///< 16, 8, or 1: the widest packets that the processor traces as such
     std::vector<std::unique_ptr<const AlphaCutout>> cutouts;  ///< as Scene::meshes; null: no holes
+    std::vector<MeshBounds> bounds;                           ///< as Scene::meshes
     std::vector<std::unique_ptr<TriangleTree>> trees;
     FlatTree flat;
     /// First what can move, deform, come or go, then what never does; in the order of the scene within both.

@@ -251,9 +251,9 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, F
     return cache.records().size() - records_before;
 }
 
-SceneBounds bounds_or_unit(const ShadingScene& shading) {
-    const SceneBounds& bounds = shading.bounds.all;
-    if (!(bounds.low.x <= bounds.high.x)) return {glm::vec3(-1.0f), glm::vec3(1.0f)};
+BoundingBox bounds_or_unit(const ShadingScene& shading) {
+    const BoundingBox& bounds = shading.bounds.all;
+    if (bounds.empty()) return {glm::vec3(-1.0f), glm::vec3(1.0f)};
     return bounds;
 }
 
@@ -288,13 +288,13 @@ void fill_cache(IrradianceCache& cache, const IndirectContext& context, const Sa
 }
 
 IrradianceCache make_cache(const ShadingScene& shading) {
-    const SceneBounds bounds = bounds_or_unit(shading);
+    const BoundingBox bounds = bounds_or_unit(shading);
     const glm::vec3 margin(1e-3f * glm::length(bounds.high - bounds.low));
     return {bounds.low - margin, bounds.high + margin};
 }
 
 float scene_radius(const ShadingScene& shading) {
-    const SceneBounds bounds = bounds_or_unit(shading);
+    const BoundingBox bounds = bounds_or_unit(shading);
     return 0.5f * glm::length(bounds.high - bounds.low);
 }
 

@@ -47,7 +47,8 @@ float share(float weight, const DiffuseSurface& here, const DiffuseSurface& ther
 /// all of its light or none, whatever share of it glazing bars hide. Many points of a bulb face away.
 int points_per_light(const LightSet& lights) {
     constexpr int most_points = 16, most_per_light = 4;
-    const bool has_sides = std::ranges::any_of(lights.emitters, [](const Emitter& e) { return !e.sides.empty(); });
+    const bool has_sides =
+        std::ranges::any_of(lights.emitters, [](const Emitter& e) { return !e.shape->sides.empty(); });
     return std::clamp(most_points / std::max(1, lights.count()), 1, has_sides ? most_points : most_per_light);
 }
 

@@ -34,7 +34,7 @@ std::size_t FrameScene::prepare() {
     } else {
         shading_ = make_shading_scene(shot_.scene, posed_->pose, *rays_, shot_.textures);
     }
-    lights_ = make_light_set(*shading_, std::move(lights_.kept));
+    lights_ = make_light_set(*shading_, std::move(lights_));
     around_ = {};
     known_ = {};
     leave_out(shot_.settings.effects.forbid);

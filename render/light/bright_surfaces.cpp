@@ -128,9 +128,10 @@ Emitter make_patch(const LitSide& side) {
     Emitter patch;
     patch.instance = side.sum.instance;
     patch.radiance = patch.brightest = Rgb(static_cast<float>(side.radiance()));
-    patch.area = side.area;
-    patch.triangles = {side.triangle};
-    set_sphere(patch);
+    const auto shape = std::make_shared<EmitterShape>();
+    shape->triangles = {side.triangle};
+    measure(*shape);
+    set_shape(shape, patch);
     return patch;
 }
 
@@ -154,11 +155,11 @@ bool faces(const LitSide& side, const Receiver& place) {
 /// The bright sides, if they have enough of the light; else none.
 std::vector<LitSide> find_bright_sides(const LightingContext& context, std::span<const Receiver> places,
                                        std::size_t light_rays, RayCounts& counts) {
-    SceneBounds box;
+    BoundingBox box;
     for (const Receiver& place : places) box.add(place.position);
     const glm::vec3 size = box.high - box.low;
     const double faces_of_box = 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x);  // m2
-    const BoundingSphere target{0.5f * (box.low + box.high), 0.5f * room_behind * glm::length(size)};
+    const BoundingSphere target{box.center(), 0.5f * room_behind * glm::length(size)};
     std::vector<LitSide> sides = add_up(context.shading, cast_light_rays(context, target, light_rays, counts));
     std::erase_if(sides, [&](const LitSide& side) {
         return std::ranges::none_of(places, [&](const Receiver& place) { return faces(side, place); });
@@ -217,7 +218,7 @@ int BrightSurfaces::find(const Hit& hit, const glm::vec3& direction) const {
         part = parts[part].quarters + enter_quarter(place);
     const int patch = parts[part].patch;
     if (patch == no_index) return no_index;
-    return glm::dot(patches.emitters[patch].triangles.front().normal, direction) < 0.0f ? patch : no_index;
+    return glm::dot(patches.emitters[patch].shape->triangles.front().normal, direction) < 0.0f ? patch : no_index;
 }
 
 BrightSurfaces find_bright_surfaces(const LightingContext& context, std::span<const Receiver> places,
@@ -246,7 +247,7 @@ BrightSampler::Aim BrightSampler::aim(const LightNumbers& numbers) const {
     const std::span ends(ends_.data(), patches.size());
     const auto found = std::ranges::upper_bound(ends, numbers.choice * total_) - ends.begin();
     const int patch = static_cast<int>(std::min(found, std::ssize(ends) - 1));
-    const Emitter::Triangle& t = patches[static_cast<std::size_t>(patch)].triangles.front();
+    const Emitter::Triangle& t = patches[static_cast<std::size_t>(patch)].shape->triangles.front();
     const glm::vec2 b = sample_triangle(numbers.point);
     const glm::vec3 to = t.corner + t.edge1 * b.x + t.edge2 * b.y - receiver_.position;
     const float distance = glm::length(to);
@@ -259,7 +260,7 @@ float BrightSampler::density(int patch, const glm::vec3& direction, float distan
     const auto i = static_cast<std::size_t>(patch);
     const Emitter& emitter = surfaces_.patches.emitters[i];
     const float share = (ends_[i] - (i == 0 ? 0.0f : ends_[i - 1])) / total_;
-    const float cosine = -glm::dot(emitter.triangles.front().normal, direction);
+    const float cosine = -glm::dot(emitter.shape->triangles.front().normal, direction);
     return cosine > 0.0f ? share * distance * distance / (cosine * emitter.area) : 0.0f;
 }
 

@@ -159,15 +159,16 @@ struct Emission {
 
 }  // namespace
 
-void divide_by_emission(const ShadingScene& shading, std::size_t most_cells, KeptTexels& kept, Emitter& emitter) {
-    EmissionCells found{.texels = find_texels(shading, emitter, most_cells, kept), .ends = {}, .spreads = {}};
+void divide_by_emission(const ShadingScene& shading, const Emitter& emitter, KeptTexels& kept, EmitterShape& shape) {
+    EmissionCells found{
+        .texels = find_texels(shading, emitter, shape.origin.most_cells, kept), .ends = {}, .spreads = {}};
     const std::vector<Rgb>& texels = found.texels->texels;
     const auto part_of = [&](const Emitter::Triangle& t) { return found.texels->parts[t.primitive]; };
     const auto shining = [&](std::size_t cell) {
         return std::max(0.0, double{luminance(emitter.radiance * texels[cell])});
     };
     Emission all;
-    for (const Emitter::Triangle& t : emitter.triangles) {
+    for (const Emitter::Triangle& t : shape.triangles) {
         const CellTexels::Part part = part_of(t);
         const double area = area_of(t) / static_cast<double>(part.size());
         for (std::size_t k = part.first; k < part.first + part.size(); ++k) {
@@ -179,15 +180,15 @@ void divide_by_emission(const ShadingScene& shading, std::size_t most_cells, Kep
     const double brightest = luminance(emitter.brightest);
     if (!std::isfinite(all.squares) || !(brightest > 0.0)) return;
     // Where places are sampled by area, what shines more than the mean makes noise: such a light counts as all bright.
-    if (!(all.power * all.power < even_enough * emitter.area * all.squares)) return;
-    emitter.mean_of_brightest = static_cast<float>(std::clamp(all.power / (emitter.area * brightest), least_mean, 1.0));
+    if (!(all.power * all.power < even_enough * shape.area * all.squares)) return;
+    shape.mean_of_brightest = static_cast<float>(std::clamp(all.power / (shape.area * brightest), least_mean, 1.0));
     found.ends.resize(texels.size());
     found.spreads.resize(texels.size());
     double end = 0.0;
-    for (std::size_t i = 0; i < emitter.triangles.size(); ++i) {
-        const CellTexels::Part part = part_of(emitter.triangles[i]);
-        const double area = area_of(emitter.triangles[i]) / static_cast<double>(part.size());
-        const double by_area = share_by_area * area / double{emitter.area};
+    for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+        const CellTexels::Part part = part_of(shape.triangles[i]);
+        const double area = area_of(shape.triangles[i]) / static_cast<double>(part.size());
+        const double by_area = share_by_area * area / double{shape.area};
         double sum = 0.0;
         for (std::size_t k = part.first; k < part.first + part.size(); ++k) {
             const double share = (1.0 - share_by_area) * area * shining(k) / all.power + by_area;
@@ -196,10 +197,10 @@ void divide_by_emission(const ShadingScene& shading, std::size_t most_cells, Kep
         }
         for (float& cell_end : std::span(found.ends).subspan(part.first, part.size()))
             cell_end /= static_cast<float>(sum);
-        emitter.cumulative[i] = static_cast<float>(end += sum);
+        shape.cumulative[i] = static_cast<float>(end += sum);
     }
-    for (float& triangle_end : emitter.cumulative) triangle_end /= static_cast<float>(end);
-    emitter.cells = std::move(found);
+    for (float& triangle_end : shape.cumulative) triangle_end /= static_cast<float>(end);
+    shape.cells = std::move(found);
 }
 
 Rgb emitted_radiance(const ShadingScene& shading, const Emitter& emitter, const SurfacePoint& point,
@@ -209,18 +210,21 @@ Rgb emitted_radiance(const ShadingScene& shading, const Emitter& emitter, const 
 }
 
 EmitterPlace sample_place(const Emitter& emitter, std::size_t triangle, glm::vec2 u) {
-    if (emitter.cells.empty()) return {triangle, sample_triangle(u), emitter.area};
-    const CellTexels::Part& part = emitter.cells.texels->parts[emitter.triangles[triangle].primitive];
-    const std::span<const float> ends = std::span(emitter.cells.ends).subspan(part.first, part.size());
+    const EmissionCells& cells = emitter.shape->cells;
+    if (cells.empty()) return {triangle, sample_triangle(u), emitter.area};
+    const CellTexels::Part& part = cells.texels->parts[emitter.shape->triangles[triangle].primitive];
+    const std::span<const float> ends = std::span(cells.ends).subspan(part.first, part.size());
     const auto cell = static_cast<std::size_t>(choose_part(ends, u.x));
     const glm::vec2 b = cell_at(cell, part.divisions).place(part.divisions, sample_triangle(u));
-    return {triangle, b, emitter.cells.spreads[part.first + cell]};
+    return {triangle, b, cells.spreads[part.first + cell] * emitter.scale * emitter.scale};
 }
 
 float spread_of(const Emitter& emitter, int primitive, const glm::vec2& b) {
-    if (emitter.cells.empty()) return emitter.area;
-    const CellTexels::Part& part = emitter.cells.texels->parts[primitive];
-    return emitter.cells.spreads[part.first + find_cell(b, part.divisions).index(part.divisions)];
+    const EmissionCells& cells = emitter.shape->cells;
+    if (cells.empty()) return emitter.area;
+    const CellTexels::Part& part = cells.texels->parts[primitive];
+    return cells.spreads[part.first + find_cell(b, part.divisions).index(part.divisions)] * emitter.scale *
+           emitter.scale;
 }
 
 }  // namespace aleph

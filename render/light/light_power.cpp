@@ -35,11 +35,8 @@ void add_light(LightBounds& bounds, const LightNode& light, const std::optional<
 
 /// The normal of a flat light that shines on one side; else nothing.
 std::optional<glm::vec3> find_axis(const Emitter& emitter) {
-    const glm::vec3 axis = emitter.triangles.front().normal;
-    const bool flat = std::ranges::all_of(
-        emitter.triangles, [&](const Emitter::Triangle& t) { return glm::dot(t.normal, axis) > 0.9999f; });
-    if (emitter.double_sided || !flat) return {};
-    return axis;
+    if (emitter.double_sided || !(emitter.shape->cos_cone > 0.9999f)) return {};
+    return emitter.triangle(0).normal;
 }
 
 LightNode make_node(const Emitter& emitter) {
@@ -47,13 +44,11 @@ LightNode make_node(const Emitter& emitter) {
     node.center = emitter.center;
     node.radius = emitter.radius;
     const float radiance = luminance(emitter.brightest);
-    node.strength = finite_strength(radiance * emitter.mean_of_brightest * emitter.area);
+    node.strength = finite_strength(radiance * emitter.shape->mean_of_brightest * emitter.area);
     node.most = finite_strength(std::numbers::pi_v<float> * radiance);
     if (emitter.double_sided) return node;
-    node.axis = emitter.triangles.front().normal;
-    for (const Emitter::Triangle& t : emitter.triangles) {
-        node.cos_cone = std::min(node.cos_cone, glm::dot(t.normal, node.axis));
-    }
+    node.axis = emitter.triangle(0).normal;
+    node.cos_cone = emitter.shape->cos_cone;
     node.directed = node.cos_cone > -0.99f;
     return node;
 }

@@ -64,8 +64,8 @@ std::vector<double> find_powers(const LightingContext& context, const BoundingSp
     std::vector<double> powers;
     for (const Emitter& emitter : lights.emitters) {
         const double sides = emitter.double_sided ? 2.0 : 1.0;
-        powers.push_back(std::numbers::pi * luminance(emitter.brightest) * emitter.mean_of_brightest * emitter.area *
-                         sides);
+        powers.push_back(std::numbers::pi * luminance(emitter.brightest) * emitter.shape->mean_of_brightest *
+                         emitter.area * sides);
     }
     for (const PunctualLight& light : lights.punctual) {
         const bool is_far = light.kind == Light::Kind::directional;
@@ -82,9 +82,9 @@ std::vector<double> find_powers(const LightingContext& context, const BoundingSp
 }
 
 Ray leave_emitter(const ShadingScene& shading, const Emitter& emitter, float place, RandomStream& random) {
-    const auto chosen = static_cast<std::size_t>(choose_part(emitter.cumulative, place));
+    const auto chosen = static_cast<std::size_t>(choose_part(emitter.shape->cumulative, place));
     const glm::vec2 b = sample_place(emitter, chosen, random.next_2d()).b;
-    const Emitter::Triangle& t = emitter.triangles[chosen];
+    const Emitter::Triangle t = emitter.triangle(chosen);
     const bool other_side = emitter.double_sided && random.next() < 0.5f;
     const glm::vec3 normal = other_side ? -t.normal : t.normal;
     const glm::vec3 direction = make_basis(normal).to_world(sample_cosine_hemisphere(random.next_2d()));
@@ -135,7 +135,7 @@ Ray come_from_afar(const LightingContext& context, const BoundingSphere& target,
         passage.area *= std::max(0.0f, glm::dot(light.direction, passage.outward));
     }
     power = passage.area * luminance(light.incoming);
-    const SceneBounds& bounds = context.shading.bounds.all;
+    const BoundingBox& bounds = context.shading.bounds.all;
     const float back = glm::length(bounds.high - bounds.low) + glm::length(target.center) + target.radius;
     return {passage.at + light.direction * back, -light.direction};
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
 
 #include "render/light/lights.h"
 #include "render/surface/environment_map.h"
@@ -27,21 +28,21 @@ int find_side(const Emitter::Triangle& triangle) {
     return axis * 8 + (n.x < 0.0f ? 4 : 0) + (n.y < 0.0f ? 2 : 0) + (n.z < 0.0f ? 1 : 0);
 }
 
-/// @param emitter  its triangles are in the order of their sides
-void add_sides(Emitter& emitter) {
+/// @param shape  its triangles are in the order of their sides
+void add_sides(EmitterShape& shape) {
     int last = no_index;
-    for (std::size_t i = 0; i < emitter.triangles.size(); ++i) {
-        const Emitter::Triangle& t = emitter.triangles[i];
-        const glm::vec4 plane(t.normal, glm::dot(t.normal, t.corner - emitter.center));
-        const float begin = i == 0 ? 0.0f : emitter.cumulative[i - 1];
+    for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+        const Emitter::Triangle& t = shape.triangles[i];
+        const glm::vec4 plane(t.normal, glm::dot(t.normal, t.corner - shape.center));
+        const float begin = i == 0 ? 0.0f : shape.cumulative[i - 1];
         if (const int side = find_side(t); side != last) {
-            emitter.sides.push_back({plane, plane, begin});
+            shape.sides.push_back({plane, plane, begin});
             last = side;
         }
-        Emitter::Side& side = emitter.sides.back();
+        Emitter::Side& side = shape.sides.back();
         side.low = glm::min(side.low, plane);
         side.high = glm::max(side.high, plane);
-        side.end = emitter.cumulative[i];
+        side.end = shape.cumulative[i];
     }
 }
 
@@ -56,7 +57,7 @@ bool has_alpha(const ShadingMaterial& material) {
 /// Places the triangles that have an area. Of a lamp with one side and more than a few triangles, they are in the order
 /// of the sides that they face.
 /// @return whether they are
-bool place_triangles(const PosedInstance& instance, Emitter& emitter) {
+bool place_triangles(const PosedInstance& instance, EmitterShape& shape) {
     const std::size_t count = instance.mesh->triangles.size();
     std::vector<Emitter::Triangle> placed;
     placed.reserve(count);
@@ -67,22 +68,70 @@ bool place_triangles(const PosedInstance& instance, Emitter& emitter) {
         placed.push_back(triangle);
         ++ends[find_side(triangle) + 1];
     }
-    const bool has_sides = !emitter.double_sided && placed.size() > max_spherical_triangles;
+    const bool has_sides = !shape.origin.double_sided && placed.size() > max_spherical_triangles;
     if (!has_sides) {
-        emitter.triangles = std::move(placed);
+        shape.triangles = std::move(placed);
         return false;
     }
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    emitter.triangles.resize(placed.size());
-    for (const Emitter::Triangle& triangle : placed) emitter.triangles[ends[find_side(triangle)]++] = triangle;
+    shape.triangles.resize(placed.size());
+    for (const Emitter::Triangle& triangle : placed) shape.triangles[ends[find_side(triangle)]++] = triangle;
     return true;
 }
 
 /// Cells of all lamps together.
 constexpr std::size_t most_cells = 1 << 16;
 
-/// @param cells, kept  divide_by_emission
-Emitter make_emitter(const ShadingScene& shading, int index, std::size_t cells, KeptTexels& kept) {
+/// The even scale of an instance that is turned, scaled and placed; 0 if its transform does more than that, or scales
+/// so much that areas may not be numbers in one of the two coordinates.
+float find_even_scale(const PosedInstance& instance) {
+    constexpr float rounding = 2e-6f;
+    const glm::mat3 squares = glm::transpose(instance.linear) * instance.linear;
+    const float square = squares[0][0];
+    float most = 0.0f;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) most = std::max(most, std::abs(squares[i][k] - (i == k ? square : 0.0f)));
+    const bool keeps_sides = glm::dot(instance.linear[0], instance.normals[0]) > 0.0f;
+    const bool is_moderate = square > 1e-12f && square < 1e12f;
+    return most <= rounding * square && is_moderate && keeps_sides ? std::sqrt(square) : 0.0f;
+}
+
+/// @param most_cells  of a lamp with a texture or alpha
+EmitterOrigin find_origin(const ShadingScene& shading, const PosedInstance& instance, const Emitter& emitter,
+                          std::size_t most_cells) {
+    EmitterOrigin origin;
+    origin.mesh = instance.deformed == nullptr ? instance.mesh : nullptr;
+    origin.double_sided = emitter.double_sided;
+    if (emitter.textured || emitter.has_alpha) {
+        origin.material = instance.material;
+        origin.emission = emitter.radiance;
+        origin.alpha = shading.materials[instance.material].values.alpha;
+        origin.most_cells = most_cells;
+    }
+    if (emitter.turn == glm::mat3(1.0f)) {
+        origin.linear = instance.linear;
+        origin.normals = instance.normals;
+    }
+    return origin;
+}
+
+EmitterShape make_shape(const ShadingScene& shading, const PosedInstance& instance, const EmitterOrigin& origin,
+                        const Emitter& emitter, KeptTexels& kept) {
+    EmitterShape shape;
+    shape.origin = origin;
+    PosedInstance own = instance;
+    own.linear = origin.linear;
+    own.normals = origin.normals;
+    own.translation = glm::vec3(0.0f);
+    const bool has_sides = place_triangles(own, shape);
+    measure(shape);
+    if (origin.material != no_index && !shape.triangles.empty()) divide_by_emission(shading, emitter, kept, shape);
+    if (has_sides) add_sides(shape);
+    return shape;
+}
+
+/// An emitter in its place, without a shape.
+Emitter place_emitter(const ShadingScene& shading, int index) {
     const PosedInstance& instance = shading.instances[index];
     const ShadingMaterial& material = shading.materials[instance.material];
     Emitter emitter;
@@ -95,17 +144,11 @@ Emitter make_emitter(const ShadingScene& shading, int index, std::size_t cells, 
         texture != no_index) {
         emitter.brightest *= glm::max(shading.textures->textures[texture].largest, 1.0f);
     }
-    const bool has_sides = place_triangles(instance, emitter);
-    double area = 0.0, end = 0.0;
-    for (const Emitter::Triangle& triangle : emitter.triangles) area += area_of(triangle);
-    emitter.area = static_cast<float>(area);
-    set_sphere(emitter);
-    emitter.cumulative.reserve(emitter.triangles.size());
-    for (const Emitter::Triangle& triangle : emitter.triangles)
-        emitter.cumulative.push_back(static_cast<float>((end += area_of(triangle)) / area));
-    if ((emitter.textured || emitter.has_alpha) && !emitter.triangles.empty())
-        divide_by_emission(shading, cells, kept, emitter);
-    if (has_sides) add_sides(emitter);
+    emitter.translation = instance.translation;
+    if (const float scale = find_even_scale(instance); scale > 0.0f) {
+        emitter.scale = scale;
+        emitter.turn = instance.linear;
+    }
     return emitter;
 }
 
@@ -138,32 +181,52 @@ double area_of(const Emitter::Triangle& triangle) {
     return 0.5 * glm::length(glm::dvec3(glm::cross(triangle.edge1, triangle.edge2)));
 }
 
-void set_sphere(Emitter& emitter) {
-    for (const Emitter::Triangle& t : emitter.triangles) {
-        emitter.center += (t.corner + (t.edge1 + t.edge2) / 3.0f) / static_cast<float>(emitter.triangles.size());
+void measure(EmitterShape& shape) {
+    double area = 0.0, end = 0.0;
+    for (const Emitter::Triangle& t : shape.triangles) {
+        area += area_of(t);
+        shape.center += (t.corner + (t.edge1 + t.edge2) / 3.0f) / static_cast<float>(shape.triangles.size());
+        shape.cos_cone = std::min(shape.cos_cone, glm::dot(t.normal, shape.triangles.front().normal));
     }
-    for (const Emitter::Triangle& t : emitter.triangles) {
-        for (const glm::vec3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
-            emitter.radius = std::max(emitter.radius, glm::length(corner - emitter.center));
-        }
+    shape.area = static_cast<float>(area);
+    shape.cumulative.reserve(shape.triangles.size());
+    for (const Emitter::Triangle& t : shape.triangles) {
+        shape.cumulative.push_back(static_cast<float>((end += area_of(t)) / area));
+        for (const glm::vec3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2})
+            shape.radius = std::max(shape.radius, glm::length(corner - shape.center));
     }
 }
 
-LightSet make_light_set(const ShadingScene& shading, KeptTexels kept) {
+void set_shape(std::shared_ptr<const EmitterShape> shape, Emitter& emitter) {
+    emitter.area = shape->area * emitter.scale * emitter.scale;
+    emitter.center = emitter.turn * shape->center + emitter.translation;
+    emitter.radius = shape->radius * emitter.scale;
+    emitter.shape = std::move(shape);
+}
+
+LightSet make_light_set(const ShadingScene& shading, LightSet before) {
     LightSet lights;
-    lights.kept = std::move(kept);
+    lights.kept = std::move(before.kept);
+    before.emitter_of_instance.resize(shading.instances.size(), no_index);
     lights.emitter_of_instance.assign(shading.instances.size(), no_index);
     const auto divided = std::ranges::count_if(shading.emitting, [&](int i) {
         const ShadingMaterial& material = shading.materials[shading.instances[i].material];
         return is_textured(material) || has_alpha(material);
     });
     const std::size_t cells = most_cells / static_cast<std::size_t>(std::max<std::ptrdiff_t>(divided, 1));
+    std::unordered_map<const Mesh*, std::shared_ptr<const EmitterShape>> shapes;
     for (const int i : shading.emitting) {
         const PosedInstance& instance = shading.instances[i];
-        const ShadingMaterial& material = shading.materials[instance.material];
-        if (!instance.visible || !material.emits) continue;
-        Emitter emitter = make_emitter(shading, i, cells, lights.kept);
-        if (emitter.triangles.empty()) continue;
+        if (!instance.visible || !shading.materials[instance.material].emits) continue;
+        Emitter emitter = place_emitter(shading, i);
+        const EmitterOrigin origin = find_origin(shading, instance, emitter, cells);
+        const int known = before.emitter_of_instance[i];
+        std::shared_ptr<const EmitterShape> shape = known >= 0 ? before.emitters[known].shape : shapes[origin.mesh];
+        if (shape == nullptr || origin.mesh == nullptr || !(shape->origin == origin))
+            shape = std::make_shared<EmitterShape>(make_shape(shading, instance, origin, emitter, lights.kept));
+        shapes[origin.mesh] = shape;
+        if (shape->triangles.empty()) continue;
+        set_shape(std::move(shape), emitter);
         lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());
         lights.emitters.push_back(std::move(emitter));
     }

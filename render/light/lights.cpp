@@ -40,12 +40,14 @@ constexpr float any_cosine = 0.5f;
 
 FacingSides find_facing_sides(const Emitter& emitter, const glm::vec3& position) {
     FacingSides facing;
-    if (emitter.sides.empty()) return facing;
-    const glm::vec3 from = position - emitter.center;
-    const float rounding = 1e-5f * (glm::length(from) + emitter.radius);
+    const std::vector<Emitter::Side>& sides = emitter.shape->sides;
+    if (sides.empty()) return facing;
+    // In the coordinates of the shape: the inverse of a rotation is its transpose.
+    const glm::vec3 from = (position - emitter.center) * emitter.turn / (emitter.scale * emitter.scale);
+    const float rounding = 1e-5f * (glm::length(from) + emitter.shape->radius);
     facing.share = 0.0f;
-    for (std::size_t i = 0; i < emitter.sides.size(); ++i) {
-        const Emitter::Side& side = emitter.sides[i];
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        const Emitter::Side& side = sides[i];
         const glm::vec3 most = glm::max(glm::vec3(side.low) * from, glm::vec3(side.high) * from);
         if (!(most.x + most.y + most.z - side.low.w > -rounding)) continue;
         facing.which |= 1u << i;
@@ -57,9 +59,10 @@ FacingSides find_facing_sides(const Emitter& emitter, const glm::vec3& position)
 /// A number in [0, 1) among the facing sides, as one among all.
 float place_in_sides(const Emitter& emitter, const FacingSides& facing, float u) {
     float left = u * facing.share, place = u;
-    for (std::size_t i = 0; i < emitter.sides.size(); ++i) {
+    const std::vector<Emitter::Side>& sides = emitter.shape->sides;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
         if ((facing.which >> i & 1u) == 0) continue;
-        const Emitter::Side& side = emitter.sides[i];
+        const Emitter::Side& side = sides[i];
         place = std::min(side.begin + left, below_one * side.end);  // the last one, if rounding leaves something
         left -= side.end - side.begin;
         if (left < 0.0f) break;
@@ -72,12 +75,12 @@ constexpr float min_solid_angle = 0.1f;
 
 SolidAngles find_solid_angles(const Emitter& emitter, const glm::vec3& position) {
     SolidAngles angles;
-    if (emitter.triangles.size() > max_spherical_triangles) return angles;
+    if (emitter.size() > max_spherical_triangles) return angles;
     const glm::vec3 away = emitter.center - position;
     const float nearest = std::max(0.0f, glm::length(away) - emitter.radius);
     if (emitter.area < min_solid_angle * nearest * nearest) return angles;
-    for (std::size_t i = 0; i < emitter.triangles.size(); ++i) {
-        const Emitter::Triangle& t = emitter.triangles[i];
+    for (std::size_t i = 0; i < emitter.size(); ++i) {
+        const Emitter::Triangle t = emitter.triangle(i);
         const glm::vec3 corner = t.corner - position;
         if (!emitter.double_sided && !(glm::dot(corner, t.normal) < 0.0f)) continue;
         angles.of[i] = solid_angle(corner, corner + t.edge1, corner + t.edge2);
@@ -102,9 +105,9 @@ EmitterPlace sample_by_angle(const Emitter& emitter, const SolidAngles& angles, 
                              glm::vec2 u) {
     std::array<float, max_spherical_triangles> ends{};
     float sum = 0.0f;
-    for (std::size_t i = 0; i < emitter.triangles.size(); ++i) ends[i] = (sum += angles.of[i]) / angles.total;
-    const auto chosen = static_cast<std::size_t>(choose_part(std::span(ends.data(), emitter.triangles.size()), u.x));
-    const Emitter::Triangle& t = emitter.triangles[chosen];
+    for (std::size_t i = 0; i < emitter.size(); ++i) ends[i] = (sum += angles.of[i]) / angles.total;
+    const auto chosen = static_cast<std::size_t>(choose_part(std::span(ends.data(), emitter.size()), u.x));
+    const Emitter::Triangle t = emitter.triangle(chosen);
     const glm::vec3 corner = t.corner - position;
     const glm::vec2 b = meet_triangle(
         t, position, sample_spherical_triangle(corner, corner + t.edge1, corner + t.edge2, angles.of[chosen], u));
@@ -114,14 +117,14 @@ EmitterPlace sample_by_angle(const Emitter& emitter, const SolidAngles& angles, 
 /// Share of the samples of a near emitter that go by solid angle.
 float share_by_angle(const Emitter& emitter, const SeenLight& seen) {
     if (!(seen.angles.total > 0.0f)) return 0.0f;
-    return emitter.cells.empty() ? 1.0f : 0.5f;
+    return emitter.shape->cells.empty() ? 1.0f : 0.5f;
 }
 
 EmitterPlace choose_place(const Emitter& emitter, const SeenLight& seen, const glm::vec3& position, glm::vec2 u) {
     const float by_angle = share_by_angle(emitter, seen);
     if (u.x < by_angle) return sample_by_angle(emitter, seen.angles, position, {u.x / by_angle, u.y});
     u.x = place_in_sides(emitter, seen.facing, (u.x - by_angle) / (1.0f - by_angle));
-    const int triangle = choose_part(emitter.cumulative, u.x);
+    const int triangle = choose_part(emitter.shape->cumulative, u.x);
     return sample_place(emitter, static_cast<std::size_t>(triangle), u);
 }
 
@@ -143,7 +146,7 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
                            const glm::vec3& position, const glm::vec2& u, float share) {
     if (!(seen.facing.share > 0.0f)) return {};
     const EmitterPlace place = choose_place(emitter, seen, position, u);
-    const Emitter::Triangle& triangle = emitter.triangles[place.triangle];
+    const Emitter::Triangle triangle = emitter.triangle(place.triangle);
     const glm::vec2 b = place.b;
     const glm::vec3 to_light = triangle.corner + triangle.edge1 * b.x + triangle.edge2 * b.y - position;
     const float distance2 = glm::dot(to_light, to_light);

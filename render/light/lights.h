@@ -54,8 +54,8 @@ struct LightSet {
     int count() const { return static_cast<int>(emitters.size() + punctual.size()) + (has_environment ? 1 : 0); }
 };
 
-/// @param kept  LightSet::kept of this scene at another time: saves work and changes nothing
-LightSet make_light_set(const ShadingScene& shading, KeptTexels kept = {});
+/// @param before  of this scene at another time: saves work and changes nothing
+LightSet make_light_set(const ShadingScene& shading, LightSet before = {});
 
 /// In LightSet::emitter_of_instance, of an emitter that is no light: rays that meet it find all of its emission.
 inline constexpr int left_out_emitter = -2;

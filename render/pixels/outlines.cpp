@@ -63,7 +63,7 @@ std::optional<SmallObject> find_if_small(const CameraView& view, const ShadingSc
     // The centre of a small object is at least half as far away as a vertex: twice its size there is enough.
     if (!project_small_sphere(view, shading.anchor + glm::dvec3(first), extent, 2.0 * small_object))
         return std::nullopt;
-    const BoundingSphere sphere = find_sphere(instance);
+    const BoundingSphere sphere = find_bounds(instance).sphere;
     const glm::dvec3 center = shading.anchor + glm::dvec3(sphere.center);
     const std::optional<glm::dvec2> at = project_small_sphere(view, center, sphere.radius, small_object);
     if (!at) return std::nullopt;

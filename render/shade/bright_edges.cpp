@@ -121,7 +121,8 @@ PicturePolygon project(const CameraView& view, const ShadingScene& shading, cons
 /// @param visit  (primitive, polygon)
 template <class Visit>
 void visit_triangles(const CameraView& view, const ShadingScene& shading, const Emitter& lamp, const Visit& visit) {
-    for (const Emitter::Triangle& triangle : lamp.triangles) {
+    for (std::size_t i = 0; i < lamp.size(); ++i) {
+        const Emitter::Triangle triangle = lamp.triangle(i);
         if (lamp.double_sided || faces_camera(view, shading, triangle))
             visit(triangle.primitive, project(view, shading, triangle));
     }
@@ -130,8 +131,7 @@ void visit_triangles(const CameraView& view, const ShadingScene& shading, const 
 /// The outline of a lamp of many triangles that is smaller than a pixel and fills it, or no corners.
 PicturePolygon find_outline(const CameraView& view, const ShadingScene& shading, const Emitter& lamp) {
     const glm::dvec3 center = shading.anchor + glm::dvec3(lamp.center);
-    if (lamp.triangles.size() <= few_triangles || !project_small_sphere(view, center, lamp.radius, small_lamp))
-        return {};
+    if (lamp.size() <= few_triangles || !project_small_sphere(view, center, lamp.radius, small_lamp)) return {};
     PictureOutline outline;
     double area = 0.0;
     visit_triangles(view, shading, lamp, [&](int, const PicturePolygon& polygon) {

@@ -10,9 +10,23 @@ namespace aleph {
 
 namespace {
 
-void add(SceneBounds& bounds, const PosedInstance& instance) {
+/// An upper bound of how much longer a transform makes a vector; exact where its columns are orthogonal.
+float find_scale(const glm::mat3& linear) {
+    const glm::mat3 squares = glm::transpose(linear) * linear;
+    float most = 0.0f;
+    for (int i = 0; i < 3; ++i) most = std::max(most, glm::dot(glm::abs(squares[i]), glm::vec3(1.0f)));
+    return std::sqrt(most);
+}
+
+/// What stands still is looked at once, vertex by vertex.
+void add(BoundingBox& box, const PosedInstance& instance) {
     if (!instance.visible) return;
-    for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) bounds.add(instance.place(v));
+    if (instance.flat) {
+        for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) box.add(instance.place(v));
+    } else if (const BoundingBox own = find_bounds(instance).box; !own.empty()) {
+        box.add(own.low);
+        box.add(own.high);
+    }
 }
 
 bool can_emit(const Material& material) {
@@ -65,6 +79,7 @@ PosedInstance make_instance(const ShadingScene& shading, const RayScene& rays, i
     posed.material = mesh.material == no_index ? static_cast<int>(shading.scene->materials.size()) : mesh.material;
     posed.linear = glm::mat3(glm::dmat3(world));
     posed.translation = glm::vec3(glm::dvec3(world[3]) - shading.anchor);
+    posed.bounds = &rays.bounds(instance.mesh);
     posed.flat = rays.is_flat(i);
     if (posed.flat) posed.flat_origin = glm::vec3(rays.flat_origin() - shading.anchor);
     const PosedMesh& deformed = pose.meshes[instance.mesh];
@@ -107,7 +122,7 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const Ray
         return;
     }
     if (!shading.bounds.still) {
-        SceneBounds still;
+        BoundingBox still;
         std::vector<bool> changes(shading.instances.size());
         for (const int i : plan.instances) changes[i] = true;
         for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -125,14 +140,24 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const Ray
     }
 }
 
-BoundingSphere find_sphere(const PosedInstance& instance) {
-    SceneBounds box;
-    add(box, instance);
-    BoundingSphere sphere{0.5f * (box.low + box.high)};
-    for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) {
-        sphere.radius = std::max(sphere.radius, glm::length(instance.place(v) - sphere.center));
+MeshBounds find_bounds(const PosedInstance& instance) {
+    if (instance.deformed != nullptr) {
+        std::vector<glm::vec3> places;
+        places.reserve(instance.mesh->positions.size());
+        for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) places.push_back(instance.place(v));
+        return find_bounds(places, instance.mesh->triangles);
     }
-    return sphere;
+    MeshBounds bounds;
+    const MeshBounds& own = *instance.bounds;
+    const float scale = find_scale(instance.linear);
+    bounds.sphere = {instance.linear * own.sphere.center + instance.translation, scale * own.sphere.radius};
+    if (own.box.empty()) return bounds;
+    for (int k = 0; k < 8; ++k) bounds.box.add(instance.linear * own.box.corner(k) + instance.translation);
+    bounds.box.low = glm::max(bounds.box.low, bounds.sphere.center - bounds.sphere.radius);
+    bounds.box.high = glm::min(bounds.box.high, bounds.sphere.center + bounds.sphere.radius);
+    // A triangle grows by two of the three scales: by no less than all of them over the largest.
+    if (scale > 0.0f) bounds.area = own.area * std::abs(glm::determinant(instance.linear)) / scale;
+    return bounds;
 }
 
 Rgb environment_radiance(const ShadingScene& shading, const glm::vec3& direction) {

@@ -32,6 +32,7 @@ struct PosedInstance {
     glm::vec3 flat_origin{0.0f};
     bool flat = false;
     bool visible = false;
+    const MeshBounds* bounds = nullptr;   ///< of the mesh without deformation
     const PosedMesh* deformed = nullptr;  ///< in place of the mesh's own points and normals; null: rigid
 
     /// Object space, m: the position that rays meet.
@@ -55,26 +56,10 @@ struct ShadingMaterial {
     bool plain_lambert = false;  ///< scatters by its Lambert layer alone, and no map changes its normals
 };
 
-/// m, relative to the anchor. If empty, `low` is infinite.
-struct SceneBounds {
-    glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
-
-    void add(const glm::vec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-};
-
-/// m, relative to the anchor.
-struct BoundingSphere {
-    glm::vec3 center{0.0f};
-    float radius = 0.0f;
-};
-
-/// Bounds of the visible instances.
+/// Bounds of the visible instances, m, relative to the anchor.
 struct VisibleBounds {
-    SceneBounds all;
-    std::optional<SceneBounds> still;  ///< of those that updates do not change; set by the first update
+    BoundingBox all;
+    std::optional<BoundingBox> still;  ///< of those that updates do not change; set by the first update
 };
 
 struct ShadingEnvironment {
@@ -114,8 +99,9 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
 /// instances and materials that the plan names are computed again; if the anchor moved, everything is.
 void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const RayScene& rays);
 
-/// Around the vertices of a visible instance.
-BoundingSphere find_sphere(const PosedInstance& instance);
+/// Of a visible instance, m, relative to the anchor. Of one that is rigid they follow from those of its mesh: box and
+/// sphere may be larger, the area smaller, than those of its triangles.
+MeshBounds find_bounds(const PosedInstance& instance);
 
 /// Radiance that a ray meets which hits nothing.
 /// @param direction  unit, world

@@ -36,7 +36,7 @@ KeyframeRisk find_keyframe_risk(const ShadingScene& shading, const PosePlan& pla
     const auto add = [&](const ShadingScene& at) {
         for (const int i : plan.instances) {
             if (!at.instances[i].visible) continue;
-            risk.movers.push_back(find_sphere(at.instances[i]));
+            risk.movers.push_back(find_bounds(at.instances[i]).sphere);
             risk.movers.back().center += glm::vec3(at.anchor - shading.anchor);
         }
     };

@@ -21,8 +21,17 @@ bool is_at_rest(const PosedInstance& frame, const PosedInstance& sample, const g
     return glm::length(place - frame.translation) <= 1e-6f * glm::length(size);
 }
 
+/// m: no less than any vertex moves.
 float find_longest_way(const PosedInstance& frame, const PosedInstance& sample, const glm::vec3& shift) {
     float way = 0.0f;
+    if (frame.deformed == nullptr && sample.deformed == nullptr) {
+        // How far a point moves is convex in its place.
+        const BoundingBox& box = frame.bounds->box;
+        const glm::mat3 linear = sample.linear - frame.linear;
+        const glm::vec3 translation = sample.translation + shift - frame.translation;
+        for (int k = 0; k < 8; ++k) way = std::max(way, glm::length(linear * box.corner(k) + translation));
+        return way;
+    }
     for (std::uint32_t v = 0; v < frame.mesh->positions.size(); ++v) {
         way = std::max(way, glm::length(sample.place(v) + shift - frame.place(v)));
     }
@@ -133,8 +142,8 @@ std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingSc
         const float faded = before.visible || after.visible ? find_fade(first_values, last_values) : 0.0f;
         if (is_at_rest(before, after, shift) && faded == 0.0f) continue;
         const bool both = before.visible && after.visible;
-        const BoundingSphere first = find_sphere(before.visible ? before : after),
-                             last = find_sphere(after.visible ? after : before);
+        const BoundingSphere first = find_bounds(before.visible ? before : after).sphere,
+                             last = find_bounds(after.visible ? after : before).sphere;
         ShutterMover mover{i, {first.center, last.center}, std::max(first.radius, last.radius), infinite};
         mover.faded = faded;
         mover.shines = first_values.emits || last_values.emits;

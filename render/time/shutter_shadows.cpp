@@ -21,20 +21,13 @@ struct ShadowedLight {
     }
 };
 
-float find_area(const PosedInstance& instance) {
-    float area = 0.0f;
-    for (const glm::uvec3& t : instance.mesh->triangles) {
-        const glm::vec3 corner = instance.place(t.x);
-        area += 0.5f * glm::length(glm::cross(instance.place(t.y) - corner, instance.place(t.z) - corner));
-    }
-    return area;
-}
-
 std::vector<ShadowedLight> list_lights(const ShadingScene& frame) {
     std::vector<ShadowedLight> lights;
     for (const int i : frame.emitting) {
         const PosedInstance& lamp = frame.instances[i];
-        if (lamp.visible) lights.push_back({.sphere = find_sphere(lamp), .instance = i, .area = find_area(lamp)});
+        if (!lamp.visible) continue;
+        const MeshBounds bounds = find_bounds(lamp);
+        lights.push_back({.sphere = bounds.sphere, .instance = i, .area = bounds.area});
     }
     for (const LightValues& light : frame.pose->lights) {
         if (light.kind == Light::Kind::directional) continue;

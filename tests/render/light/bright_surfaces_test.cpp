@@ -22,7 +22,7 @@ TEST(BrightSurfaces, AreTheInsideOfAShade) {
         if (patch.center.y < 0.5f * ShadedLamp::height) continue;  // of the floor under the opening
         ++patches;
         const glm::vec3 to_axis = glm::vec3(0.0f, patch.center.y, 0.0f) - patch.center;
-        EXPECT_GT(glm::dot(patch.triangles.front().normal, to_axis), 0.09f);
+        EXPECT_GT(glm::dot(patch.shape->triangles.front().normal, to_axis), 0.09f);
         reflected += pi * patch.area * luminance(patch.radiance);
     }
     EXPECT_EQ(patches, 8);
@@ -58,7 +58,7 @@ TEST(BrightSurfaces, ArePartsOfLargeTriangles) {
     };
     double area = 0.0, found = 0.0, expected = 0.0;
     for (const Emitter& patch : surfaces.patches.emitters) {
-        const Emitter::Triangle& t = patch.triangles.front();
+        const Emitter::Triangle& t = patch.shape->triangles.front();
         constexpr int rows = 16;
         double mean = 0.0;
         for (int i = 0; i < rows * rows; ++i) {
@@ -121,7 +121,7 @@ TEST(BrightSurfaces, ArePlacesInSunlightThatFaceTheRoom) {
     const double reach = 0.4 / std::tan(0.6);
     double area = 0.0, reflected = 0.0;
     for (const Emitter& patch : surfaces.patches.emitters) {
-        const Emitter::Triangle& t = patch.triangles.front();
+        const Emitter::Triangle& t = patch.shape->triangles.front();
         EXPECT_GT(t.normal.y, 0.99f);
         EXPECT_NEAR(patch.center.y, -1.0, 1e-5);
         reflected += std::numbers::pi * patch.area * luminance(patch.radiance);

@@ -24,7 +24,10 @@ Scene make_spotted_lamp(bool nearest, Mesh mesh = make_quad(2.0, 2.0, 0)) {
     scene.images.push_back(image);
     scene.materials[0].textures[TextureSlot::emission] = {.image = 0, .nearest = nearest};
     for (glm::vec2& uv : mesh.uv[0]) uv += 1.0f;  // the picture repeats, and no corner is at 0
-    add_mesh(scene, std::move(mesh), {0.0, 2.0, 0.0}, z_to_down);
+    // Cells are measured in the mesh's own space, where the lamp is a quarter as large.
+    for (glm::vec3& p : mesh.positions) p *= 0.25f;
+    const int node = add_mesh(scene, std::move(mesh), {0.0, 2.0, 0.0}, z_to_down);
+    scene.nodes[node].transform.scale = glm::dvec3(4.0);
     return scene;
 }
 
@@ -52,7 +55,7 @@ const glm::vec3 near_and_far[] = {{0.3f, 1.9f, 0.2f}, {0.7f, 1.0f, -0.4f}, {0.0f
 
 TEST(EmissionCells, SamplesFindTheSpots) {
     const Stage stage(make_spotted_lamp(true));
-    ASSERT_FALSE(stage.lights.emitters[0].cells.empty());
+    ASSERT_FALSE(stage.lights.emitters[0].shape->cells.empty());
     for (const glm::vec3& place : near_and_far) {
         const Receiver receiver{place - glm::vec3(stage.shading.anchor), up};
         EXPECT_TRUE(holds([&](Trial& trial) {
@@ -78,7 +81,7 @@ TEST(EmissionCells, RaysFindTheDensityOfSamples) {
         for (const Mesh& mesh : {quad, folded}) {
             const Stage stage(make_spotted_lamp(nearest, mesh));
             const Emitter& emitter = stage.lights.emitters[0];
-            ASSERT_FALSE(emitter.cells.empty());
+            ASSERT_FALSE(emitter.shape->cells.empty());
             RayCounts counts;
             Tracer tracer(stage.rays);
             int compared = 0, others = 0;
@@ -113,7 +116,7 @@ TEST(EmissionCells, StrengthIsTheMeanOfCells) {
     Scene even = make_spotted_lamp(true);
     for (glm::vec4& texel : even.images[0].floats.pixels) texel = glm::vec4(0.5f);
     const Stage stage(std::move(even));
-    EXPECT_TRUE(stage.lights.emitters[0].cells.empty());
+    EXPECT_TRUE(stage.lights.emitters[0].shape->cells.empty());
     EXPECT_NEAR(stage.lights.bounds.strength[0], spot_radiance * 4.0f, 1e-3f);
 }
 
@@ -168,13 +171,12 @@ TEST(EmissionCells, PartsThatAMaskLeavesOutAreNotSampled) {
 
 /// Alpha of the corners grows from a half along the lamp, and a quarter of it shows.
 TEST(EmissionCells, CornersHideTheirPart) {
-    Mesh mesh = make_quad(2.0, 2.0, 0);
-    for (const glm::vec2& uv : mesh.uv[0]) mesh.colors.emplace_back(1.0f, 1.0f, 1.0f, 0.5f + 0.5f * uv.x);
     Scene scene = make_masked_lamp(1.0);
-    scene.meshes[0] = std::move(mesh);
+    const Mesh quad = make_quad(2.0, 2.0, 0);
+    for (const glm::vec2& uv : quad.uv[0]) scene.meshes[0].colors.emplace_back(1.0f, 1.0f, 1.0f, 0.5f + 0.5f * uv.x);
     scene.materials[0].opacity.cutoff = 0.875;
     const Stage stage(std::move(scene));
-    ASSERT_FALSE(stage.lights.emitters[0].cells.empty());
+    ASSERT_FALSE(stage.lights.emitters[0].shape->cells.empty());
     EXPECT_NEAR(stage.lights.bounds.strength[0], 0.25 * spot_radiance * 4.0, 0.01 * spot_radiance);
 }
 

@@ -54,11 +54,12 @@ TEST(Lights, AreaAndNormalsFollowTheInstance) {
     const Stage stage(std::move(scene));
     const Emitter& emitter = stage.lights.emitters.at(0);
     EXPECT_NEAR(emitter.area, 16.0 * pi, 0.01 * 16.0 * pi);
-    for (const Emitter::Triangle& t : emitter.triangles) {
+    for (std::size_t i = 0; i < emitter.size(); ++i) {
+        const Emitter::Triangle t = emitter.triangle(i);
         const glm::vec3 middle = t.corner + (t.edge1 + t.edge2) / 3.0f - glm::vec3(-stage.shading.anchor);
         EXPECT_GT(glm::dot(t.normal, middle), 1.5f);  // outwards, although mirrored
     }
-    EXPECT_EQ(emitter.cumulative.back(), 1.0f);
+    EXPECT_EQ(emitter.shape->cumulative.back(), 1.0f);
 }
 
 /// Up to a few rounding errors before the lamp: a shade 1 mm below a lamp that is 100 m away hides it.

@@ -189,7 +189,7 @@ TEST(SkinnedNormals, MirrorsLeaveTheOutsideOutside) {
             const SurfacePoint point = make_surface_point(stage.shading, hit, -view);
             EXPECT_TRUE(point.front);
             EXPECT_GT(glm::dot(point.normal, glm::normalize(point.position + anchor)), 0.9999f) << "not smooth";
-            const Emitter::Triangle& lamp = stage.lights.emitters[0].triangles[0];
+            const Emitter::Triangle lamp = stage.lights.emitters[0].triangle(0);
             EXPECT_GT(glm::dot(lamp.normal, lamp.corner + anchor), 0.9f);
         }
     }
