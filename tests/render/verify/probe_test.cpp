@@ -65,11 +65,9 @@ TEST(ContinuedError, IsEvenWhereItIsEvenInThePart) {
     error(6, 10).x = float_nan;
     const Image<Rgb> all = continue_error(error, part);
     for (const auto [x, y] : all_pixels(40, 30)) {
-        if (x == 6 && y == 10) continue;
         EXPECT_NEAR(all(x, y).x, 0.25f, 1e-4f) << x << " " << y;
         EXPECT_NEAR(all(x, y).y, -0.5f, 1e-4f);
     }
-    EXPECT_TRUE(std::isnan(all(6, 10).x));
     for (const Rgb& none : continue_error(error, PicturePart(40, 30, std::uint8_t{0})).pixels)
         EXPECT_EQ(none, Rgb(0.0f));
 }
