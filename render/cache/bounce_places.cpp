@@ -75,7 +75,7 @@ std::optional<Arrival> follow_mirrors(const IndirectContext& context, const Pixe
     const ShadingScene& shading = context.lighting.shading;
     const int turns = std::min(most_turns, context.settings.light.path_depth - 1 - count_bounces(context.settings));
     Arrival end{first.hit, -first.view, 1.0f, first};
-    float distance = first.distance;
+    float distance = first.hit.distance;
     Media media = context.lighting.around;
     for (int turn = 0; turn < turns; ++turn) {
         ViewedSurface mirror = narrow_lobes(end.surface);
@@ -146,7 +146,6 @@ PixelSurface make_bounce_surface(const ShadingScene& shading, const BouncePlaces
     const RayFootprint footprint = make_cone_footprint(point, direction, hit.distance, places.solid_angle);
     PixelSurface surface{view_surface(shading, point, -direction, footprint)};
     surface.hit = hit;
-    surface.distance = hit.distance;
     surface.footprint = hit.distance * std::sqrt(places.solid_angle);
     surface.x = x;
     surface.y = y;

@@ -36,7 +36,7 @@ struct IndirectContext {
     const CameraView& view;
     const RenderSettings& settings;
     const Image<float>& accuracy;           ///< alpha per pixel
-    std::uint32_t frame = 0;                ///< for random numbers
+    std::uint32_t frame = 0;                ///< for random numbers: SamplePlace::noise_key
     float max_radius = 1.0f;                ///< m, of records: scene_radius
     FrameProgress progress;                 ///< may be empty
     FrameCheckpoint* checkpoint = nullptr;  ///< keeps the results of gathers; may be null

@@ -67,7 +67,6 @@ void ThresholdSum::add(const LuminanceError& error, const Image<float>& threshol
                          fmt::format("is {}x{}, the pictures are {}x{}", threshold.width, threshold.height,
                                      error.error.width, error.error.height));
     }
-    double expected_here = 0.0;
     for (std::size_t i = 0; i < threshold.size(); ++i) {
         const double size = std::abs(error.error.pixels[i]), limit = threshold.pixels[i];
         errors.add(size, limit);
@@ -77,9 +76,8 @@ void ThresholdSum::add(const LuminanceError& error, const Image<float>& threshol
         noise.add(deviation, limit);
         const bool known = usable(size, limit);
         certain += !known || size > limit + 3.0 * deviation;
-        if (known && deviation > 0.0) expected_here += std::erfc(limit / (std::numbers::sqrt2 * deviation));
+        if (known && deviation > 0.0) expected += std::erfc(limit / (std::numbers::sqrt2 * deviation));
     }
-    expected += expected_here;
 }
 
 ThresholdFigures summarize(const ThresholdSum& sum) {

@@ -116,8 +116,8 @@ std::vector<glm::ivec2> list_missing(EstimateNodes& nodes, int level) {
         for (int x = 0; x < nodes.width(); x += spacing) {
             const EstimateNodes::Node& node = nodes.node(x, y);
             if (!(node.surface.footprint > 0.0f) || node.known) continue;
-            const auto found = [&] { return nodes.interpolate(node.surface, {x, y}, level, NodeSpline::quadratic); };
-            if (level == 0 || found().confidence < reliable) missing.push_back({x, y});
+            const auto found = nodes.interpolate(node.surface, {x, y}, level, NodeSpline::quadratic);
+            if (found.confidence < reliable) missing.push_back({x, y});
         }
     }
     return missing;

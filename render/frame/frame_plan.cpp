@@ -54,7 +54,7 @@ VisibleFrame find_least_thresholds(const Image<Hit>& hits, const Image<float>& t
 
 /// How far the picture moves while a camera takes these values in turn, about the middle one; nothing if that is not
 /// known, because it moves past objects.
-/// @param nearest  m, distance of what is in view; 0: not known
+/// @param nearest  m, distance of what is in view; infinite: nothing is
 /// @param largest  set to the largest distance between two places of a point, pixels
 std::optional<BlurMoments> find_camera_blur(const std::vector<CameraValues>& cameras, int width, int height,
                                             double nearest, double& largest) {
@@ -65,6 +65,8 @@ std::optional<BlurMoments> find_camera_blur(const std::vector<CameraValues>& cam
         if (camera.aperture != cameras.front().aperture || camera.focus_distance != cameras.front().focus_distance)
             return std::nullopt;
         views.push_back(make_camera_view(camera, width, height));
+        // In a parallel view that turns, a point moves by its distance times the angle.
+        if (middle.orthographic && views.back().axes != middle.axes) return std::nullopt;
         const double step = glm::length(views.back().position - middle.position);
         if (step > 0.0 && (!(nearest > 4.0 * step) || !std::isfinite(nearest))) return std::nullopt;
     }
@@ -78,9 +80,7 @@ std::optional<BlurMoments> find_camera_blur(const std::vector<CameraValues>& cam
         for (const CameraView& view : views) {
             // A point that is far away, and how much more the nearest ones move.
             const glm::dvec3 turned = ray.direction * view.axes;
-            const glm::dvec3 at = middle.orthographic
-                                      ? to_camera(view, ray.origin + ray.direction * (2.0 * std::max(nearest, 1.0)))
-                                      : turned;
+            const glm::dvec3 at = middle.orthographic ? to_camera(view, ray.origin + ray.direction) : turned;
             if (!(-at.z > 0.0)) return std::nullopt;
             const glm::dvec2 moved = project_camera_point(view, at) - place;
             const double depth = nearest - glm::length(view.position - middle.position);

@@ -113,7 +113,6 @@ PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& v
     PixelSurface surface{view_surface(shading, point, -direction,
                                       make_pixel_footprint(view, point, direction, hit.distance, place.spacing))};
     surface.hit = hit;
-    surface.distance = hit.distance;
     const float distance = view.orthographic ? 1.0f : hit.distance;
     surface.footprint = distance / static_cast<float>(view.pixels_per_unit);
     surface.x = pixel.x;

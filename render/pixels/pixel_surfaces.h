@@ -59,8 +59,7 @@ CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int 
 
 /// The surface of one pixel sample.
 struct PixelSurface : ViewedSurface {
-    Hit hit{};                ///< of the sample's ray
-    float distance = 0.0f;    ///< from the camera, m
+    Hit hit{};                ///< of the sample's ray; its distance is from the camera
     float footprint = 0.0f;   ///< size of a pixel at that distance, m
     int x = 0, y = 0;         ///< of the pixel
     int sample = 0;           ///< which of the pixel's samples

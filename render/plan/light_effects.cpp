@@ -64,8 +64,7 @@ bool may_be_shadowed(const FrameFacts& facts, const LightFacts& light) {
         if (near || (receiver.material.glass && !receiver.flat)) return true;  // a lamp within a body
         for (const ObjectFacts& blocker : facts.objects) {
             const bool itself = &blocker == &receiver || (&blocker == lamp && lamp->convex);
-            if (!itself && &receiver != lamp && may_block(light, receiver, blocker)) return true;
-            if (&receiver == lamp && &blocker != lamp && may_block(light, receiver, blocker)) return true;
+            if (!itself && may_block(light, receiver, blocker)) return true;
         }
     }
     return false;

@@ -194,9 +194,9 @@ class EdgeRays {
     std::array<Hit, packet> hits_;
 };
 
-/// Casts one set of rays.
+/// Casts one set of rays, 16 or more.
 void take_set(EdgeRays& rays, std::uint32_t set, int count, EdgeLight& light) {
-    const int parts = std::clamp(count / 8, 1, parts_of_a_set);
+    const int parts = std::min(count / 8, parts_of_a_set);
     glm::dvec3 sum(0.0);
     double mean = 0.0, squares = 0.0;  // of the parts (Welford 1962)
     for (int part = 0; part < parts; ++part) {
@@ -209,7 +209,7 @@ void take_set(EdgeRays& rays, std::uint32_t set, int count, EdgeLight& light) {
         squares += difference * (y - mean);
     }
     light.mean = Rgb(sum / static_cast<double>(count));
-    light.variance = parts < 2 ? 0.0f : static_cast<float>(squares / (parts * (parts - 1)));
+    light.variance = static_cast<float>(squares / (parts * (parts - 1)));
 }
 
 /// Returns whether the next set, twice as large, may be the last.

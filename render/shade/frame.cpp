@@ -40,7 +40,7 @@ class FrameShading {
           exposure_(exposure),
           plan_(make_sampling_plan(options.limits, context.settings, exposure)),
           pixels_(context.view.width, context.view.height, PixelSamples(static_cast<float>(plan_.white))),
-          integrator_(make_integrator({context, options, out, place_.noise_key, plan_.tolerance})) {
+          integrator_(make_integrator({context, options, out, plan_.tolerance})) {
         plan_.part = options.part;
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
         if (place_.centered && as_centers) first_ = &centers;

@@ -38,7 +38,6 @@ struct IntegratorInput {
     const IndirectContext& context;
     const SampleOptions& options;
     ShadedFrame& out;
-    std::uint32_t noise_key = 0;             ///< SamplePlace::noise_key
     const Image<float>& sampling_tolerance;  ///< SamplingPlan::tolerance
 };
 

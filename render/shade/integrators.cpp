@@ -26,7 +26,6 @@ class CacheIntegrator final : public LightIntegrator {
           known_(make_frame_irradiance(context_, cached_ ? &cache_ : nullptr)),
           direct_(context_.max_radius),
           shading_{.context = context_,
-                   .noise_key = input.noise_key,
                    .indirect = indirect_,
                    .cache = cached_ ? &cache_ : nullptr,
                    .known = blurred_ ? nullptr : &known_,
@@ -141,7 +140,7 @@ class PathIntegrator final : public LightIntegrator {
 
     void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples&, SampleLight& light) override {
         const RenderSettings& settings = input_.context.settings;
-        RandomStream random = path_stream(settings.seed, input_.noise_key, surface);
+        RandomStream random = path_stream(settings.seed, input_.context.frame, surface);
         const LightingContext lighting = scene_before(*scene_, task, surface).lighting;
         const Rgb left = share_left(lighting.around, surface);
         light[LightPart::surface] = surface.material.emission * left;

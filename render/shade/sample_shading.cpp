@@ -49,8 +49,8 @@ std::optional<Rgb> look_up(const SampleShading& shading, ShadingTask& task, cons
 Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                       const PixelSurface& surface) {
     const RenderSettings& settings = shading.context.settings;
-    const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
-    RandomStream random = path_stream(settings.seed, shading.noise_key, surface, irradiance_seed_mask);
+    const PixelSequence sequence(settings.seed, shading.context.frame, surface.x, surface.y);
+    RandomStream random = path_stream(settings.seed, shading.context.frame, surface, irradiance_seed_mask);
     PathState state =
         start_indirect({settings.light.bounces - 1, settings.light.path_depth - 1}, scene.lighting.around);
     state.known = shading.known;
@@ -104,7 +104,7 @@ void add_with_cache(const SampleShading& shading, const SampleScene& scene, Shad
     const LitSurface lit(surface);
     const LobeShares shares = share_lobes(lit, LobeSet::specular);
     light[LightPart::surface] = surface.material.emission;
-    const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
+    const PixelSequence sequence(settings.seed, shading.context.frame, surface.x, surface.y);
     const int count = settings.light.light_samples;
     light[LightPart::direct] =
         sample_direct_light(lighting, task, lit, shares, sequence, {surface.sample * count, count});
@@ -113,7 +113,7 @@ void add_with_cache(const SampleShading& shading, const SampleScene& scene, Shad
         const ScatterSample sample =
             sample_scatter(lit, shares, sequence.at_1d(SampleUse::lobe_choice, i),
                            sequence.at_2d(SampleUse::lobe_direction, i), sequence.at_1d(SampleUse::lobe_side, i));
-        RandomStream random = path_stream(settings.seed, shading.noise_key, surface);
+        RandomStream random = path_stream(settings.seed, shading.context.frame, surface);
         light[LightPart::gloss] =
             follow_sample(lighting, task, lit, sample, start_beyond(shading, scene, surface), random);
     }
@@ -139,7 +139,7 @@ SampleScene scene_before(const SampleScene& scene, RayTask& task, const PixelSur
 }
 
 Rgb share_left(const Media& before, const PixelSurface& surface) {
-    return transmit(before.attenuation(surface.point, surface.material), surface.distance);
+    return transmit(before.attenuation(surface.point, surface.material), surface.hit.distance);
 }
 
 void begin_light(const PixelSurface& surface, SampleLight& light) {

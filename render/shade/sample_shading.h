@@ -30,8 +30,7 @@ struct ShadingTask : RayTask {
 /// How a frame's samples are shaded.
 struct SampleShading {
     const IndirectContext& context;
-    std::uint32_t noise_key = 0;  ///< of SamplePlace
-    bool indirect = false;        ///< there is indirect light
+    bool indirect = false;  ///< there is indirect light
     /// Finished; null: there are no records. Samples find irradiance that is not known by paths of their own.
     const IrradianceCache* cache = nullptr;
     const KnownIrradiance* known = nullptr;  ///< to paths; null: they find all light by themselves

@@ -22,8 +22,8 @@ const TextureUse* find_base_color(const ShadingScene& shading, const Hit& hit) {
 }
 
 UvFootprint find_footprint(const CameraView& view, const PixelSurface& surface, int uv_set) {
-    return make_uv_footprint(surface.point,
-                             make_pixel_footprint(view, surface.point, -surface.view, surface.distance, 1.0f), uv_set);
+    return make_uv_footprint(
+        surface.point, make_pixel_footprint(view, surface.point, -surface.view, surface.hit.distance, 1.0f), uv_set);
 }
 
 /// From the texel at a pixel's centre to what the Lambert layer reflects of the estimate; 0 where that is not finite.

@@ -135,10 +135,8 @@ Image<Rgb> continue_error(const Image<Rgb>& error, const PicturePart& part) {
     Weighted& top = levels.back();  // one pixel, which may weigh little
     for (std::size_t c = 0; c < 3; ++c) top[c].pixels[0] /= std::max(top[weights_at].pixels[0], 1e-6f);
     for (std::size_t i = levels.size() - 1; i-- > 0;) push(levels[i + 1], levels[i]);
-    for (std::size_t i = 0; i < out.size(); ++i) {
+    for (std::size_t i = 0; i < out.size(); ++i)
         out.pixels[i] = {levels[0][0].pixels[i], levels[0][1].pixels[i], levels[0][2].pixels[i]};
-        if (part.pixels[i] != 0 && !is_finite(error.pixels[i])) out.pixels[i] = error.pixels[i];
-    }
     return out;
 }
 

@@ -21,6 +21,7 @@ FOLDERS = {
     "light": ["render/light/"],
     "path": ["render/path/"],
     "time": ["render/time/"],
+    **{room: [f"render/{room}/"] for room in ("shade", "frame", "estimate", "plan", "pixels", "guide", "budget", "verify", "compare")},
 }
 PROGRAMS = {
     "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_scene_file", "test_render", "test_gltf",
@@ -31,6 +32,15 @@ PROGRAMS = {
     "light": ["test_paths", "test_records", "test_render", "test_blur"],
     "path": ["test_paths", "test_records", "test_blur"],
     "time": ["test_paths", "test_lighting_keyframes", "test_blur"],
+    "shade": ["test_render", "test_records", "test_materials", "test_blur"],
+    "frame": ["test_sequence", "test_lighting_keyframes", "test_blur"],
+    "estimate": ["test_maps_images", "test_render", "test_blur"],
+    "plan": ["test_effects"],
+    "pixels": ["test_records", "test_render"],
+    "guide": ["test_render", "test_maps_images"],
+    "budget": ["test_budget"],
+    "verify": ["test_verify"],
+    "compare": ["test_sequence"],
 }
 OPERATOR = re.compile(r"(?<=[\w)\]}]) (<=|>=|==|!=|<|>|\+|-|\*|/)(?= |$)")
 # Where an operator is no expression of values: preprocessor, templates, declarations of operators, static assertions.

@@ -1,6 +1,7 @@
 // `aleph render --budget`: parts of pictures and what is timed of them, predicted cost, and the error that is chosen.
 
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "engine/load/load_scene.h"
 #include "render/budget/cost_model.h"
@@ -115,6 +116,35 @@ TEST(CostPilot, ASizeKeepsAPixel) {
     const PictureSize wide = scale_size({65536, 1}, 0.25);
     EXPECT_EQ(wide.width, 16384);
     EXPECT_EQ(wide.height, 1);
+}
+
+TEST(CostPilot, FramesAndLightingKeyframesAreCountedForIt) {
+    Scene scene;
+    scene.film.range = FrameRange{0, 40};
+    RenderSettings settings;
+    settings.cache.accuracy = 0.1;
+    settings.cache.light_step = 10;
+    std::vector<int> frames(40);
+    std::iota(frames.begin(), frames.end(), 0);
+    const auto find = [&](int rendered, const std::vector<std::int64_t>& pilot_frames = {5, 15}) {
+        return find_cost_ratios(scene, settings, frames, pilot_frames, rendered);
+    };
+    EXPECT_DOUBLE_EQ(find(2).frames, 20.0);
+    EXPECT_DOUBLE_EQ(find(2).keyframes, 5.0 / 3.0) << "0, 10, 20, 30 and 40, of which the pilot reads three";
+    EXPECT_DOUBLE_EQ(find(1, {5}).frames, 40.0);
+    EXPECT_DOUBLE_EQ(find(1).frames, 1.0) << "all are copies of one";
+    EXPECT_DOUBLE_EQ(find(1).keyframes, 1.0);
+    const RenderSettings usual = settings;
+    const auto reads_none = [&](const auto& change) {
+        settings = usual;
+        change();
+        return find(2).keyframes == 1.0;
+    };
+    EXPECT_TRUE(reads_none([&] { settings.cache.light_step = 0; }));
+    EXPECT_TRUE(reads_none([&] { settings.cache.accuracy = 0.0; }));
+    EXPECT_TRUE(reads_none([&] { settings.light.bounces = 0; }));
+    EXPECT_TRUE(reads_none([&] { settings.light.path_depth = 1; }));
+    EXPECT_TRUE(reads_none([&] { settings.light.integrator = Integrator::path; }));
 }
 
 TEST(PicturePart, IsSpreadOverThePicture) {

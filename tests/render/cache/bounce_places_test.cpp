@@ -111,7 +111,7 @@ TEST(BouncePlaces, RaysLieInTheStrataOfEachSurface) {
             expect_near(met.point.position, from.position + direction * static_cast<float>(distance), 1e-4 * distance);
             EXPECT_EQ(met.view, -direction);
             EXPECT_NEAR(met.footprint, distance * std::sqrt(pi / 1024.0), 1e-4 * distance);
-            EXPECT_EQ(met.distance, places.hits(x, y).distance);
+            EXPECT_EQ(met.hit.distance, places.hits(x, y).distance);
             EXPECT_EQ(met.pixel, static_cast<std::uint32_t>(16 * y + x));
             EXPECT_EQ(met.x, x);
             EXPECT_EQ(met.y, y);

@@ -31,6 +31,16 @@ TEST(Compare, NumbersByHand) {
     EXPECT_FALSE(result.colour.has_value());
 }
 
+TEST(Compare, ThePlaceOfTheLargestDifference) {
+    const ChannelImage b = grey_image(3, 4, 0.5f);
+    ChannelImage a = b;
+    a.channels[0].values(2, 1) += 0.1f;
+    a.channels[0].values(1, 2) += 0.2f;
+    const ChannelDifference& channel = compare_images(a, b).channels[0];
+    EXPECT_EQ(channel.x, 1);
+    EXPECT_EQ(channel.y, 2);
+}
+
 TEST(Compare, ToleranceRelativeAndShare) {
     const auto a = one_channel("Z", {1.0f, 2.5f, 2.0f, 1.0f}), b = one_channel("Z", {1.0f, 2.0f, 4.0f, 1.0f});
     const auto beyond = [&](double tolerance, double relative) {
@@ -76,7 +86,9 @@ TEST(Compare, OtherShapesAreErrors) {
     EXPECT_NE(message.find("only the second [Z]"), std::string::npos) << message;
     EXPECT_TRUE(compare_images(grey_image(4, 4, 0.0f), more, {0.0, 0.0, 0.0, {"R", "G"}}).same());
     more.channels.push_back({"Z.X", Image<float>(4, 4)});
-    EXPECT_EQ(find_refusal([&] { compare_images(more, more, {0.0, 0.0, 0.0, {"N"}}); }).reason,
+    EXPECT_EQ(find_refusal([&] {
+                  compare_images(more, more, {0.0, 0.0, 0.0, {"N"}});
+              }).reason,
               "is not in both pictures; both have [R, G, B, Z]");
 }
 

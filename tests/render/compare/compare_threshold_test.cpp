@@ -76,6 +76,7 @@ TEST(CompareNoise, ByHand) {
     EXPECT_NEAR(result.luminance->bias_error, 0.01 * std::sqrt(3.0) / 1.5, 1e-7);
     EXPECT_NEAR(result.luminance->relative_mse, (4e-4 + 0.045 * 0.045) / 0.250025 / 3.0, 1e-7);
     EXPECT_NEAR(result.luminance->noise_mse, 1e-4 / 0.250025, 1e-7);
+    EXPECT_NEAR(result.luminance->without_noise(), (4e-4 + 0.045 * 0.045 - 3e-4) / 0.250025 / 3.0, 1e-7);
     EXPECT_EQ(result.luminance->far, 1u);  // only .045 is beyond 3 * .01
 }
 

@@ -184,7 +184,7 @@ TEST(KnownIrradianceTest, AMirrorShowsWhatTheCacheHolds) {
         if (mirrors.places.hits(x, y).instance == no_index) continue;
         ++seen;
         const PixelSurface place = make_bounce_surface(stage.shading, mirrors.places, x, y);
-        EXPECT_GT(place.distance, 2.0f);
+        EXPECT_GT(place.hit.distance, 2.0f);
         const std::optional<Rgb> light = known.find(place, place.hit, 0.2f, Rgb(1.0f), task);
         if (!light) continue;
         ++found;

@@ -186,6 +186,14 @@ TEST(EffectsBounds, FX13_GlossThatHardlyReflects) {
     EXPECT_EQ(decide(scene, seen_settings(), Effect::glossy_reflection), Decision::simulate);
 }
 
+/// A value at the middle of frame 0, and another at its ends; the shutter is open for all of it.
+template <class T>
+Track<T> swing(Scene& scene, const T& middle, const T& ends) {
+    scene.cameras[0].shutter = {-0.5, 0.5};
+    const double half = 0.5 * scene.film.frame_rate.seconds_of(1);
+    return Track<T>({-half, 0.0, half}, {ends, middle, ends});
+}
+
 /// The camera turns by this angle while the shutter is open.
 Scene make_turning_view(double degrees) {
     Scene scene = make_lit_square();
@@ -205,6 +213,20 @@ TEST(EffectsBounds, FX15_AShutterInWhichThePictureHardlyMoves) {
     constexpr double noise = 0.05;  // of samples at edges
     expect_skipped_within_bound(compare_forced(make_turning_view(0.05), settings, Effect::motion_blur), noise);
     EXPECT_EQ(decide(make_turning_view(3.0), settings, Effect::motion_blur), Decision::simulate);
+}
+
+TEST(EffectsBounds, FX15_AParallelViewThatHardlyMoves) {
+    RenderSettings settings = seen_settings();
+    settings.picture.filter = PixelFilter::blackman_harris;
+    settings.sampling.spp = 256;
+    Scene turning = make_turning_view(1e-3);
+    turning.cameras[0].orthographic = true;
+    add_mesh(turning, make_quad(1.0, 9.0, add_lambert(turning, glm::dvec3(0.0), glm::dvec3(1.0))), {0.7, 0.0, -1e5});
+    EXPECT_EQ(decide(turning, settings, Effect::motion_blur), Decision::simulate) << "1.7 m at a distance of 1e5 m";
+    Scene shifting = make_lit_square();
+    shifting.cameras[0].orthographic = true;
+    shifting.nodes[0].transform.translation = swing(shifting, glm::dvec3(0.0, 0.0, 3.0), glm::dvec3(2e-4, 0.0, 3.0));
+    expect_skipped_within_bound(compare_forced(shifting, settings, Effect::motion_blur), 0.05);
 }
 
 TEST(EffectsBounds, FX15_WhatChangesWhileTheShutterIsOpen) {
@@ -231,14 +253,6 @@ TEST(EffectsBounds, FX15_WhatChangesWhileTheShutterIsOpen) {
     entering.nodes[add_mesh(entering, make_quad(0.5, 0.5, 0), {9.0, 0.0, 0.0})].transform.translation =
         Track<glm::dvec3>({0.0, frame}, {glm::dvec3(9.0, 0.0, 0.0), glm::dvec3(0.0)});
     EXPECT_EQ(decision(entering), Decision::simulate) << "an object enters";
-}
-
-/// A value at the middle of frame 0, and another at its ends; the shutter is open for all of it.
-template <class T>
-Track<T> swing(Scene& scene, const T& middle, const T& ends) {
-    scene.cameras[0].shutter = {-0.5, 0.5};
-    const double half = 0.5 * scene.film.frame_rate.seconds_of(1);
-    return Track<T>({-half, 0.0, half}, {ends, middle, ends});
 }
 
 TEST(EffectsBounds, FX02_FX03_LightAtTheMiddleOfTheShutterBoundsNone) {

@@ -120,6 +120,30 @@ TEST(EffectsPlan, FX03_FX06_GlossAndMirrorsThatAreSeen) {
     EXPECT_TRUE(seen.contains("glossy_reflection")) << "gloss behind the camera, in a mirror";
 }
 
+TEST(EffectsPlan, FX02_SquaresInOnePlaneSendEachOtherNothing) {
+    Scene scene = make_empty_view();
+    const int white = add_lambert(scene, glm::dvec3(0.8));
+    add_mesh(scene, make_quad(1.0, 1.0, white), {-0.6, 0.0, 1.0});
+    const int other = add_mesh(scene, make_quad(1.0, 1.0, white), {0.6, 0.0, 1.0});
+    add_light(scene, Light::Kind::point, glm::dvec3(3.0), {0.0, 0.0, 2.0});
+    EXPECT_FALSE(effects_of(scene).contains("indirect_diffuse"));
+    scene.nodes[other].transform.translation = glm::dvec3(0.6, 0.0, 1.1);
+    EXPECT_TRUE(effects_of(scene).contains("indirect_diffuse"));
+}
+
+TEST(EffectsPlan, FX03_FX06_TexturesThatGlossIsTimes) {
+    Scene scene = make_lit_square();
+    const int metal = scene.meshes[0].material = add_material(scene, 1.0, 0.5);
+    scene.materials[metal].gloss.specular = 0.0;
+    const auto with = [&](const glm::u8vec4& texel) {
+        scene.materials[metal].textures[TextureSlot::metallic_roughness] = add_texture(scene, texel);
+        return effects_of(scene);
+    };
+    EXPECT_EQ(with({255, 255, 255, 255}), (Names{"direct_light", "glossy_reflection", "textures"}));
+    EXPECT_EQ(with({255, 0, 255, 255}), (Names{"direct_light", "mirror_reflection", "textures"})) << "smooth";
+    EXPECT_EQ(with({255, 255, 0, 255}), (Names{"direct_light", "textures"})) << "no metal";
+}
+
 TEST(EffectsPlan, FX04_LampsThatShine) {
     Scene scene = make_lit_square();
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0));
