@@ -35,6 +35,8 @@ enum class SampleUse : std::uint8_t {
     bright_point,    ///< the place on it
     other,           ///< free for callers
     passing,         ///< which of the blended surfaces in its way the camera's ray shows
+    lamp_disc,       ///< the place in the picture of a lamp that is out of focus
+    lamp_point,      ///< the place on that lamp
 };
 
 /// The points of one use. What its samples have in common is computed once.

@@ -53,13 +53,6 @@ std::span<const BrightPiece> pieces_of(const BrightEdges& edges, const EdgeLight
     return std::span(edges.pieces).subspan(edge.first, edge.last - edge.first);
 }
 
-Rgb find_emission(const SampleScene& scene, RayTask& task, const SamplePlace& place, const Hit& hit,
-                  const glm::vec3& direction, const glm::ivec2& pixel) {
-    if (hit.instance == no_index) return environment_radiance(scene.lighting.shading, direction);
-    const PixelSurface surface = make_pixel_surface(scene.lighting.shading, scene.view, place, hit, direction, pixel);
-    return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
-}
-
 /// Rays of one pixel.
 class EdgeRays {
   public:

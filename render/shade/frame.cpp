@@ -10,6 +10,7 @@
 #include "render/settings/measure.h"
 #include "render/shade/edge_light.h"
 #include "render/shade/integrator.h"
+#include "render/shade/lens_light.h"
 #include "render/shade/resolve.h"
 #include "render/shade/sample_packet.h"
 #include "render/shade/texture_control.h"
@@ -18,16 +19,8 @@ namespace aleph {
 
 namespace {
 
-constexpr double fill_share = 0.3;            // of a frame's time, for progress only
-constexpr std::size_t most_task_ranges = 64;  // pixels of a task
-constexpr double task_samples = 4096.0;
+constexpr double fill_share = 0.3;          // of a frame's time, for progress only
 constexpr std::size_t tasks_of_slice = 64;  // between reports of progress
-
-/// Pixels of a task: so many that tasks take about equal times.
-std::size_t find_task_ranges(std::span<const PixelRange> ranges) {
-    const double mean = sum_samples(ranges) / static_cast<double>(ranges.size());
-    return std::clamp<std::size_t>(static_cast<std::size_t>(task_samples / mean), 1, most_task_ranges);
-}
 
 class FrameShading {
   public:
@@ -77,6 +70,8 @@ class FrameShading {
             textures_.emplace(context_.lighting.shading, context_.view, centers, *options_.estimate, exposure_);
         std::vector<PixelRange> begin = restore();
         if (is_sharp) find_edges(centers, !begin.empty());
+        if (options_.lens.radius > 0.0 && context_.settings.light.integrator == Integrator::cache)
+            lamps_ = find_lens_light(context_.lighting, context_.view, options_.lens, exposure_);
         sample_by_stages(
             plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); }, std::move(begin));
     }
@@ -210,6 +205,7 @@ class FrameShading {
     void take_ranges(const SampleScene& scene, ShadingTask& task, std::span<const PixelRange> ranges) {
         SamplePacket samples(scene, task);
         std::optional<PixelTexture> texture;  // of the last pixel that was corrected
+        std::optional<LensPixel> lens;        // likewise
         const auto shade = [&](const SamplePlace& at, int x, int y, const glm::vec3& direction, const Hit& hit) {
             SampleLight light;
             if (hit.instance == no_index) {
@@ -225,6 +221,10 @@ class FrameShading {
                 const Rgb correction = texture->correct(at);
                 light[LightPart::direct] += correction;
                 light.control = correction;
+            }
+            if (lamps_) {
+                if (!lens || lens->pixel() != glm::ivec2(x, y)) lens.emplace(*lamps_, at.filter, glm::ivec2(x, y));
+                light[LightPart::surface] += lens->correct(scene, task, at, hit, direction);
             }
             if (const EdgeLight* edge = edges_.find(x, y)) {
                 Rgb& seen = light[LightPart::surface];
@@ -285,6 +285,7 @@ class FrameShading {
     ShadedFrame& out_;
     std::optional<TextureControl> textures_;
     EdgeLights edges_;
+    std::optional<LensLight> lamps_;
     SamplePlace place_;  ///< of the first sample
     const double exposure_;
     SamplingPlan plan_;

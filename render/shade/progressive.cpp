@@ -125,6 +125,13 @@ double sum_samples(std::span<const PixelRange> ranges) {
     return count;
 }
 
+std::size_t find_task_ranges(std::span<const PixelRange> ranges) {
+    constexpr std::size_t most = 64;
+    constexpr double task_samples = 4096.0;
+    const double mean = sum_samples(ranges) / static_cast<double>(ranges.size());
+    return std::clamp<std::size_t>(static_cast<std::size_t>(task_samples / mean), 1, most);
+}
+
 double predict_samples(std::span<const PixelRange> stage, std::size_t before, int most) {
     constexpr double typical_share = 0.4;
     const double seen_share = before == 0 ? 0.0 : static_cast<double>(stage.size()) / static_cast<double>(before);

@@ -34,6 +34,9 @@ struct PixelRange {
 
 double sum_samples(std::span<const PixelRange> ranges);
 
+/// Pixels of a task: so many that tasks take about equal times.
+std::size_t find_task_ranges(std::span<const PixelRange> ranges);
+
 /// The samples that stages after this one are expected to take, for progress: the share of the pixels that goes on is
 /// taken to stay what it was, or to be what is typical if that is more.
 /// @param before  pixels of the stage before; 0 if this is the first

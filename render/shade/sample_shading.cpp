@@ -142,6 +142,13 @@ Rgb share_left(const Media& before, const PixelSurface& surface) {
     return transmit(before.attenuation(surface.point, surface.material), surface.hit.distance);
 }
 
+Rgb find_emission(const SampleScene& scene, RayTask& task, const SamplePlace& place, const Hit& hit,
+                  const glm::vec3& direction, const glm::ivec2& pixel) {
+    if (hit.instance == no_index) return environment_radiance(scene.lighting.shading, direction);
+    const PixelSurface surface = make_pixel_surface(scene.lighting.shading, scene.view, place, hit, direction, pixel);
+    return surface.material.emission * share_left(scene_before(scene, task, surface).lighting.around, surface);
+}
+
 void begin_light(const PixelSurface& surface, SampleLight& light) {
     light.place = {.instance = surface.hit.instance,
                    .position = surface.point.position,

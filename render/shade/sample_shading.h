@@ -58,6 +58,11 @@ SampleScene scene_before(const SampleScene& scene, RayTask& task, const PixelSur
 /// Share of light that reaches the camera through the media before a surface.
 Rgb share_left(const Media& before, const PixelSurface& surface);
 
+/// Radiance that reaches the camera from what a sample's ray met, without what that reflects.
+/// @param direction  of the ray, unit
+Rgb find_emission(const SampleScene& scene, RayTask& task, const SamplePlace& place, const Hit& hit,
+                  const glm::vec3& direction, const glm::ivec2& pixel);
+
 /// Sets what a sample's light tells of its surface.
 void begin_light(const PixelSurface& surface, SampleLight& light);
 
