@@ -129,12 +129,12 @@ Rgb emitted_radiance(const ShadingScene& shading, const Emitter& emitter, const 
 
 /// A place on one of the triangles.
 struct EmitterPlace {
-    std::size_t triangle = 0;  ///< into Emitter::triangles
+    std::size_t triangle = 0;  ///< into EmitterShape::triangles
     glm::vec2 b{0.0f};         ///< barycentric
     float spread = 0.0f;       ///< m2: 1 / density per area of places sampled on the whole emitter
 };
 
-/// A place of a triangle that was chosen by Emitter::cumulative: uniform in its area, or by cells. u in [0,1)^2.
+/// A place of a triangle that was chosen by EmitterShape::cumulative: uniform in its area, or by cells. u in [0,1)^2.
 EmitterPlace sample_place(const Emitter& emitter, std::size_t triangle, glm::vec2 u);
 
 /// EmitterPlace::spread of a place of a triangle, b barycentric.

@@ -119,7 +119,7 @@ struct SolidAngles {
 
 /// The sides of an emitter that may face a point.
 struct FacingSides {
-    std::uint32_t which = 0;  ///< a bit for each of Emitter::sides
+    std::uint32_t which = 0;  ///< a bit for each of EmitterShape::sides
     float share = 1.0f;       ///< of the emitter's samples
 };
 
