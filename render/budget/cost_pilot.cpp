@@ -24,9 +24,7 @@ constexpr double part_growth = 2.0;   // seconds, from one error to the next
 /// @param scene  of the Sequence, whose cuts include changes of the camera
 std::size_t count_keyframes(const Scene& scene, const RenderSettings& settings,
                             const std::vector<std::int64_t>& frames) {
-    const bool has_indirect =
-        settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
-    if (settings.cache.light_step == 0 || settings.light.integrator != Integrator::cache || !has_indirect) return 0;
+    if (!reads_keyframes(settings)) return 0;
     const LightingKeyframes keyframes{frame_range(scene), scene.film.cuts, settings.cache.light_step, {}};
     std::set<std::int64_t> read;
     for (const std::int64_t frame : frames) {

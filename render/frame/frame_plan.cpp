@@ -193,7 +193,7 @@ FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
     in.perceives = work.perceive;
     in.maps = work.maps;
     in.has_other = work.other != OtherFrame::none || work.edited;
-    in.keyframes = shot_.reads_keyframes();
+    in.keyframes = reads_keyframes(shot_.settings);
     if (work.perceive && in.has_other && !work.edited) {
         const double now = posed.pose.seconds, other = shot_.seconds(other_frame_number(work.frame, work.other));
         in.moves = !shot_.steady.is_steady(shot_.camera(work.frame), std::min(now, other), std::max(now, other));

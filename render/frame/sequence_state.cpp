@@ -59,7 +59,7 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
       estimate_light(shot, shot_light, keyframe),
       motion(shot, here),
       shutter(shot, here) {
-    if (!shot.reads_keyframes()) return;
+    if (!reads_keyframes(shot.settings)) return;
     const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
     shot_light.emplace(LightingKeyframes{shot.range, shot.scene.film.cuts, shot.settings.cache.light_step, find_breaks},
                        shot.settings, !is_world_animated(shot.scene), !shot.can_change(), make_keyframe_source(*this));

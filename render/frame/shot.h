@@ -12,6 +12,7 @@
 #include "render/pixels/pixel_surfaces.h"
 #include "render/settings/settings.h"
 #include "render/surface/shading_scene.h"
+#include "render/time/lighting_keyframes.h"
 #include "render/time/shutter.h"
 
 namespace aleph {
@@ -59,11 +60,6 @@ struct Shot {
     bool needs_perception() const { return is_guided() || settings.sampling.rule != Sampling::uniform; }
     bool estimates_indirect_light(int bounces) const {
         return bounces > 0 && settings.guide.estimate == EstimateKind::direct;
-    }
-    /// Returns whether frames with a closed shutter read their indirect light from lighting keyframes.
-    bool reads_keyframes() const {
-        return settings.light.integrator == Integrator::cache && settings.cache.light_step > 0 &&
-               settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
     }
 
     const std::vector<std::int64_t> given_cuts;

@@ -9,8 +9,15 @@
 
 #include "engine/pose/plan.h"
 #include "engine/scene/scene.h"
+#include "render/settings/settings.h"
 
 namespace aleph {
+
+/// Returns whether frames with a closed shutter read their indirect light from lighting keyframes.
+inline bool reads_keyframes(const RenderSettings& settings) {
+    return settings.light.integrator == Integrator::cache && settings.cache.light_step > 0 &&
+           settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
+}
 
 /// Lighting keyframes are the first frame of the range and every `step`-th before and after it, the last frame of the
 /// range, and both sides of every cut and of every jump of the light.
