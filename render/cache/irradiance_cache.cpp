@@ -245,12 +245,12 @@ bool IrradianceCache::stands_out(int number) const {
     return count > 0 && luminance(record.irradiance) * static_cast<float>(count) > most_over_others * sum;
 }
 
-void IrradianceCache::finish(std::size_t kept) {
+void IrradianceCache::finish(std::size_t kept, bool leave_out) {
     std::vector<IrradianceRecord> smooth(records_.size());
     std::vector<std::uint8_t> takes(records_.size(), 0);  // whether it takes a share of rare light
     parallel_each(records_.size(), 64, [&](std::size_t i) {
         smooth[i] = i < kept ? records_[i] : smoothed(records_[i]);
-        takes[i] = i >= kept && !stands_out(static_cast<int>(i)) ? 1 : 0;
+        takes[i] = i >= kept && !(leave_out && stands_out(static_cast<int>(i))) ? 1 : 0;
     });
     share_rare_light(kept, takes, smooth);
     std::vector<IrradianceRecord> ordered;

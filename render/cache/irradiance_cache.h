@@ -94,10 +94,12 @@ class IrradianceCache {
     /// Replaces each record's value and gradients by the mean of what it and the records around it extrapolate to its
     /// place, of those that differ by no more than noise: less noise without more rays. Rare light of records is shared
     /// out among those around that face about the same way, by what each of them has, so that it is no blotch and the
-    /// dark stays dark. Records that stand out are left out, so that samples find the light of their places. Nothing is
-    /// inserted afterwards.
-    /// @param kept  so many of the first records stay as they are
-    void finish(std::size_t kept = 0);
+    /// dark stays dark. Nothing is inserted afterwards.
+    /// @param kept       so many of the first records stay as they are
+    /// @param leave_out  whether records that stand out are left out: for pixels with samples that go on until they
+    /// have
+    ///                   found the light of such places by rays of their own
+    void finish(std::size_t kept = 0, bool leave_out = false);
 
     /// Replaces all records by those of another cache after finish(), as they are.
     void restore(std::vector<IrradianceRecord> records);

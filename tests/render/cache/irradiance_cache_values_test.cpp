@@ -235,7 +235,7 @@ TEST(IrradianceCacheValues, FinishSharesRareLight) {
 
 /// As below a ball of glass, which gathers a lamp's light: a record is no spot of its least reach.
 TEST(IrradianceCacheValues, FinishLeavesOutWhatStandsOut) {
-    const auto sum_records = [](float light, float least_radius, float turned = 1.0f) {
+    const auto sum_records = [](float light, float least_radius, float turned = 1.0f, bool leave_out = true) {
         std::vector<IrradianceRecord> records;
         for (const float x : {0.0f, 0.75f, -0.75f}) records.push_back(make_record_at(x, 0.5f, x == 0.0f ? light : 1));
         for (IrradianceRecord& record : records) record.min_radius = least_radius;
@@ -243,7 +243,7 @@ TEST(IrradianceCacheValues, FinishLeavesOutWhatStandsOut) {
         records[1].rare = Rgb(4.0f);
         IrradianceCache cache = make_empty_cache();
         cache.restore(records);
-        cache.finish();
+        cache.finish(0, leave_out);
         float sum = 0.0f;
         for (const IrradianceRecord& record : cache.records()) sum += record.irradiance.x;
         return sum;
@@ -252,6 +252,7 @@ TEST(IrradianceCacheValues, FinishLeavesOutWhatStandsOut) {
     EXPECT_NEAR(sum_records(7.0f, 0.5f), 13.0, 1e-5);
     EXPECT_NEAR(sum_records(9.0f, 0.25f), 15.0, 1e-5) << "its reach can shrink";
     EXPECT_NEAR(sum_records(9.0f, 0.5f, -1.0f), 15.0, 1e-5) << "nothing to compare it with";
+    EXPECT_NEAR(sum_records(9.0f, 0.5f, 1.0f, false), 15.0, 1e-5);
 }
 
 TEST(IrradianceCacheValues, BeyondTheClearanceARayDecides) {
