@@ -29,6 +29,10 @@ constexpr std::size_t sharing_records = 1024;  // whose shares are found in para
 /// A record is expected to be like those within this multiple of their reach.
 constexpr float expecting_reach = 4.0f;
 
+/// A record that reaches no farther than pixels demand has at most so many times the mean light of those around. More
+/// is a spot that may be smaller than its reach, as below a ball of glass.
+constexpr float most_over_others = 8.0f;
+
 /// Lists are made from the strictest accuracy on, this one at least, and for accuracies of this ratio.
 constexpr float least_list = 0.01f, list_step = 2.0f;
 
@@ -187,32 +191,40 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
     return smooth;
 }
 
-std::vector<IrradianceCache::Share> IrradianceCache::find_shares(std::size_t kept, std::size_t from) const {
+template <class Visit>
+void IrradianceCache::visit_alike(const IrradianceRecord& record, float reach, float cosine, const Visit& visit) const {
+    index_.visit([&](const RecordIndex::Cell& cell) { return cell.distance_to(record.position) < reach; },
+                 [&](int i) {
+                     const IrradianceRecord& other = records_[i];
+                     const bool is_near = glm::distance(record.position, other.position) < reach;
+                     if (is_near && glm::dot(record.normal, other.normal) > cosine)
+                         visit(i, luminance(other.irradiance));
+                     return true;
+                 });
+}
+
+std::vector<IrradianceCache::Share> IrradianceCache::find_shares(const std::vector<std::uint8_t>& takes,
+                                                                 std::size_t from) const {
     const IrradianceRecord& record = records_[from];
     std::vector<Share> shares;
     if (record.rare == Rgb(0.0f)) return shares;
-    const float reach = sharing_reach * record.min_radius;
     float sum = 0.0f;
-    index_.visit([&](const RecordIndex::Cell& cell) { return cell.distance_to(record.position) < reach; },
-                 [&](int j) {
-                     const IrradianceRecord& to = records_[j];
-                     const bool is_near = glm::distance(record.position, to.position) < reach;
-                     const bool is_alike = glm::dot(record.normal, to.normal) > sharing_cosine;
-                     if (j < static_cast<int>(kept) || !is_near || !is_alike) return true;
-                     shares.push_back({j, luminance(to.irradiance)});
-                     sum += shares.back().share;
-                     return true;
-                 });
-    const float even = 1.0f / static_cast<float>(shares.size());  // it is among them itself
+    visit_alike(record, sharing_reach * record.min_radius, sharing_cosine, [&](int to, float light) {
+        if (takes[to] == 0) return;
+        shares.push_back({to, light});
+        sum += light;
+    });
+    const float even = 1.0f / static_cast<float>(shares.size());  // it is among them itself, or stands out
     for (Share& each : shares) each.share = sum > 0.0f ? each.share / sum : even;
     return shares;
 }
 
-void IrradianceCache::share_rare_light(std::size_t kept, std::vector<IrradianceRecord>& smooth) const {
+void IrradianceCache::share_rare_light(std::size_t kept, const std::vector<std::uint8_t>& takes,
+                                       std::vector<IrradianceRecord>& smooth) const {
     std::vector<std::vector<Share>> shares;
     for (std::size_t begin = kept; begin < records_.size(); begin += sharing_records) {
         shares.assign(std::min(sharing_records, records_.size() - begin), {});
-        parallel_each(shares.size(), 16, [&](std::size_t i) { shares[i] = find_shares(kept, begin + i); });
+        parallel_each(shares.size(), 16, [&](std::size_t i) { shares[i] = find_shares(takes, begin + i); });
         for (std::size_t i = 0; i < shares.size(); ++i) {
             for (const auto& [to, share] : shares[i]) smooth[to].irradiance += records_[begin + i].rare * share;
             smooth[begin + i].rare = Rgb(0.0f);
@@ -220,14 +232,31 @@ void IrradianceCache::share_rare_light(std::size_t kept, std::vector<IrradianceR
     }
 }
 
-void IrradianceCache::finish(std::size_t kept) {
+bool IrradianceCache::stands_out(int number) const {
+    const IrradianceRecord& record = records_[number];
+    if (record.radius > record.min_radius) return false;
+    float sum = 0.0f;
+    int count = 0;
+    visit_alike(record, expecting_reach * record.accuracy * record.radius, 0.0f, [&](int other, float light) {
+        if (other == number) return;
+        sum += light;
+        ++count;
+    });
+    return count > 0 && luminance(record.irradiance) * static_cast<float>(count) > most_over_others * sum;
+}
+
+void IrradianceCache::finish(std::size_t kept, bool leave_out) {
     std::vector<IrradianceRecord> smooth(records_.size());
-    parallel_each(records_.size(), 64,
-                  [&](std::size_t i) { smooth[i] = i < kept ? records_[i] : smoothed(records_[i]); });
-    share_rare_light(kept, smooth);
+    std::vector<std::uint8_t> takes(records_.size(), 0);  // whether it takes a share of rare light
+    parallel_each(records_.size(), 64, [&](std::size_t i) {
+        smooth[i] = i < kept ? records_[i] : smoothed(records_[i]);
+        takes[i] = i >= kept && !(leave_out && stands_out(static_cast<int>(i))) ? 1 : 0;
+    });
+    share_rare_light(kept, takes, smooth);
     std::vector<IrradianceRecord> ordered;
     ordered.reserve(smooth.size());
-    for (const int i : index_.ordered()) ordered.push_back(smooth[i]);
+    for (const int i : index_.ordered())
+        if (i < static_cast<int>(kept) || takes[i] != 0) ordered.push_back(smooth[i]);
     restore(std::move(ordered));
 }
 

@@ -95,8 +95,11 @@ class IrradianceCache {
     /// place, of those that differ by no more than noise: less noise without more rays. Rare light of records is shared
     /// out among those around that face about the same way, by what each of them has, so that it is no blotch and the
     /// dark stays dark. Nothing is inserted afterwards.
-    /// @param kept  so many of the first records stay as they are
-    void finish(std::size_t kept = 0);
+    /// @param kept       so many of the first records stay as they are
+    /// @param leave_out  whether records that stand out are left out: for pixels with samples that go on until they
+    /// have
+    ///                   found the light of such places by rays of their own
+    void finish(std::size_t kept = 0, bool leave_out = false);
 
     /// Replaces all records by those of another cache after finish(), as they are.
     void restore(std::vector<IrradianceRecord> records);
@@ -111,13 +114,20 @@ class IrradianceCache {
     void clamp_to_neighbours(IrradianceRecord& record);
     void compare_with_neighbours(IrradianceRecord& record);
     IrradianceRecord smoothed(const IrradianceRecord& record) const;
+    /// Calls visit(number, luminance) for the records within `reach`, m, whose normals are within a cosine of this
+    /// one's.
+    template <class Visit>
+    void visit_alike(const IrradianceRecord& record, float reach, float cosine, const Visit& visit) const;
     /// A record's share of another's rare light.
     struct Share {
         int to;
         float share;
     };
-    std::vector<Share> find_shares(std::size_t kept, std::size_t from) const;
-    void share_rare_light(std::size_t kept, std::vector<IrradianceRecord>& smooth) const;
+    std::vector<Share> find_shares(const std::vector<std::uint8_t>& takes, std::size_t from) const;
+    /// Returns whether a record has far more light than those around, and a reach that cannot shrink.
+    bool stands_out(int number) const;
+    void share_rare_light(std::size_t kept, const std::vector<std::uint8_t>& takes,
+                          std::vector<IrradianceRecord>& smooth) const;
 
     std::vector<IrradianceRecord> records_;
     RecordIndex index_;

@@ -55,7 +55,7 @@ class CacheIntegrator final : public LightIntegrator {
         if (checked_) checked_->check(cache_, context_, input_.out);
         fill_cache(cache_, context_, first, input_.out);
         fill_mirror_places(cache_, context_, first, input_.out);
-        cache_.finish();
+        cache_.finish(0, context_.settings.error > 0.0);
         cache_.prepare();
     }
 

@@ -96,7 +96,7 @@ KeyframeRecords compute_records(const KeyframeInput& input, FrameCounts& counts)
     }
     tally.counts.rays += counts.rays;
     counts = tally.counts;
-    cache.finish(kept);
+    cache.finish(kept, input.settings.error > 0.0);
     KeyframeRecords records{cache.records(), {}};
     if (input.still && further_bounces) records.further = further_bounces->cache.records();
     return records;

@@ -233,6 +233,28 @@ TEST(IrradianceCacheValues, FinishSharesRareLight) {
     for (const std::size_t i : {0u, 1u, 2u, 3u}) EXPECT_NEAR(find(records[i].position.x).x, 6.0 / 4.0, 1e-5) << i;
 }
 
+/// As below a ball of glass, which gathers a lamp's light: a record is no spot of its least reach.
+TEST(IrradianceCacheValues, FinishLeavesOutWhatStandsOut) {
+    const auto sum_records = [](float light, float least_radius, float turned = 1.0f, bool leave_out = true) {
+        std::vector<IrradianceRecord> records;
+        for (const float x : {0.0f, 0.75f, -0.75f}) records.push_back(make_record_at(x, 0.5f, x == 0.0f ? light : 1));
+        for (IrradianceRecord& record : records) record.min_radius = least_radius;
+        records[0].normal *= turned;
+        records[1].rare = Rgb(4.0f);
+        IrradianceCache cache = make_empty_cache();
+        cache.restore(records);
+        cache.finish(0, leave_out);
+        float sum = 0.0f;
+        for (const IrradianceRecord& record : cache.records()) sum += record.irradiance.x;
+        return sum;
+    };
+    EXPECT_NEAR(sum_records(9.0f, 0.5f), 6.0, 1e-5) << "the others take all rare light";
+    EXPECT_NEAR(sum_records(7.0f, 0.5f), 13.0, 1e-5);
+    EXPECT_NEAR(sum_records(9.0f, 0.25f), 15.0, 1e-5) << "its reach can shrink";
+    EXPECT_NEAR(sum_records(9.0f, 0.5f, -1.0f), 15.0, 1e-5) << "nothing to compare it with";
+    EXPECT_NEAR(sum_records(9.0f, 0.5f, 1.0f, false), 15.0, 1e-5);
+}
+
 TEST(IrradianceCacheValues, BeyondTheClearanceARayDecides) {
     // A low wall half way from the record to a place 2 m away. Rays are lifted by .02 of the distance.
     for (const auto& [height, blocked] : {std::pair(0.039, false), std::pair(0.041, true)}) {
