@@ -96,9 +96,7 @@ class IrradianceCache {
     /// out among those around that face about the same way, by what each of them has, so that it is no blotch and the
     /// dark stays dark. Nothing is inserted afterwards.
     /// @param kept       so many of the first records stay as they are
-    /// @param leave_out  whether records that stand out are left out: for pixels with samples that go on until they
-    /// have
-    ///                   found the light of such places by rays of their own
+    /// @param leave_out  whether records that stand out are left out: samples then find the light of their places
     void finish(std::size_t kept = 0, bool leave_out = false);
 
     /// Replaces all records by those of another cache after finish(), as they are.

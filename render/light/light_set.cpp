@@ -224,7 +224,7 @@ LightSet make_light_set(const ShadingScene& shading, LightSet before) {
         std::shared_ptr<const EmitterShape> shape = known >= 0 ? before.emitters[known].shape : shapes[origin.mesh];
         if (shape == nullptr || origin.mesh == nullptr || !(shape->origin == origin))
             shape = std::make_shared<EmitterShape>(make_shape(shading, instance, origin, emitter, lights.kept));
-        shapes[origin.mesh] = shape;
+        if (origin.linear == glm::mat3(1.0f)) shapes[origin.mesh] = shape;
         if (shape->triangles.empty()) continue;
         set_shape(std::move(shape), emitter);
         lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());

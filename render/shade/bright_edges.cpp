@@ -163,7 +163,7 @@ BrightEdges find_bright_edges(const LightingContext& context, const CameraView& 
     Image<float> areas(shares.width, shares.height);
     for (const Emitter& lamp : context.lights.emitters) {
         if (luminance(lamp.brightest) * exposure < least_bright) continue;
-        BrightPiece whole{.instance = lamp.instance, .outline = static_cast<int>(edges.outlines.size())};
+        const BrightPiece whole{.instance = lamp.instance, .outline = static_cast<int>(edges.outlines.size())};
         if (const PicturePolygon outline = find_outline(view, context.shading, lamp); outline.count > 0) {
             edges.outlines.push_back(outline);
             add_piece(outline, filter, shares, whole, edges.pieces, areas);

@@ -70,7 +70,7 @@ class FrameShading {
             textures_.emplace(context_.lighting.shading, context_.view, centers, *options_.estimate, exposure_);
         std::vector<PixelRange> begin = restore();
         if (is_sharp) find_edges(centers, !begin.empty());
-        if (options_.lens.radius > 0.0 && context_.settings.light.integrator == Integrator::cache)
+        if (options_.lens.radius > 0.0 && !place_.centered && context_.settings.light.integrator == Integrator::cache)
             lamps_ = find_lens_light(context_.lighting, context_.view, options_.lens, exposure_);
         sample_by_stages(
             plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); }, std::move(begin));

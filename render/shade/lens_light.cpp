@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "engine/base/sampling.h"
 #include "render/pixels/pixel_sequence.h"
 #include "render/shade/bright_edges.h"
-#include "render/shade/picture_polygon.h"
 
 namespace aleph {
 
@@ -23,16 +23,20 @@ constexpr double nearly_all = 0.75;     // of a filter's square
 constexpr int places = 8;               // in a polygon, which tell how much the filter weighs it
 constexpr float same_distance = 1e-3f;  // of two places on a lamp
 
-/// The least octagon around a disc.
+/// The least octagon around a disc with sides along x, y and the diagonals.
 PicturePolygon surround(const LensLight::Lamp& lamp) {
-    PicturePolygon corners;
-    for (int i = 0; i < 8; ++i) {
-        const double angle = 0.25 * std::numbers::pi * i;
-        corners.add(lamp.middle + lamp.radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-    }
-    PictureOutline outline;
-    outline.add(corners);
-    return outline.polygon();
+    const double r = lamp.radius, half_side = (std::numbers::sqrt2 - 1.0) * r;
+    PicturePolygon octagon;
+    for (const glm::dvec2& corner : {glm::dvec2(r, -half_side),
+                                     {r, half_side},
+                                     {half_side, r},
+                                     {-half_side, r},
+                                     {-r, half_side},
+                                     {-r, -half_side},
+                                     {-half_side, -r},
+                                     {half_side, -r}})
+        octagon.add(lamp.middle + corner);
+    return octagon;
 }
 
 /// Returns whether a place is in that octagon.

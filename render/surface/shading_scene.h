@@ -90,7 +90,7 @@ struct ShadingScene {
     }
 };
 
-/// Keeps pointers to scene, pose and textures, which must outlive it.
+/// Keeps pointers to scene, pose, textures and bounds of the rays' meshes, which must outlive it.
 /// @param rays  of the scene, updated to the pose: gives the anchor, and which instances are flat
 ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const RayScene& rays,
                                 const TextureSet& textures);

@@ -191,7 +191,6 @@ struct ComparedFiles {
     FrameFiles first, second, thresholds, seen;
 };
 
-/// Compares one frame, and writes its picture of differences.
 /// @throws InputError naming the file, if it has no such channel
 ChannelImage read_maps(const std::filesystem::path& file, const char* option, const std::string& channel) {
     ChannelImage maps = read_image(file);
@@ -201,6 +200,7 @@ ChannelImage read_maps(const std::filesystem::path& file, const char* option, co
     return maps;
 }
 
+/// Compares one frame, and writes its picture of differences.
 /// @throws InputError, OutputError
 void add_frame(const CompareOptions& options, const ComparedFiles& files, std::int64_t frame,
                SequenceComparison& sequence) {

@@ -98,6 +98,13 @@ TEST(LensLight, WhatHidesALampFromAPartOfTheLensHidesThatPartOfItsDisc) {
     }
 }
 
+TEST(LensLight, ASingleSampleShowsThePixelsCentreAlone) {
+    const LampOutOfFocus& lamp = lamps_out_of_focus[0];
+    const Stage stage(make_lamp_out_of_focus(lamp), lens_width, lens_height);
+    const Image<Rgb> by_cache = shade(stage, plain_settings(0.0, 1), through_lens(lamp.focus)).color;
+    EXPECT_EQ(by_cache.pixels, shade(stage, path_settings(1, 1), through_lens(lamp.focus)).color.pixels);
+}
+
 TEST(LensLight, AnErrorThatIsAskedForTakesFewSamples) {
     Scene scene = make_lamp_out_of_focus(lamps_out_of_focus[0]);
     scene.environment.radiance = Track<glm::dvec3>(glm::dvec3(0.2));
